@@ -1,0 +1,92 @@
+/* Questions about lattice points, each answered with its true sign.
+ *
+ * One ladder for all: on a narrow lattice the determinants are 128-bit (degree 2), their products 256-bit (degree 4),
+ * comparisons of intersection points 320-bit (degree 5); a floating-point comparison with a proved error bound comes first
+ * where it is cheaper. On a wide lattice the same functions run on big integers. Counters go to lattice->operations.
+ *
+ * Points a, b, c ... are lattice points; "line ab" is directed from a to b, a != b. */
+#ifndef SUNDER_I_PREDICATE_H
+#define SUNDER_I_PREDICATE_H
+
+#include "number/lattice.h"
+
+/* ---- Order and orientation: degree 1 and 2 ---- */
+
+int sunder_i_int_cmp(sunder_i_lattice *lattice, int64_t a, int64_t b);
+/* Lexicographic, x first. */
+int sunder_i_point_cmp(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
+bool sunder_i_point_equal(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
+sunder_i_point sunder_i_point_add(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
+sunder_i_point sunder_i_point_sub(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
+sunder_i_point sunder_i_point_neg(sunder_i_lattice *lattice, sunder_i_point a);
+
+/* Side of c to the line ab: +1 left, -1 right, 0 on it. */
+int sunder_i_orient(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c);
+/* Sign of the cross product, and of the dot product, of two vectors. */
+int sunder_i_cross_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
+int sunder_i_dot_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
+/* Order of two non-zero vectors by angle in [0, 2 pi) from the positive x axis. */
+int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
+
+/* ---- Crossings along a line: fractions, degree 2 over 2, compared in degree 4 ---- */
+
+/* The point a + (num / den) * (b - a) of a line ab. den > 0. value is close: |value - num/den| <= 4e-16 * max(1, |num/den|).
+ * On a wide lattice num and den are handles. */
+typedef struct sunder_i_fraction {
+    sunder_i_i128 num, den;
+    double value;
+} sunder_i_fraction;
+
+/* Where line ab meets line cd; the lines are not parallel. */
+sunder_i_fraction sunder_i_crossing(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                    sunder_i_point d);
+/* Where c stands on the line ab that it lies on. */
+sunder_i_fraction sunder_i_along(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c);
+/* The foot of the perpendicular from c on line ab. Degree 2 over 2. */
+sunder_i_fraction sunder_i_foot(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c);
+/* The fraction n / 1, n small. */
+sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *lattice, int n);
+int sunder_i_fraction_cmp(sunder_i_lattice *lattice, const sunder_i_fraction *s, const sunder_i_fraction *t);
+
+/* ---- Intersection points: homogeneous, degree 3 over 2, compared in degree 5 ---- */
+
+/* (x / w, y / w) on the lattice, w > 0. ax, ay are close to the coordinates in the units of sunder_i_approx(). On a wide
+ * lattice x, y, w are handles (in limb[0] and w). */
+typedef struct sunder_i_hpoint {
+    sunder_i_i256 x, y;
+    sunder_i_i128 w;
+    double ax, ay;
+} sunder_i_hpoint;
+
+sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b,
+                                   const sunder_i_fraction *t);
+sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
+/* Lexicographic. */
+int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
+bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
+/* Side of c to line ab. Degree 4. */
+int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c);
+/* The three integers, in the lattice's arena. */
+void sunder_i_hpoint_big(sunder_i_lattice *lattice, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
+                         sunder_i_big *w);
+
+/* ---- Segments: every degenerate form by name ---- */
+
+typedef enum sunder_i_meeting {
+    SUNDER_I_APART,
+    SUNDER_I_CROSS,      /* at one point, interior to both */
+    SUNDER_I_END_INSIDE, /* an end of one lies inside the other */
+    SUNDER_I_ENDS_EQUAL, /* they meet in a common end and nowhere else */
+    SUNDER_I_OVERLAP     /* they share a piece of positive length */
+} sunder_i_meeting;
+
+/* How the closed segments ab and cd meet; either may have length zero (a point: END_INSIDE or ENDS_EQUAL where it lies on the other). */
+sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                        sunder_i_point d);
+
+/* Is the least squared distance of the closed segments ab and cd below (-1), equal to (0) or above (+1) the square of the
+ * lattice integer gap >= 0? Zero-length segments are fine. Degree 6. */
+int sunder_i_segment_distance_cmp(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                  sunder_i_point d, int64_t gap);
+
+#endif

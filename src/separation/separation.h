@@ -1,0 +1,22 @@
+/* Two features: are they apart, how far, and what is the least translation that takes them apart. The public functions
+ * are in sunder.h; these are the same questions for shapes that stand translated by exact vectors. */
+#ifndef SUNDER_I_SEPARATION_H
+#define SUNDER_I_SEPARATION_H
+
+#include "shape/shape.h"
+
+/* Do the interiors of P + tp and Q + tq meet? Exact. A NULL translation is zero. */
+sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                               bool *overlap, sunder_error *err);
+/* Interiors disjoint and the distance at least gap? Exact. gap >= 0. */
+sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                             double gap, bool *apart, sunder_error *err);
+/* Does P + tp lie in Q + tq (closed sets)? Exact. */
+sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                 bool *contained, sunder_error *err);
+/* sunder_pair_separate() of translated shapes, numbers only: no texts. upper: INFINITY, or a length past which the
+ * answer no longer matters: if the least translation is longer, *beyond is set and out->lower_bound = upper. */
+sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err);
+
+#endif

@@ -1,0 +1,77 @@
+/* Polygonal sets, as the algorithms see them.
+ *
+ * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes clockwise, so
+ * that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes. Rings may touch
+ * at points, themselves too. Coordinates are doubles, taken exactly, or, for a shape repaired by the even-odd rule, integers over
+ * one common denominator.
+ *
+ * The convex pieces are a decomposition of each member without added vertices (triangulation, merged after Hertel and
+ * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex; interiors of pieces of one member are disjoint, and the closure of
+ * their union is the member. Different members may overlap. */
+#ifndef SUNDER_I_SHAPE_H
+#define SUNDER_I_SHAPE_H
+
+#include "number/lattice.h"
+#include "sunder.h"
+
+struct sunder_shape {
+    /* as given */
+    double *raw_xy;
+    size_t *raw_ring_end, *raw_poly_end;
+    size_t raw_polygons;
+
+    /* cleaned */
+    uint32_t vertices, rings, polygons;
+    uint32_t *ring_end;    /* [rings] index past the last vertex of each ring */
+    uint32_t *poly_end;    /* [polygons] index past the last ring of each polygon; its first ring is the outer one */
+    uint32_t *next, *prev; /* [vertices] along the ring */
+    bool *shared;          /* [vertices] another vertex stands at the same place */
+    double *xy;            /* [2 * vertices] the coordinates; of a rational shape the nearest doubles */
+    sunder_i_extent extent;
+    double box[4];         /* rounded outward if rational */
+
+    /* rational shapes only: coordinate i is num[i] * 2^exponent / den */
+    bool rational, repaired;
+    sunder_i_arena arena;  /* of the numbers */
+    sunder_i_big *num;     /* [2 * vertices] */
+    sunder_i_big den;
+    long exponent;
+
+    /* convex pieces */
+    uint32_t pieces;
+    uint32_t *piece_end;    /* [pieces] index past the last corner of each */
+    uint32_t *piece_vertex; /* corners, counter-clockwise */
+};
+
+/* Two shapes on one lattice; q reflected (-Q) if asked. */
+typedef struct sunder_i_placed {
+    sunder_i_lattice lattice;
+    sunder_i_point *p, *q;            /* [vertices] of each */
+    double origin_p[2], origin_q[2];  /* of q after reflection */
+} sunder_i_placed;
+
+typedef struct sunder_i_place_options {
+    bool reflect_q;
+    bool common_origin;      /* one origin for both (then origin_q = origin_p, or its negative if reflected) */
+    const double *extra;     /* further doubles that must be lattice multiples (a gap), n of them; magnitudes count too */
+    size_t extra_n;
+    const double *shift_p, *shift_q; /* NULL, or an exact translation of the operand (before reflection): two doubles */
+    bool force_wide;         /* for tests */
+} sunder_i_place_options;
+
+/* Fails only with SUNDER_ENOMEM. */
+sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const sunder_i_place_options *options,
+                             sunder_i_placed *out, sunder_error *err);
+void sunder_i_placed_free(sunder_i_placed *placed);
+
+/* Is vertex v of the shape a corner of edge kind? Number of the edge's tail: the edge (v, next[v]) is a boundary edge of the shape;
+ * a side (u, v) of a piece is one exactly when next[u] == v, else it is a diagonal. */
+static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, uint32_t v)
+{
+    return shape->next[u] == v;
+}
+
+/* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence. */
+const char *sunder_i_shape_check(const sunder_shape *shape);
+
+#endif

@@ -1,0 +1,379 @@
+/* sunder.h: exact Minkowski sums of polygonal sets, least separating translations, and the displacement of
+ * whole map layers.
+ *
+ * Conventions. Every fallible function returns a sunder_status (SUNDER_OK is 0) and takes a caller-owned
+ * sunder_error, which may be NULL. On failure every output is untouched. What arrives through **out is freed by
+ * the caller with the _free function of its type; _free(NULL) is fine. Getters lend: what they return is valid
+ * until the object is freed. Objects are immutable once built, so threads may share them; there is no global
+ * state but the allocation hooks, which are set once, before anything else.
+ *
+ * Lengths are in the units of the input. Every finite double is taken as the dyadic rational that it is; nothing
+ * is rounded on the way in, and on the way out only where a function says so.
+ *
+ * Keys such as [GRS83] resolve in REFERENCES.md beside this file. */
+#ifndef SUNDER_H
+#define SUNDER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SUNDER_VERSION "0.1.0"
+
+#if defined(_WIN32) || !defined(__GNUC__)
+#define SUNDER_API
+#else
+#define SUNDER_API __attribute__((visibility("default")))
+#endif
+
+/* ---- Status and errors ------------------------------------------------------------------------------------ */
+
+typedef enum sunder_status {
+    SUNDER_OK = 0,
+    SUNDER_EINVALID, /* geometry that breaks a rule: the error names polygon, ring and vertex */
+    SUNDER_EARG,     /* an option or argument out of its range */
+    SUNDER_ERANGE,   /* a result that doubles cannot hold */
+    SUNDER_ENOMEM,   /* an allocation failed; everything made so far has been released */
+    SUNDER_ECANCEL   /* the progress callback asked to stop */
+} sunder_status;
+
+#define SUNDER_MESSAGE_MAX 256
+
+typedef struct sunder_error {
+    sunder_status status;
+    size_t polygon, ring, vertex; /* where, zero-based; SIZE_MAX where it does not apply */
+    char message[SUNDER_MESSAGE_MAX];
+} sunder_error;
+
+/* A fixed sentence for each code; never NULL. */
+SUNDER_API const char *sunder_status_string(sunder_status status);
+
+/* The library's version, as SUNDER_VERSION of the build. */
+SUNDER_API const char *sunder_version(void);
+
+/* The allocation hooks; all memory goes through them. NULLs restore malloc, realloc and free. Call before any other
+ * function and never while an object lives. */
+SUNDER_API void sunder_set_allocator(void *(*allocate)(size_t), void *(*reallocate)(void *, size_t),
+                                     void (*release)(void *));
+
+/* Frees memory that the library handed out as plain text or arrays. */
+SUNDER_API void sunder_free(void *memory);
+
+/* What was done, in the units that the literature counts (Agarwal, Flato, Halperin 2000, section 3). */
+typedef struct sunder_operations {
+    uint64_t comparisons;           /* order of two points, or of two crossings along a line */
+    uint64_t orientation_tests;     /* side of a point to a line */
+    uint64_t segment_intersections; /* crossing points constructed */
+    uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
+} sunder_operations;
+
+/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. */
+typedef bool (*sunder_progress)(double fraction, void *user);
+
+/* ---- Shapes: polygonal sets ------------------------------------------------------------------------------- */
+
+typedef struct sunder_shape sunder_shape;
+
+typedef enum sunder_validity {
+    SUNDER_STRICT,  /* invalid rings are an error */
+    SUNDER_EVEN_ODD /* the set that each polygon's rings enclose by the even-odd rule, taken exactly */
+} sunder_validity;
+
+/* A polygonal set from plain arrays.
+ *
+ * xy         2 * n coordinates x0 y0 x1 y1 ... of all rings, one after the other. Finite; else SUNDER_EINVALID.
+ * ring_end   ring_end[r] is the index past the last vertex (not coordinate) of ring r; rings in all: poly_end of
+ *            the last polygon.
+ * poly_end   poly_end[p] is the index past the last ring of polygon p. The first ring of a polygon is its outer one.
+ * polygons   how many; 0 gives the empty set.
+ * validity   SUNDER_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
+ *            they may touch at points, never cross or share a piece of edge. Members may touch and overlap: their
+ *            union is meant. SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its
+ *            rings enclose by the even-odd rule, with exact rational vertices; sunder_shape_repaired() tells.
+ *            A polygon that encloses nothing vanishes.
+ * Fails      SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
+ *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
+ * Cost       O(n log n) where edges are short beside the whole, as on maps. */
+SUNDER_API sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end,
+                                                 size_t polygons, sunder_validity validity, sunder_shape **out,
+                                                 sunder_error *err);
+
+/* A regular-like polygon with rational vertices around (inside = false: contains the closed disc) or within
+ * (inside = true) the disc of that radius about the origin. segments >= 3, radius > 0 and finite; else SUNDER_EARG.
+ * SUNDER_ERANGE if a vertex leaves the range of doubles. */
+SUNDER_API sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, sunder_shape **out,
+                                           sunder_error *err);
+
+/* The axis-parallel rectangle centred on the origin; both sides > 0 and finite, else SUNDER_EARG. */
+SUNDER_API sunder_status sunder_shape_rectangle(double width, double height, sunder_shape **out, sunder_error *err);
+
+/* The set -S. */
+SUNDER_API sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
+
+/* S + (dx, dy), exactly as doubles hold it: each coordinate is the nearest double to x + dx; *exact tells whether none
+ * was rounded. If rounding breaks the shape it is taken by the even-odd rule. */
+SUNDER_API sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, double dy, sunder_shape **out,
+                                                bool *exact, sunder_error *err);
+
+SUNDER_API void sunder_shape_free(sunder_shape *shape);
+
+SUNDER_API size_t sunder_shape_polygons(const sunder_shape *shape);
+SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cleaning: no repeated, no collinear ones */
+SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
+SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
+/* xmin, ymin, xmax, ymax; of a repaired shape rounded outward. The empty set: all zero. */
+SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
+/* Area, the sum over members (overlaps count twice), to the nearest double. */
+SUNDER_API double sunder_shape_area(const sunder_shape *shape);
+/* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. The rule: of the
+ * convex pieces of the shape the largest (area in doubles, first of equals), and of it the centroid. */
+SUNDER_API void sunder_shape_anchor(const sunder_shape *shape, double xy[2]);
+
+/* ---- Minkowski sums --------------------------------------------------------------------------------------- */
+
+typedef struct sunder_sum sunder_sum;
+
+typedef struct sunder_sum_options {
+    sunder_progress progress; /* NULL: none */
+    void *progress_user;
+} sunder_sum_options;
+
+typedef struct sunder_sum_counts {
+    size_t polygons, holes, vertices, degenerate_segments, degenerate_points;
+} sunder_sum_counts;
+
+/* Minkowski sum P + Q = { p + q : p in P, q in Q }, exact, of two polygonal sets.
+ *
+ * p, q  not modified; p == q is fine. An operand without area gives the empty sum.
+ * opts  NULL for defaults.
+ * out   a new sum, in canonical form: equal point sets compare equal. One polygon for each connected component C of
+ *       the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices merged;
+ *       a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings counter-clockwise,
+ *       holes clockwise; holes and polygons sorted as vertex sequences.
+ *
+ * Degenerate holes (points of the interior of P + Q that are not in int P + int Q) are part of the result: as maximal
+ * segments, and as points that lie on no segment.
+ *
+ * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL
+ * Source  [GRS83] convolution; [BL11] reduced convolution; see src/minkowski/README for the road taken. */
+SUNDER_API sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q,
+                                              const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
+SUNDER_API void sunder_sum_free(sunder_sum *sum);
+
+SUNDER_API void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *counts);
+SUNDER_API void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations);
+/* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
+SUNDER_API void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
+/* Rings of polygon p: 1 + its holes; ring 0 is the outer one. */
+SUNDER_API size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon);
+/* Vertex numbers of one ring, in order, *n of them. */
+SUNDER_API const uint32_t *sunder_sum_ring(const sunder_sum *sum, size_t polygon, size_t ring, size_t *n);
+/* The two ends of degenerate segment i (the smaller first), and the place of degenerate point i, as vertex numbers. */
+SUNDER_API void sunder_sum_segment(const sunder_sum *sum, size_t i, uint32_t ends[2]);
+SUNDER_API uint32_t sunder_sum_point(const sunder_sum *sum, size_t i);
+/* The coordinates of a vertex: the nearest doubles (infinite where they leave the range) ... */
+SUNDER_API void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2]);
+/* ... and exactly, as text "num" or "num/den" in lowest terms; freed with sunder_free(). */
+SUNDER_API sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, char **x, char **y,
+                                                sunder_error *err);
+/* The area as "num/den", freed with sunder_free(). */
+SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err);
+
+/* ---- Two features ----------------------------------------------------------------------------------------- */
+
+typedef enum sunder_contact {
+    SUNDER_CONTACT_NONE, /* already apart */
+    SUNDER_CONTACT_EDGE,
+    SUNDER_CONTACT_VERTEX,
+    SUNDER_CONTACT_ARC,
+    SUNDER_CONTACT_DEGENERATE_SEGMENT,
+    SUNDER_CONTACT_DEGENERATE_POINT
+} sunder_contact;
+
+/* "none", "edge", "vertex", "arc", "degenerate_segment", "degenerate_point". */
+SUNDER_API const char *sunder_contact_string(sunder_contact contact);
+
+typedef struct sunder_separation {
+    bool overlap;            /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
+    bool attained;           /* false: the optimum is an isolated irrational point, and this is the best of the rest */
+    bool rounded_is_free;    /* (dx, dy) as doubles takes them apart as well, checked exactly */
+    sunder_contact contact;
+    double dx, dy, distance; /* nearest doubles of the exact values */
+    double lower_bound;      /* a proved lower bound of the least distance, rounded down; equals distance up to 1e-9 */
+    char *dx_text, *dy_text, *distance_squared_text; /* "num" or "num/den", owned by the struct */
+    sunder_operations operations;
+} sunder_separation;
+
+/* The least translation of Q that takes its interior off P and, with gap > 0, leaves it at least gap (Euclidean) away.
+ *
+ * The global minimum over every free placement, degenerate ones (exact slides and fits) included; of several nearest
+ * the lexicographically smallest. With a gap the optimum may be irrational: then the vector given is rational, provably
+ * keeps the gap, and is longer than the optimum by at most 1e-9 of it.
+ * gap   >= 0 and finite, else SUNDER_EARG.
+ * out   on success owns its texts: sunder_separation_clear(). An empty operand: zero translation.
+ * Source  [LM95] for the role of the no-fit polygon; src/separation/README for the search. */
+SUNDER_API sunder_status sunder_pair_separate(const sunder_shape *p, const sunder_shape *q, double gap,
+                                              sunder_separation *out, sunder_error *err);
+SUNDER_API void sunder_separation_clear(sunder_separation *separation);
+
+/* Do the interiors of P and Q meet? Exact. */
+SUNDER_API sunder_status sunder_pair_overlap(const sunder_shape *p, const sunder_shape *q, bool *overlap,
+                                             sunder_error *err);
+/* Is every point of P at least gap away from every point of Q, and the interiors disjoint? Exact. */
+SUNDER_API sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart,
+                                           sunder_error *err);
+/* The distance of P and Q to the nearest double (0 where they meet), and the ends of a shortest link, on P and on Q. */
+SUNDER_API sunder_status sunder_pair_distance(const sunder_shape *p, const sunder_shape *q, double *distance,
+                                              double on_p[2], double on_q[2], sunder_error *err);
+
+/* ---- A whole layer ---------------------------------------------------------------------------------------- */
+
+typedef struct sunder_layer sunder_layer;
+
+typedef enum sunder_containment {
+    SUNDER_CONTAINED_BLOCK,   /* a feature that lies in another joins its block */
+    SUNDER_CONTAINED_IGNORE,  /* it may overlap the one that it lies in */
+    SUNDER_CONTAINED_SEPARATE /* it is separated like any other */
+} sunder_containment;
+
+typedef struct sunder_layer_options {
+    double gap;             /* >= 0 */
+    double touch_tolerance; /* >= 0; negative (the default): a tenth of the gap */
+    bool no_blocks;         /* nothing joins by touch or containment */
+    bool list_inside;       /* list the pairs inside blocks too */
+    sunder_containment contained;
+    unsigned threads;       /* 0: one for each processor; the result is the same for every number */
+    sunder_progress progress;
+    void *progress_user;
+} sunder_layer_options;
+
+/* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread. */
+SUNDER_API void sunder_layer_options_init(sunder_layer_options *options);
+
+typedef struct sunder_feature {
+    const sunder_shape *shape; /* borrowed; must outlive the layer. NULL or empty: conflicts with nothing */
+    double weight;             /* > 0 and finite */
+    double max_shift;          /* no longer move; INFINITY for none; 0 for fixed */
+    int64_t block;             /* equal non-negative values move as one; -1: none */
+    bool fixed;                /* never moves, is an obstacle */
+    bool ignored;              /* conflicts with nothing, never moves */
+} sunder_feature;
+
+SUNDER_API sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_layer **out,
+                                          sunder_error *err);
+SUNDER_API void sunder_layer_free(sunder_layer *layer);
+
+typedef enum sunder_feature_status {
+    SUNDER_UNMOVED,
+    SUNDER_MOVED,
+    SUNDER_FIXED,
+    SUNDER_BLOCKED, /* still has a conflict */
+    SUNDER_SKIPPED
+} sunder_feature_status;
+
+/* "unmoved", "moved", "fixed", "blocked", "skipped". */
+SUNDER_API const char *sunder_feature_status_string(sunder_feature_status status);
+
+typedef enum sunder_conflict_kind {
+    SUNDER_OVERLAP,
+    SUNDER_TOO_CLOSE,
+    SUNDER_BARRIER,
+    SUNDER_CONTAINED,
+    SUNDER_DUPLICATE
+} sunder_conflict_kind;
+
+/* "overlap", "too_close", "barrier", "contained", "duplicate". */
+SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
+
+typedef enum sunder_reason {
+    SUNDER_REASON_NONE, /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT,
+    SUNDER_REASON_FIXED,
+    SUNDER_REASON_SIDE,
+    SUNDER_REASON_NO_ROOM,
+    SUNDER_REASON_SAME_BLOCK,
+    SUNDER_REASON_KEPT, /* allowed to overlap: contained, ignored */
+    SUNDER_REASON_UNRESOLVED
+} sunder_reason;
+
+/* "", "max_shift", "fixed", "side", "no_room", "same_block", "kept", "unresolved". */
+SUNDER_API const char *sunder_reason_string(sunder_reason reason);
+
+typedef struct sunder_conflict {
+    size_t a, b;              /* features, a < b */
+    sunder_conflict_kind kind;
+    sunder_reason reason;
+    double distance;          /* now; 0 where they overlap */
+    double before;            /* at the start */
+    double depth;             /* length of the least translation that takes the interiors apart now; 0 where disjoint */
+    double required;          /* the gap asked for */
+    double from[2], to[2];    /* the shortest link, or the least translation drawn from inside the overlap */
+    const size_t *blocked_by; /* features that stand in the way, n_blocked_by of them */
+    size_t n_blocked_by;
+    bool inside_block;        /* counted in inside_blocks alone */
+} sunder_conflict;
+
+typedef struct sunder_conflict_counts {
+    size_t overlap, too_close, barrier, contained, duplicate, inside_blocks;
+} sunder_conflict_counts;
+
+typedef struct sunder_report sunder_report;
+
+typedef struct sunder_layer_summary {
+    size_t features, vertices, blocks, clusters, pairs_tested;
+    sunder_conflict_counts before, after; /* of check: both the same */
+    size_t moved, blocked, skipped, rounded;
+    double total, mean, max;              /* of the lengths of moves; mean over the moved */
+    size_t max_feature;                   /* whose move is longest; SIZE_MAX if nothing moved */
+    double cost, lower_bound;             /* sum of weight * length^2; what no admissible displacement can beat */
+    bool verified;                        /* every pair but those listed and those in blocks was proved apart */
+    double seconds_solve, seconds_verify;
+} sunder_layer_summary;
+
+/* The exact list of conflicts of a layer as it stands.
+ * Fails   SUNDER_EARG for a gap or tolerance that is negative, not finite, or a tolerance not less than a non-zero gap. */
+SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
+                                            sunder_report **out, sunder_error *err);
+
+/* Takes the features apart at little cost; see DESIGN notes in src/displacement/README.
+ *
+ * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
+ * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict is listed. */
+SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
+                                               sunder_report **out, sunder_error *err);
+SUNDER_API void sunder_report_free(sunder_report *report);
+
+SUNDER_API void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary);
+/* The move of one feature; a coordinate as written is the double nearest to x + dx. */
+SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
+SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
+/* The number of the feature's block, counted from 0 in the order of their first members; -1 for one that stands alone. */
+SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t feature);
+/* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
+ * and, with list_inside, every pair inside blocks. */
+SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
+/* The pairs that the lower bound stands on, so that it can be computed again: blocks (as sunder_report_block numbers
+ * them, features that stand alone following in feature order), least separations rounded down, multipliers. */
+typedef struct sunder_bound_pair {
+    size_t a, b; /* features, one of each block */
+    double least, multiplier;
+} sunder_bound_pair;
+SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
+
+/* ---- Predicates on doubles -------------------------------------------------------------------------------- */
+
+typedef struct sunder_point {
+    double x, y;
+} sunder_point;
+
+/* Side of c relative to the directed line a->b: +1 left, -1 right, 0 on it. Always the true sign. */
+SUNDER_API int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
