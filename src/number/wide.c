@@ -1,0 +1,103 @@
+#include "number/wide.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct magnitude {
+    uint64_t limb[4];
+    int sign;
+} magnitude;
+
+static magnitude product(int64_t a, sunder_i_i128 b)
+{
+    magnitude m;
+    m.sign = ((a > 0) - (a < 0)) * sunder_i_i128_sign(b);
+    sunder_i_u128_mul(a < 0 ? -(uint64_t)a : (uint64_t)a, sunder_i_i128_abs(b), m.limb);
+    return m;
+}
+
+sunder_i_i256 sunder_i_mul_add(int64_t a, sunder_i_i128 b, int64_t c, sunder_i_i128 d)
+{
+    magnitude s = product(a, b), t = product(c, d);
+    sunder_i_i256 r;
+    if (s.sign == 0) s = t, t.sign = 0;
+    if (t.sign == 0) {
+        memcpy(r.limb, s.limb, sizeof r.limb);
+        r.sign = s.sign;
+        return r;
+    }
+    if (s.sign == t.sign) {
+        sunder_i_u128 carry = 0;
+        for (int i = 0; i < 4; i++) {
+            carry += (sunder_i_u128)s.limb[i] + t.limb[i];
+            r.limb[i] = (uint64_t)carry;
+            carry >>= 64;
+        }
+        r.sign = s.sign;
+        return r;
+    }
+    const int order = sunder_i_limbs_cmp(s.limb, t.limb, 4);
+    r.sign = order * s.sign;
+    if (order < 0) {
+        const magnitude swap = s;
+        s = t;
+        t = swap;
+    }
+    uint64_t borrow = 0;
+    for (int i = 0; i < 4; i++) {
+        const sunder_i_u128 take = (sunder_i_u128)t.limb[i] + borrow;
+        r.limb[i] = s.limb[i] - (uint64_t)take;
+        borrow = s.limb[i] < take;
+    }
+    return r;
+}
+
+/* 256 x 128 -> 384 bits. */
+static void mul_256_128(const uint64_t a[4], sunder_i_u128 b, uint64_t r[6])
+{
+    const uint64_t b0 = (uint64_t)b, b1 = (uint64_t)(b >> 64);
+    uint64_t carry = 0;
+    for (int i = 0; i < 4; i++) {
+        const sunder_i_u128 t = (sunder_i_u128)a[i] * b0 + carry;
+        r[i] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    r[4] = carry;
+    carry = 0;
+    for (int i = 0; i < 4; i++) {
+        const sunder_i_u128 t = (sunder_i_u128)a[i] * b1 + r[i + 1] + carry;
+        r[i + 1] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    r[5] = carry;
+}
+
+int sunder_i_cmp_products_256(const sunder_i_i256 *a, sunder_i_i128 b, const sunder_i_i256 *c, sunder_i_i128 d)
+{
+    const int s = a->sign * sunder_i_i128_sign(b), t = c->sign * sunder_i_i128_sign(d);
+    if (s != t) return s < t ? -1 : 1;
+    if (s == 0) return 0;
+    uint64_t l[6], r[6];
+    mul_256_128(a->limb, sunder_i_i128_abs(b), l);
+    mul_256_128(c->limb, sunder_i_i128_abs(d), r);
+    return s * sunder_i_limbs_cmp(l, r, 6);
+}
+
+int sunder_i_i256_cmp(const sunder_i_i256 *a, const sunder_i_i256 *b)
+{
+    if (a->sign != b->sign) return a->sign < b->sign ? -1 : 1;
+    return a->sign * sunder_i_limbs_cmp(a->limb, b->limb, 4);
+}
+
+double sunder_i_i256_double(const sunder_i_i256 *a)
+{
+    int top = 3;
+    while (top > 0 && a->limb[top] == 0) top--;
+    double v = (double)a->limb[top];
+    if (top > 0) {
+        /* Two limbs carry at least 65 significant bits, so what is dropped is far below the rounding. */
+        const sunder_i_u128 two = (sunder_i_u128)a->limb[top] << 64 | a->limb[top - 1];
+        v = ldexp((double)two, 64 * (top - 1));
+    }
+    return a->sign < 0 ? -v : v;
+}
