@@ -22,7 +22,7 @@ void sunder_free(void *memory) { sunder_i_free(memory); }
 static bool bytes(size_t n, size_t size, size_t *out)
 {
     if (size != 0 && n > SIZE_MAX / 2 / size) return false;
-    *out = n * size ? n * size : 1;
+    *out = n == 0 || size == 0 ? 1 : n * size;
     return true;
 }
 

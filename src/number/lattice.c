@@ -1,0 +1,188 @@
+#include "number/lattice.h"
+
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+int sunder_i_low_bit(double v)
+{
+    if (v == 0) return INT_MAX;
+    uint64_t b;
+    memcpy(&b, &v, sizeof b);
+    const int field = (int)(b >> 52 & 0x7ff);
+    const uint64_t fraction = b & (((uint64_t)1 << 52) - 1);
+    if (field == 0) return -1074 + __builtin_ctzll(fraction);
+    return field - 1075 + __builtin_ctzll(fraction | (uint64_t)1 << 52);
+}
+
+void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
+{
+    if (n == 0) return;
+    if (!extent->any) {
+        extent->any = true;
+        extent->low_bit = INT_MAX;
+        for (int k = 0; k < 2; k++) extent->low[k] = extent->high[k] = xy[k];
+    }
+    for (size_t i = 0; i < 2 * n; i++) {
+        const int k = (int)(i & 1);
+        const double v = xy[i];
+        if (v < extent->low[k]) extent->low[k] = v;
+        if (v > extent->high[k]) extent->high[k] = v;
+        const int b = sunder_i_low_bit(v);
+        if (b < extent->low_bit) extent->low_bit = b;
+    }
+}
+
+/* A double with at most 20 significant bits near the middle of [low, high], a multiple of the unit 2^bit, or zero where the
+ * range reaches down to that scale anyway. */
+static double pick_origin(double low, double high, int bit)
+{
+    const double middle = low / 2 + high / 2;
+    if (middle == 0) return 0;
+    int e;
+    const double m = frexp(middle, &e);
+    /* Keep bits down to the size of the range: a finer origin buys nothing. */
+    int range;
+    frexp(high - low, &range);
+    int keep = e - range + 2;
+    if (high == low || keep > 20) keep = 20;
+    if (keep <= 0) return 0;
+    if (e - keep < bit) keep = e - bit;
+    if (keep <= 0) return 0;
+    return ldexp(trunc(ldexp(m, keep)), e - keep);
+}
+
+/* Bits of a magnitude |v - o| in units of 2^bit, rounded up safely. */
+static int magnitude_bits(double v, double o, int bit)
+{
+    const double d = fabs(v - o); /* rounding is relative, below one bit */
+    if (d == 0) return 0;
+    if (isinf(d)) return INT_MAX / 2;
+    int e;
+    frexp(d, &e);
+    return e + 1 - bit;
+}
+
+void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *extents, size_t n, bool relative,
+                           double (*origins)[2], bool force_wide)
+{
+    memset(lattice, 0, sizeof *lattice);
+    static const mp_limb_t one = 1;
+    lattice->denominator = (sunder_i_big){&one, 1};
+    int bit = INT_MAX;
+    for (size_t i = 0; i < n; i++)
+        if (extents[i].any && extents[i].low_bit < bit) bit = extents[i].low_bit;
+    if (bit == INT_MAX) bit = 0;
+    lattice->exponent = bit;
+    int most = 0;
+    for (size_t i = 0; i < n; i++) {
+        origins[i][0] = origins[i][1] = 0;
+        if (!extents[i].any) continue;
+        for (int k = 0; k < 2; k++) {
+            const double low = extents[i].low[k], high = extents[i].high[k];
+            if (relative) origins[i][k] = pick_origin(low, high, bit);
+            const int a = magnitude_bits(low, origins[i][k], bit), b = magnitude_bits(high, origins[i][k], bit);
+            if (a > most) most = a;
+            if (b > most) most = b;
+        }
+    }
+    /* One bit for the sum of two operands. */
+    lattice->narrow = !force_wide && most + 1 <= SUNDER_I_NARROW_BITS;
+    lattice->approx_shift = lattice->narrow || most <= 500 ? 0 : most - 500;
+}
+
+void sunder_i_lattice_free(sunder_i_lattice *lattice)
+{
+    sunder_i_arena_free(&lattice->arena);
+    sunder_i_free(lattice->pool);
+    lattice->pool = NULL;
+    lattice->pool_n = lattice->pool_capacity = 0;
+}
+
+int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v)
+{
+    if (lattice->narrow) {
+        int64_t n = 0;
+        sunder_i_big_fits_i64(v, &n);
+        return n;
+    }
+    if (!sunder_i_reserve(&lattice->pool, &lattice->pool_capacity, lattice->pool_n + 1, sizeof *lattice->pool)) {
+        lattice->arena.failed = true;
+        return 0;
+    }
+    lattice->pool[lattice->pool_n] = v;
+    return (int64_t)lattice->pool_n++;
+}
+
+/* v / 2^unit, v a multiple of 2^unit; false if that needs more than 123 bits. */
+static bool units(double v, long unit, sunder_i_i128 *out)
+{
+    *out = 0;
+    if (v == 0) return true;
+    int e;
+    const int64_t m = (int64_t)ldexp(frexp(v, &e), 53);
+    const long shift = e - 53 - unit;
+    if (shift > 70) return false;
+    *out = shift >= 0 ? m * ((sunder_i_i128)1 << shift) : m / ((int64_t)1 << -shift); /* exact: v is a multiple */
+    return true;
+}
+
+static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
+{
+    sunder_i_i128 a, b;
+    if (units(v, lattice->exponent, &a) && units(o, lattice->exponent, &b)) return (int64_t)(a - b);
+    /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the difference
+     * is exact (Sterbenz). */
+    return (int64_t)ldexp(v - o, (int)-lattice->exponent);
+}
+
+int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o)
+{
+    if (lattice->narrow) return narrow_int(lattice, v, o);
+    sunder_i_arena *arena = &lattice->arena;
+    int e, f;
+    sunder_i_big a = sunder_i_big_double(arena, v, &e), b = sunder_i_big_double(arena, o, &f);
+    if (a.size) a = sunder_i_big_shl(arena, a, (unsigned long)(e - lattice->exponent));
+    if (b.size) b = sunder_i_big_shl(arena, b, (unsigned long)(f - lattice->exponent));
+    return sunder_i_lattice_big(lattice, sunder_i_big_mul(arena, sunder_i_big_sub(arena, a, b), lattice->denominator));
+}
+
+sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n)
+{
+    if (lattice->narrow) return sunder_i_big_i64(&lattice->arena, n);
+    if (lattice->arena.failed) return (sunder_i_big){NULL, 0};
+    return lattice->pool[n];
+}
+
+int64_t sunder_i_lattice_add(sunder_i_lattice *lattice, int64_t a, int64_t b)
+{
+    if (lattice->narrow) return a + b;
+    return sunder_i_lattice_big(lattice, sunder_i_big_add(&lattice->arena, sunder_i_lattice_get(lattice, a),
+                                                          sunder_i_lattice_get(lattice, b)));
+}
+
+int64_t sunder_i_lattice_sub(sunder_i_lattice *lattice, int64_t a, int64_t b)
+{
+    if (lattice->narrow) return a - b;
+    return sunder_i_lattice_big(lattice, sunder_i_big_sub(&lattice->arena, sunder_i_lattice_get(lattice, a),
+                                                          sunder_i_lattice_get(lattice, b)));
+}
+
+int64_t sunder_i_lattice_neg(sunder_i_lattice *lattice, int64_t a)
+{
+    if (lattice->narrow) return -a;
+    return sunder_i_lattice_big(lattice, sunder_i_big_neg(sunder_i_lattice_get(lattice, a)));
+}
+
+double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n)
+{
+    if (lattice->narrow) return (double)n;
+    if (lattice->arena.failed) return 0;
+    const sunder_i_big a = lattice->pool[n];
+    if (a.size == 0) return 0;
+    const long top = a.size < 0 ? -a.size : a.size;
+    double v = 0;
+    for (long i = top - 1; i >= 0 && i >= top - 3; i--)
+        v += ldexp((double)a.limb[i], (int)(64 * i - lattice->approx_shift));
+    return a.size < 0 ? -v : v;
+}

@@ -1,0 +1,38 @@
+/* Determinants on a narrow lattice, in native integers: the inner loops of the algorithms include this to avoid a call.
+ * Coordinates are below 2^60 and differences below 2^61 in magnitude, so products of two stay below 2^122 and their
+ * differences below 2^123. */
+#ifndef SUNDER_I_KERNEL_H
+#define SUNDER_I_KERNEL_H
+
+#include "predicate/predicate.h"
+
+static inline sunder_i_i128 sunder_i_narrow_cross(sunder_i_point u, sunder_i_point v)
+{
+    return (sunder_i_i128)u.x * v.y - (sunder_i_i128)u.y * v.x;
+}
+
+static inline sunder_i_i128 sunder_i_narrow_dot(sunder_i_point u, sunder_i_point v)
+{
+    return (sunder_i_i128)u.x * v.x + (sunder_i_i128)u.y * v.y;
+}
+
+static inline sunder_i_point sunder_i_narrow_sub(sunder_i_point a, sunder_i_point b)
+{
+    return (sunder_i_point){a.x - b.x, a.y - b.y};
+}
+
+static inline sunder_i_i128 sunder_i_narrow_orient(sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    return sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, a));
+}
+
+/* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
+static inline double sunder_i_narrow_value(sunder_i_i128 num, sunder_i_i128 den)
+{
+    return (double)num / (double)den;
+}
+
+/* |s.value - s| <= 2^-50 * max(1, |s.value|), so values further apart than this settle the order. */
+#define SUNDER_I_FRACTION_ERROR 0x1p-49
+
+#endif

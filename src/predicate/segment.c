@@ -1,0 +1,114 @@
+/* Two segments: how they meet, and how far apart they are. */
+#include "predicate/kernel.h"
+#include "predicate/wide_vector.h"
+
+/* Is c, known to lie on the line ab (or a == b), on the closed segment ab? */
+static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    const sunder_i_point ca = sunder_i_point_sub(l, a, c), cb = sunder_i_point_sub(l, b, c);
+    return sunder_i_dot_sign(l, ca, cb) <= 0;
+}
+
+/* c against the closed segment ab, which may be a point. */
+static sunder_i_meeting point_meets(sunder_i_lattice *l, sunder_i_point c, sunder_i_point a, sunder_i_point b)
+{
+    if (sunder_i_point_equal(l, a, c) || sunder_i_point_equal(l, b, c)) return SUNDER_I_ENDS_EQUAL;
+    if (sunder_i_orient(l, a, b, c) != 0 || !within(l, a, b, c)) return SUNDER_I_APART;
+    return sunder_i_point_equal(l, a, b) ? SUNDER_I_APART : SUNDER_I_END_INSIDE;
+}
+
+/* All four on one line, both segments of positive length. */
+static sunder_i_meeting collinear_meet(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                       sunder_i_point d)
+{
+    /* Sort the ends of each along the line by the lexicographic order, which is monotone on it. */
+    if (sunder_i_point_cmp(l, a, b) > 0) {
+        const sunder_i_point t = a;
+        a = b;
+        b = t;
+    }
+    if (sunder_i_point_cmp(l, c, d) > 0) {
+        const sunder_i_point t = c;
+        c = d;
+        d = t;
+    }
+    const int bc = sunder_i_point_cmp(l, b, c), da = sunder_i_point_cmp(l, d, a);
+    if (bc < 0 || da < 0) return SUNDER_I_APART;
+    return bc == 0 || da == 0 ? SUNDER_I_ENDS_EQUAL : SUNDER_I_OVERLAP;
+}
+
+sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                        sunder_i_point d)
+{
+    if (sunder_i_point_equal(l, a, b)) return point_meets(l, a, c, d);
+    if (sunder_i_point_equal(l, c, d)) return point_meets(l, c, a, b);
+    const int oc = sunder_i_orient(l, a, b, c), od = sunder_i_orient(l, a, b, d);
+    if (oc == 0 && od == 0) return collinear_meet(l, a, b, c, d);
+    if (oc * od > 0) return SUNDER_I_APART;
+    const int oa = sunder_i_orient(l, c, d, a), ob = sunder_i_orient(l, c, d, b);
+    if (oa * ob > 0) return SUNDER_I_APART;
+    if (oc && od && oa && ob) return SUNDER_I_CROSS;
+    return (oc == 0 || od == 0) && (oa == 0 || ob == 0) ? SUNDER_I_ENDS_EQUAL : SUNDER_I_END_INSIDE;
+}
+
+/* ---- Squared distance of a point and a segment against gap^2 ---- */
+
+static int narrow_distance_cmp(sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
+{
+    const sunder_i_point u = sunder_i_narrow_sub(b, a), ap = sunder_i_narrow_sub(p, a), bp = sunder_i_narrow_sub(p, b);
+    const sunder_i_i128 limit = (sunder_i_i128)gap * gap;
+    sunder_i_i128 square;
+    if (sunder_i_narrow_dot(ap, u) <= 0)
+        square = sunder_i_narrow_dot(ap, ap);
+    else if (sunder_i_narrow_dot(bp, u) >= 0)
+        square = sunder_i_narrow_dot(bp, bp);
+    else {
+        const sunder_i_i128 cross = sunder_i_narrow_cross(u, ap);
+        return sunder_i_cmp_products(cross, cross, limit, sunder_i_narrow_dot(u, u));
+    }
+    return (square > limit) - (square < limit);
+}
+
+static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
+{
+    sunder_i_arena *arena = &l->arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const sunder_i_vector u = sunder_i_wide_diff(l, b, a), ap = sunder_i_wide_diff(l, p, a);
+    const sunder_i_vector bp = sunder_i_wide_diff(l, p, b);
+    const sunder_i_big g = sunder_i_lattice_get(l, gap), limit = sunder_i_big_mul(arena, g, g);
+    int c;
+    if (sunder_i_big_sign(sunder_i_wide_dot(l, ap, u)) <= 0)
+        c = sunder_i_big_cmp(sunder_i_wide_dot(l, ap, ap), limit);
+    else if (sunder_i_big_sign(sunder_i_wide_dot(l, bp, u)) >= 0)
+        c = sunder_i_big_cmp(sunder_i_wide_dot(l, bp, bp), limit);
+    else {
+        const sunder_i_big cross = sunder_i_wide_cross(l, u, ap);
+        c = sunder_i_big_cmp(sunder_i_big_mul(arena, cross, cross),
+                             sunder_i_big_mul(arena, limit, sunder_i_wide_dot(l, u, u)));
+    }
+    l->operations.exact_fallbacks++;
+    sunder_i_wide_drop(l, mark);
+    return c;
+}
+
+static int point_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
+{
+    l->operations.comparisons++;
+    return l->narrow ? narrow_distance_cmp(p, a, b, gap) : wide_distance_cmp(l, p, a, b, gap);
+}
+
+int sunder_i_segment_distance_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
+                                  sunder_i_point d, int64_t gap)
+{
+    const bool zero_gap = l->narrow ? gap == 0 : sunder_i_big_sign(sunder_i_lattice_get(l, gap)) == 0;
+    if (sunder_i_segments_meet(l, a, b, c, d) != SUNDER_I_APART) return zero_gap ? 0 : -1;
+    if (zero_gap) return 1;
+    /* Apart: the least distance is from an end of one to the other. */
+    int least = point_distance_cmp(l, a, c, d, gap);
+    const sunder_i_point end[3] = {b, c, d};
+    for (int i = 0; i < 3 && least >= 0; i++) {
+        const int s = i == 0 ? point_distance_cmp(l, end[i], c, d, gap) : point_distance_cmp(l, end[i], a, b, gap);
+        if (s < least) least = s;
+    }
+    return least;
+}
