@@ -4,7 +4,7 @@
 
 #include <ogr_api.h>
 
-#include "message.h"
+#include "error.h"
 #include "sunder.h"
 
 /* The polygons of a geometry, laid out for sunder_shape_from_rings(). A zeroed struct is empty; it can be filled again

@@ -10,7 +10,7 @@
 #include <ogr_srs_api.h>
 
 #include "geometry.h"
-#include "message.h"
+#include "error.h"
 
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
 enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };
