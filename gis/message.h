@@ -1,12 +1,22 @@
-/* message.h: one line a message on stderr, "sunder: error: ..." or "sunder: warning: ...", and the exit statuses. */
-#ifndef SUNDER_GIS_MESSAGE_H
-#define SUNDER_GIS_MESSAGE_H
+/* message.h: what the program says on stderr, one line each, and the exit statuses. */
+#ifndef GIS_MESSAGE_H
+#define GIS_MESSAGE_H
 
-enum { EXIT_STATUS_DONE = 0, EXIT_STATUS_FAILED = 1, EXIT_STATUS_USAGE = 2, EXIT_STATUS_CONFLICTS = 3 };
+#include "error.h"
 
-void message_error(const char *format, ...) __attribute__((format(printf, 1, 2)));
-void message_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
-/* Says that memory is out; returns EXIT_STATUS_FAILED. */
-int message_out_of_memory(void);
+/* Exit statuses; scripts rely on them. Failures carry GIS_FAILED or GIS_USAGE in their gis_error. */
+enum {
+    GIS_DONE = 0,
+    GIS_CONFLICTS = 3 /* done, but conflicts remain or were found */
+};
+
+/* "sunder: warning: ...", exactly one line: line breaks inside become spaces. */
+void gis_say_warning(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* "sunder: error: ..." in one line; returns the exit status. */
+int gis_say_failure(const gis_error *error);
+
+/* Each sentence of the list as a warning. */
+void gis_say_warnings(const gis_list *list);
 
 #endif
