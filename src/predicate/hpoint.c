@@ -102,6 +102,13 @@ int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sun
     return c ? c : coordinate_cmp(l, &a->y, a->w, &b->y, b->w);
 }
 
+int sunder_i_hpoint_cmp_y(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+{
+    l->operations.comparisons++;
+    const int c = filter(a->ay, b->ay);
+    return c ? c : coordinate_cmp(l, &a->y, a->w, &b->y, b->w);
+}
+
 bool sunder_i_hpoint_equal(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     l->operations.comparisons++;

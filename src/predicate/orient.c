@@ -67,8 +67,7 @@ int sunder_i_dot_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
     return wide_sign(l, mark, sunder_i_wide_dot(l, sunder_i_wide_get(l, u), sunder_i_wide_get(l, v)));
 }
 
-/* 0 for angles in [0, pi), 1 for [pi, 2 pi). */
-static int half_plane(sunder_i_lattice *l, sunder_i_point u)
+int sunder_i_half_plane(sunder_i_lattice *l, sunder_i_point u)
 {
     int sx, sy;
     if (l->narrow) {
@@ -83,7 +82,7 @@ static int half_plane(sunder_i_lattice *l, sunder_i_point u)
 
 int sunder_i_angle_cmp(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
-    const int hu = half_plane(l, u), hv = half_plane(l, v);
+    const int hu = sunder_i_half_plane(l, u), hv = sunder_i_half_plane(l, v);
     if (hu != hv) return hu < hv ? -1 : 1;
     return -sunder_i_cross_sign(l, u, v);
 }

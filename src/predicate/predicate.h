@@ -25,6 +25,8 @@ int sunder_i_orient(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point 
 /* Sign of the cross product, and of the dot product, of two vectors. */
 int sunder_i_cross_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
 int sunder_i_dot_sign(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
+/* 0 for angles in [0, pi), 1 for [pi, 2 pi). */
+int sunder_i_half_plane(sunder_i_lattice *lattice, sunder_i_point u);
 /* Order of two non-zero vectors by angle in [0, 2 pi) from the positive x axis. */
 int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_point v);
 
@@ -63,6 +65,8 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, 
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
 /* Lexicographic. */
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
+/* By y alone. */
+int sunder_i_hpoint_cmp_y(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 /* Side of c to line ab. Degree 4. */
 int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c);

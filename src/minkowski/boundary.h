@@ -1,0 +1,33 @@
+/* From pieces to the canonical sum: places identified, rings traced, components told apart, everything in order.
+ *
+ * Boundary pieces become directed edges with the sum on their left. At a vertex where more than two edges meet, two different
+ * pairings are needed. Pairing across *covered* wedges walks round one component of the interior from inside: it tells which
+ * edges belong to one component C. Pairing across *free* wedges, among the edges of one C only, then gives one simple ring for
+ * each component of the plane minus the closure of C. (Free wedges alone would mix components that touch in two
+ * points; covered wedges alone would give rings that visit a vertex twice.) */
+#ifndef SUNDER_I_BOUNDARY_H
+#define SUNDER_I_BOUNDARY_H
+
+#include "minkowski/coverage.h"
+
+struct sunder_sum {
+    sunder_i_lattice lattice;
+    double origin[2];
+    sunder_i_hpoint *vertex;
+    uint32_t vertices;
+    uint32_t *ring_vertex;    /* of all rings, one after the other */
+    size_t *ring_end;         /* [rings] */
+    size_t *poly_end;         /* [polygons], in rings */
+    size_t rings, polygons;
+    uint32_t *segment;        /* [2 * segments] */
+    uint32_t *point;          /* [points] */
+    size_t segments, points;
+    double seconds[3];        /* decompose, subsums, unite */
+};
+
+/* Takes coverage->point over (the sum's vertices); fills all but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the
+ * caller then frees the sum. */
+sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, sunder_i_coverage *coverage,
+                                      sunder_sum *out, sunder_error *err);
+
+#endif

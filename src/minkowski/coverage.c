@@ -1,0 +1,289 @@
+#include "minkowski/coverage.h"
+
+#include "minkowski/lines.h"
+#include "number/sort.h"
+#include "predicate/kernel.h"
+
+#include <string.h>
+
+/* What changes at a place on the line. */
+typedef enum change {
+    COVER_END,   /* an open interval of the line, covered, ends ... */
+    COVER_START, /* ... or starts */
+    LEFT_END,
+    LEFT_START,
+    RIGHT_END,
+    RIGHT_START,
+    DOMAIN_END, /* a live candidate side */
+    DOMAIN_START,
+    TOUCH /* a corner of a subsum stands here */
+} change;
+
+typedef struct event {
+    sunder_i_fraction at;
+    change what;
+} event;
+
+typedef struct finder {
+    const sunder_i_subsums *subsums;
+    const bool *live;
+    sunder_i_coverage *out;
+    event *events; /* of the line at hand */
+    size_t events_n, events_capacity;
+    uint32_t *order;
+    size_t order_capacity;
+    bool no_memory;
+} finder;
+
+static void add_event(finder *f, sunder_i_fraction at, change what)
+{
+    if (f->events_n == f->events_capacity &&
+        !sunder_i_reserve(&f->events, &f->events_capacity, f->events_n + 1, sizeof *f->events)) {
+        f->no_memory = true;
+        return;
+    }
+    f->events[f->events_n++] = (event){at, what};
+}
+
+/* ---- One subsum and one line ---- */
+
+typedef struct polygon {
+    const sunder_i_subsums *s;
+    uint32_t first, n;
+} polygon;
+
+static sunder_i_point corner(const polygon *p, uint32_t i) { return p->s->corner[p->first + i % p->n]; }
+
+/* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is past a full
+ * turn. Corners there are extreme in the direction normal to r. */
+static uint32_t first_above(const polygon *p, uint32_t r)
+{
+    const uint32_t *rank = p->s->rank + p->first;
+    uint32_t low = 0, high = p->n;
+    while (low < high) {
+        const uint32_t middle = (low + high) / 2;
+        if (rank[middle] > r)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
+{
+    sunder_i_lattice *l = p->s->lattice;
+    if (!l->narrow) return sunder_i_orient(l, line->a, line->b, corner(p, i));
+    l->operations.orientation_tests++;
+    return sunder_i_i128_sign(
+        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
+}
+
+/* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes through. */
+static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line, uint32_t from, uint32_t to, int sign)
+{
+    uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
+    while (high - low > 1) {
+        const uint32_t middle = (low + high) / 2;
+        if (side_of(p, line, middle) == -sign)
+            low = middle;
+        else
+            high = middle;
+    }
+    return sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high));
+}
+
+/* The subsum rests on the line: the side before corner i (if it has the wanted rank) covers one bank. */
+static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
+{
+    sunder_i_lattice *l = p->s->lattice;
+    const uint32_t side = p->first + (i + p->n - 1) % p->n;
+    if (p->s->rank[side] != rank) {
+        add_event(f, sunder_i_along(l, line->a, line->b, corner(p, i)), TOUCH);
+        return;
+    }
+    sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
+    sunder_i_fraction to = sunder_i_along(l, line->a, line->b, corner(p, i));
+    if (!left) {
+        const sunder_i_fraction t = from;
+        from = to;
+        to = t;
+    }
+    add_event(f, from, left ? LEFT_START : RIGHT_START);
+    add_event(f, to, left ? LEFT_END : RIGHT_END);
+    if (f->live[side]) {
+        add_event(f, from, DOMAIN_START);
+        add_event(f, to, DOMAIN_END);
+    }
+}
+
+static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
+{
+    const sunder_i_subsums *s = f->subsums;
+    const uint32_t first = sunder_i_subsum_first(s, subsum), forward = line->class, back = forward + s->classes;
+    const polygon p = {s, first, s->end[subsum] - first};
+    /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
+    const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
+    const int low = side_of(&p, line, lowest), high = side_of(&p, line, highest);
+    if (low < 0 && high > 0) {
+        const uint32_t up_to = highest >= lowest ? highest : highest + p.n;
+        const uint32_t down_to = lowest > highest ? lowest : lowest + p.n;
+        add_event(f, cross_chain(&p, line, highest, down_to, -1), COVER_START);
+        add_event(f, cross_chain(&p, line, lowest, up_to, 1), COVER_END);
+    } else if (low == 0)
+        rest_on(f, &p, line, lowest, forward, true);
+    else if (high == 0)
+        rest_on(f, &p, line, highest, back, false);
+}
+
+/* ---- Along one line ---- */
+
+static int compare_events(void *context, uint32_t a, uint32_t b)
+{
+    const finder *f = context;
+    return sunder_i_fraction_cmp(f->subsums->lattice, &f->events[a].at, &f->events[b].at);
+}
+
+typedef struct state {
+    long cover, left, right, domain;
+} state;
+
+static void apply(state *s, change what)
+{
+    switch (what) {
+    case COVER_END: s->cover--; break;
+    case COVER_START: s->cover++; break;
+    case LEFT_END: s->left--; break;
+    case LEFT_START: s->left++; break;
+    case RIGHT_END: s->right--; break;
+    case RIGHT_START: s->right++; break;
+    case DOMAIN_END: s->domain--; break;
+    case DOMAIN_START: s->domain++; break;
+    case TOUCH: break;
+    }
+}
+
+static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
+
+static uint8_t banks(const state *s)
+{
+    return (uint8_t)((s->left > 0 ? SUNDER_I_LEFT : 0) | (s->right > 0 ? SUNDER_I_RIGHT : 0));
+}
+
+static bool add_point(finder *f, const sunder_i_line *line, const sunder_i_fraction *at)
+{
+    sunder_i_coverage *o = f->out;
+    if (o->points == o->points_capacity &&
+        !sunder_i_reserve(&o->point, &o->points_capacity, o->points + 1, sizeof *o->point)) {
+        f->no_memory = true;
+        return false;
+    }
+    o->point[o->points++] = sunder_i_hpoint_at(f->subsums->lattice, line->a, line->b, at);
+    return true;
+}
+
+static void add_piece(finder *f, sunder_i_piece piece)
+{
+    sunder_i_coverage *o = f->out;
+    if (o->pieces == o->pieces_capacity &&
+        !sunder_i_reserve(&o->piece, &o->pieces_capacity, o->pieces + 1, sizeof *o->piece)) {
+        f->no_memory = true;
+        return;
+    }
+    o->piece[o->pieces++] = piece;
+}
+
+/* Sweeps the events of one line, place by place. */
+static void sweep(finder *f, uint32_t number)
+{
+    const sunder_i_line *line = &f->out->line[number];
+    state s = {0, 0, 0, 0};
+    uint32_t last = 0; /* the point where the open piece starts, while uncovered(&s) */
+    for (size_t i = 0; i < f->events_n;) {
+        const event *here = &f->events[f->order[i]];
+        const state before = s;
+        long cover_ends = 0, domain_starts = 0;
+        size_t j = i;
+        for (; j < f->events_n; j++) {
+            const event *e = &f->events[f->order[j]];
+            if (j > i && compare_events(f, f->order[i], f->order[j]) != 0) break;
+            cover_ends += e->what == COVER_END;
+            domain_starts += e->what == DOMAIN_START;
+            apply(&s, e->what);
+        }
+        /* The place itself: intervals of cover are open, candidates closed. */
+        const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
+        if (point_free) {
+            if (!add_point(f, line, &here->at)) return;
+            const uint32_t point = (uint32_t)(f->out->points - 1);
+            if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, point, banks(&before)});
+            last = point;
+        }
+        i = j;
+    }
+}
+
+static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)
+{
+    f->events_n = 0;
+    for (size_t i = 0; i < n && !f->no_memory; i++)
+        if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->out->line[number], (uint32_t)pair[i]);
+    if (!sunder_i_reserve(&f->order, &f->order_capacity, f->events_n, sizeof *f->order)) f->no_memory = true;
+    if (f->no_memory) return;
+    for (uint32_t i = 0; i < f->events_n; i++) f->order[i] = i;
+    if (!sunder_i_sort_indices(f->order, f->events_n, compare_events, f)) {
+        f->no_memory = true;
+        return;
+    }
+    sweep(f, number);
+}
+
+/* Rewrites the pairs as line << 32 | subsum, those of dead candidates dropped. */
+static void pairs_by_line(sunder_i_pairing *pairing, const uint32_t *line_of)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < pairing->n; i++) {
+        const uint32_t side = (uint32_t)(pairing->pair[i] >> 32);
+        if (pairing->live[side]) pairing->pair[n++] = (uint64_t)line_of[side] << 32 | (uint32_t)pairing->pair[i];
+    }
+    pairing->n = n;
+}
+
+static bool find_all(finder *f, sunder_i_pairing *pairing)
+{
+    uint32_t *line_of = sunder_i_alloc(f->subsums->sides, sizeof *line_of);
+    bool ok = line_of && sunder_i_lines_group(f->subsums, pairing->live, line_of, f->out);
+    if (ok) pairs_by_line(pairing, line_of);
+    sunder_i_free(line_of);
+    ok = ok && sunder_i_sort_keys(pairing->pair, pairing->n);
+    for (size_t i = 0; ok && i < pairing->n;) {
+        const uint32_t number = (uint32_t)(pairing->pair[i] >> 32);
+        size_t j = i;
+        while (j < pairing->n && pairing->pair[j] >> 32 == number) j++;
+        sweep_line(f, number, pairing->pair + i, j - i);
+        ok = !f->no_memory;
+        i = j;
+    }
+    return ok && !f->subsums->lattice->arena.failed;
+}
+
+sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, sunder_i_pairing *pairing,
+                                     sunder_i_coverage *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    finder f = {.subsums = subsums, .live = pairing->live, .out = out};
+    const bool ok = find_all(&f, pairing);
+    sunder_i_free(f.events);
+    sunder_i_free(f.order);
+    if (ok) return SUNDER_OK;
+    sunder_i_coverage_free(out);
+    return sunder_i_no_memory(err);
+}
+
+void sunder_i_coverage_free(sunder_i_coverage *coverage)
+{
+    sunder_i_free(coverage->line);
+    sunder_i_free(coverage->point);
+    sunder_i_free(coverage->piece);
+    memset(coverage, 0, sizeof *coverage);
+}

@@ -1,0 +1,83 @@
+#include "minkowski/lines.h"
+
+#include "predicate/kernel.h"
+#include "predicate/wide_vector.h"
+
+/* A line is its class and the cross product of the class's direction with any of its points: equal exactly for points of one
+ * line. */
+typedef struct key {
+    uint32_t class;
+    sunder_i_i128 offset; /* the number itself, or on a wide lattice a handle */
+    uint64_t hash;
+} key;
+
+typedef struct table {
+    const sunder_i_subsums *subsums;
+    uint32_t *slot; /* line number + 1, or 0 */
+    size_t mask;
+    key *keys; /* [lines] */
+    size_t keys_capacity;
+} table;
+
+static uint64_t mix(uint64_t h, uint64_t v)
+{
+    h = (h ^ v) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 29;
+}
+
+static key make_key(const sunder_i_subsums *s, uint32_t side)
+{
+    key k = {s->rank[side] % s->classes, 0, 0};
+    const sunder_i_point d = s->direction[k.class], a = s->corner[side];
+    k.hash = mix(0, k.class);
+    if (s->lattice->narrow) {
+        k.offset = sunder_i_narrow_cross(d, a);
+        k.hash = mix(mix(k.hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
+        return k;
+    }
+    const sunder_i_big v =
+        sunder_i_wide_cross(s->lattice, sunder_i_wide_get(s->lattice, d), sunder_i_wide_get(s->lattice, a));
+    k.offset = sunder_i_lattice_big(s->lattice, v);
+    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) k.hash = mix(k.hash, v.limb[i]);
+    return k;
+}
+
+static bool same_line(const sunder_i_subsums *s, const key *a, const key *b)
+{
+    if (a->hash != b->hash || a->class != b->class) return false;
+    if (s->lattice->narrow) return a->offset == b->offset;
+    return sunder_i_int_cmp(s->lattice, (int64_t)a->offset, (int64_t)b->offset) == 0;
+}
+
+/* The number of the line of a side, made if it is new. */
+static uint32_t find_or_add(table *t, uint32_t side, sunder_i_coverage *out)
+{
+    const sunder_i_subsums *s = t->subsums;
+    const key k = make_key(s, side);
+    size_t at = k.hash & t->mask;
+    for (; t->slot[at]; at = (at + 1) & t->mask)
+        if (same_line(s, &t->keys[t->slot[at] - 1], &k)) return t->slot[at] - 1;
+    const uint32_t n = (uint32_t)out->lines++;
+    t->slot[at] = n + 1;
+    t->keys[n] = k;
+    const sunder_i_point a = s->corner[side];
+    out->line[n] = (sunder_i_line){a, sunder_i_point_add(s->lattice, a, s->direction[k.class]), k.class};
+    return n;
+}
+
+bool sunder_i_lines_group(const sunder_i_subsums *subsums, const bool *live, uint32_t *line_of,
+                          sunder_i_coverage *out)
+{
+    size_t n = 0, size = 16;
+    for (size_t k = 0; k < subsums->sides; k++) n += live[k];
+    while (size < 2 * n) size *= 2;
+    table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys), 0};
+    out->line = sunder_i_alloc(n, sizeof *out->line);
+    out->lines = 0;
+    const bool ok = t.slot && t.keys && out->line;
+    for (uint32_t k = 0; ok && k < subsums->sides; k++)
+        if (live[k]) line_of[k] = find_or_add(&t, k, out);
+    sunder_i_free(t.slot);
+    sunder_i_free(t.keys);
+    return ok && !subsums->lattice->arena.failed;
+}

@@ -1,0 +1,124 @@
+/* The public face of the sum: the three stages, and what a caller may ask of the result. */
+#include "minkowski/boundary.h"
+#include "minkowski/cells.h"
+#include "minkowski/minkowski.h"
+#include "minkowski/subsums.h"
+
+#include <string.h>
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static sunder_status unite(sunder_sum *sum, sunder_i_subsums *subsums, const sunder_sum_options *options,
+                           sunder_error *err)
+{
+    sunder_i_pairing pairing;
+    sunder_i_coverage coverage;
+    sunder_status status = sunder_i_cells_pair(subsums, options, &pairing, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_coverage_find(subsums, &pairing, &coverage, err);
+    sunder_i_pairing_free(&pairing);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_boundary_build(&sum->lattice, subsums->classes, &coverage, sum, err);
+    sunder_i_coverage_free(&coverage);
+    return status;
+}
+
+static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                           const sunder_sum_options *options, sunder_error *err)
+{
+    const double start = now();
+    sunder_i_placed placed;
+    const sunder_i_place_options place = {.force_wide = force_wide};
+    sunder_status status = sunder_i_place(p, q, &place, &placed, err);
+    if (status != SUNDER_OK) return status;
+    sum->lattice = placed.lattice; /* moved: the points refer to its pool */
+    for (int k = 0; k < 2; k++) sum->origin[k] = placed.origin_p[k] + placed.origin_q[k];
+    memset(&placed.lattice, 0, sizeof placed.lattice);
+    sunder_i_subsums subsums;
+    status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
+    sunder_i_placed_free(&placed);
+    if (status != SUNDER_OK) return status;
+    sum->seconds[1] = now() - start;
+    status = unite(sum, &subsums, options, err);
+    sunder_i_subsums_free(&subsums);
+    sum->seconds[2] = now() - start - sum->seconds[1];
+    return status;
+}
+
+sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                                     const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
+{
+    sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
+    if (!sum) return sunder_i_no_memory(err);
+    const sunder_status status = build(sum, p, q, force_wide, options, err);
+    if (status == SUNDER_OK)
+        *out = sum;
+    else
+        sunder_sum_free(sum);
+    return status;
+}
+
+sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q, const sunder_sum_options *options,
+                                   sunder_sum **out, sunder_error *err)
+{
+    return sunder_i_minkowski_sum(p, q, false, options, out, err);
+}
+
+void sunder_sum_free(sunder_sum *sum)
+{
+    if (!sum) return;
+    sunder_i_lattice_free(&sum->lattice);
+    sunder_i_free(sum->vertex);
+    sunder_i_free(sum->ring_vertex);
+    sunder_i_free(sum->ring_end);
+    sunder_i_free(sum->poly_end);
+    sunder_i_free(sum->segment);
+    sunder_i_free(sum->point);
+    sunder_i_free(sum);
+}
+
+void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *counts)
+{
+    *counts = (sunder_sum_counts){sum->polygons, sum->rings - sum->polygons,
+                                  sum->rings ? sum->ring_end[sum->rings - 1] : 0, sum->segments, sum->points};
+}
+
+void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations)
+{
+    *operations = sum->lattice.operations;
+}
+
+void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite_seconds)
+{
+    *decompose = sum->seconds[0];
+    *subsums = sum->seconds[1];
+    *unite_seconds = sum->seconds[2];
+}
+
+static size_t first_ring(const sunder_sum *sum, size_t polygon) { return polygon ? sum->poly_end[polygon - 1] : 0; }
+
+size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon)
+{
+    return sum->poly_end[polygon] - first_ring(sum, polygon);
+}
+
+const uint32_t *sunder_sum_ring(const sunder_sum *sum, size_t polygon, size_t ring, size_t *n)
+{
+    const size_t r = first_ring(sum, polygon) + ring, from = r ? sum->ring_end[r - 1] : 0;
+    *n = sum->ring_end[r] - from;
+    return sum->ring_vertex + from;
+}
+
+void sunder_sum_segment(const sunder_sum *sum, size_t i, uint32_t ends[2])
+{
+    ends[0] = sum->segment[2 * i];
+    ends[1] = sum->segment[2 * i + 1];
+}
+
+uint32_t sunder_sum_point(const sunder_sum *sum, size_t i) { return sum->point[i]; }

@@ -1,0 +1,150 @@
+/* Coordinates and area of a sum on the way out: exact rationals as text, nearest doubles. */
+#include "minkowski/boundary.h"
+
+#include <math.h>
+
+/* The value of one coordinate: *num / *den * 2^exponent. A lattice of its own arena is used so that a const sum stays so and threads may
+ * ask at once. */
+static long coordinate(sunder_i_arena *arena, const sunder_sum *sum, uint32_t vertex, int axis, sunder_i_big *num,
+                       sunder_i_big *den)
+{
+    const sunder_i_lattice *l = &sum->lattice;
+    const sunder_i_hpoint *p = &sum->vertex[vertex];
+    const sunder_i_i256 *c = axis == 0 ? &p->x : &p->y;
+    sunder_i_big n = l->narrow ? sunder_i_big_i256(arena, *c) : l->pool[c->limb[0]];
+    sunder_i_big d = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
+    d = sunder_i_big_mul(arena, d, l->denominator);
+    /* n * 2^e / d + origin, over one power of two. */
+    int oe;
+    const sunder_i_big o = sunder_i_big_double(arena, sum->origin[axis], &oe);
+    long e = l->exponent;
+    if (o.size) {
+        sunder_i_big od = sunder_i_big_mul(arena, o, d);
+        if (oe >= e)
+            od = sunder_i_big_shl(arena, od, (unsigned long)(oe - e));
+        else {
+            n = sunder_i_big_shl(arena, n, (unsigned long)(e - oe));
+            e = oe;
+        }
+        n = sunder_i_big_add(arena, n, od);
+    }
+    *num = n;
+    *den = d;
+    return e;
+}
+
+void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2])
+{
+    sunder_i_arena arena = {0};
+    for (int k = 0; k < 2; k++) {
+        sunder_i_big num, den;
+        const long e = coordinate(&arena, sum, vertex, k, &num, &den);
+        xy[k] = arena.failed ? (double)NAN : sunder_i_big_ratio(&arena, num, den, e);
+    }
+    sunder_i_arena_free(&arena);
+}
+
+sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, char **x, char **y, sunder_error *err)
+{
+    sunder_i_arena arena = {0};
+    char *text[2] = {NULL, NULL};
+    for (int k = 0; k < 2; k++) {
+        sunder_i_big num, den;
+        const long e = coordinate(&arena, sum, vertex, k, &num, &den);
+        if (!arena.failed) text[k] = sunder_i_big_ratio_text(&arena, num, den, e);
+    }
+    sunder_i_arena_free(&arena);
+    if (!text[0] || !text[1]) {
+        sunder_i_free(text[0]);
+        sunder_i_free(text[1]);
+        return sunder_i_no_memory(err);
+    }
+    *x = text[0];
+    *y = text[1];
+    return SUNDER_OK;
+}
+
+/* ---- Area ---- */
+
+typedef struct ratio {
+    sunder_i_big num, den;
+} ratio;
+
+static ratio add(sunder_i_arena *arena, ratio a, ratio b)
+{
+    if (sunder_i_big_cmp(a.den, b.den) == 0) return (ratio){sunder_i_big_add(arena, a.num, b.num), a.den};
+    const sunder_i_big g = sunder_i_big_gcd(arena, a.den, b.den);
+    if (g.size == 0) return a; /* memory is out; the caller looks */
+    const sunder_i_big bd = sunder_i_big_div_floor(arena, b.den, g);
+    const sunder_i_big ad = sunder_i_big_div_floor(arena, a.den, g);
+    ratio r;
+    r.num = sunder_i_big_add(arena, sunder_i_big_mul(arena, a.num, bd), sunder_i_big_mul(arena, b.num, ad));
+    r.den = sunder_i_big_mul(arena, a.den, bd);
+    return r;
+}
+
+static ratio reduce(sunder_i_arena *arena, ratio r)
+{
+    const sunder_i_big g = sunder_i_big_gcd(arena, r.num, r.den);
+    if (g.size == 0 || r.num.size == 0) return r;
+    return (ratio){sunder_i_big_div_floor(arena, r.num, g), sunder_i_big_div_floor(arena, r.den, g)};
+}
+
+/* Twice the area over one edge, x1 y2 - x2 y1, in lattice units: the origin drops out over a closed ring. */
+static ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u, uint32_t v)
+{
+    const sunder_i_lattice *l = &sum->lattice;
+    sunder_i_big c[2][3];
+    const uint32_t vertex[2] = {u, v};
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_hpoint *p = &sum->vertex[vertex[k]];
+        c[k][0] = l->narrow ? sunder_i_big_i256(arena, p->x) : l->pool[p->x.limb[0]];
+        c[k][1] = l->narrow ? sunder_i_big_i256(arena, p->y) : l->pool[p->y.limb[0]];
+        c[k][2] = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
+    }
+    ratio r;
+    r.num = sunder_i_big_sub(arena, sunder_i_big_mul(arena, c[0][0], c[1][1]), sunder_i_big_mul(arena, c[0][1], c[1][0]));
+    r.den = sunder_i_big_mul(arena, c[0][2], c[1][2]);
+    return reduce(arena, r);
+}
+
+/* Sums are taken in pairs, pairs of pairs and so on, so that operands of one addition are of one size: level k of the stack holds the
+ * sum of 2^k terms. Each level's numbers live in the arena until the end. */
+static ratio area_twice(sunder_i_arena *arena, const sunder_sum *sum)
+{
+    ratio level[64];
+    bool full[64] = {false};
+    for (size_t r = 0; r < sum->rings; r++) {
+        const size_t from = r ? sum->ring_end[r - 1] : 0, to = sum->ring_end[r];
+        for (size_t i = from; i < to && !arena->failed; i++) {
+            ratio term = edge_term(arena, sum, sum->ring_vertex[i], sum->ring_vertex[i + 1 < to ? i + 1 : from]);
+            int k = 0;
+            for (; full[k]; k++) {
+                term = reduce(arena, add(arena, level[k], term));
+                full[k] = false;
+            }
+            level[k] = term;
+            full[k] = true;
+        }
+    }
+    ratio total = {{NULL, 0}, sunder_i_big_i64(arena, 1)};
+    for (int k = 0; k < 64; k++)
+        if (full[k]) total = add(arena, total, level[k]);
+    return total;
+}
+
+sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err)
+{
+    sunder_i_arena arena = {0};
+    const ratio twice = area_twice(&arena, sum);
+    char *text = NULL;
+    if (!arena.failed) {
+        const sunder_i_big d = sum->lattice.denominator;
+        const sunder_i_big den = sunder_i_big_mul(&arena, twice.den, sunder_i_big_mul(&arena, d, d));
+        text = sunder_i_big_ratio_text(&arena, twice.num, den, 2 * sum->lattice.exponent - 1);
+    }
+    sunder_i_arena_free(&arena);
+    if (!text) return sunder_i_no_memory(err);
+    *area = text;
+    return SUNDER_OK;
+}
