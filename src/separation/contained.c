@@ -1,0 +1,143 @@
+/* Does one set lie in another, both closed?
+ *
+ * P lies in Q exactly when no piece C of P has interior outside Q. If some does, then int C either misses Q altogether or
+ * meets the boundary of Q along a stretch of positive length, since a closed set that is the closure of its interior has no
+ * boundary without length. So: the interior of C must overlap a piece of Q, and along every boundary edge of a member of Q, as
+ * far as it runs inside C, the side that is not the member's own must be covered by other pieces (members may overlap and
+ * touch): almost everywhere, which is decided by closed intervals on the edge. */
+#include "separation/pairing.h"
+
+typedef struct interval {
+    sunder_i_fraction low, high;
+} interval;
+
+typedef struct convex {
+    const uint32_t *corner;
+    const sunder_i_point *at;
+    const double *box;
+    uint32_t n;
+} convex;
+
+static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
+{
+    const sunder_shape *s = g->shape[side];
+    const uint32_t first = i ? s->piece_end[i - 1] : 0;
+    return (convex){s->piece_vertex + first, g->at[side], g->piece_box[side] + 4 * (size_t)i, s->piece_end[i] - first};
+}
+
+/* The part of the segment ab (t in [0, 1]) in the convex c; false if it has no length. Along a side of c the interior may lie
+ * on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if `right` is false. */
+static bool clip(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b, const convex *c, bool right, interval *out)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    const sunder_i_point d = sunder_i_point_sub(l, b, a);
+    out->low = sunder_i_fraction_int(l, 0);
+    out->high = sunder_i_fraction_int(l, 1);
+    for (uint32_t k = 0; k < c->n; k++) {
+        const sunder_i_point u = c->at[c->corner[k]], v = c->at[c->corner[k + 1 < c->n ? k + 1 : 0]];
+        const sunder_i_point s = sunder_i_point_sub(l, v, u);
+        const int turn = sunder_i_cross_sign(l, s, d);
+        if (turn == 0) {
+            const int side = sunder_i_orient(l, u, v, a);
+            /* On the line of the side: the convex set is on the side's left, so on the right of ab if they run opposite. */
+            if (side < 0 || (side == 0 && !(right && sunder_i_dot_sign(l, s, d) < 0))) return false;
+            continue;
+        }
+        const sunder_i_fraction t = sunder_i_crossing(l, a, b, u, v);
+        if (turn > 0) {
+            if (sunder_i_fraction_cmp(l, &t, &out->low) > 0) out->low = t;
+        } else if (sunder_i_fraction_cmp(l, &t, &out->high) < 0)
+            out->high = t;
+    }
+    return sunder_i_fraction_cmp(l, &out->low, &out->high) < 0;
+}
+
+static bool box_misses(const double box[4], const double a[2], const double b[2], double e)
+{
+    for (int k = 0; k < 2; k++) {
+        const double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
+        if (high < box[k] - e || low > box[k + 2] + e) return true;
+    }
+    return false;
+}
+
+/* Do the closed intervals cover [low, high] but for points? Sorts them. */
+static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const interval *want)
+{
+    sunder_i_fraction reached = want->low;
+    /* As long as one begins at or before what is reached and ends past it, go on: n is small. */
+    bool grew = true;
+    while (grew && sunder_i_fraction_cmp(l, &reached, &want->high) < 0) {
+        grew = false;
+        for (uint32_t i = 0; i < n; i++)
+            if (sunder_i_fraction_cmp(l, &v[i].low, &reached) <= 0 && sunder_i_fraction_cmp(l, &v[i].high, &reached) > 0) {
+                reached = v[i].high;
+                grew = true;
+            }
+    }
+    return sunder_i_fraction_cmp(l, &reached, &want->high) >= 0;
+}
+
+/* Is the right side of edge e of Q, as far as it runs inside c, in Q? */
+static bool edge_harmless(sunder_i_pairing *g, const convex *c, uint32_t e, interval *buffer)
+{
+    const sunder_shape *q = g->shape[1];
+    const uint32_t next = q->next[e];
+    const double *ax = g->xy[1] + 2 * e, *bx = g->xy[1] + 2 * next;
+    const sunder_i_point a = g->at[1][e], b = g->at[1][next];
+    interval want;
+    if (box_misses(c->box, ax, bx, g->error) || !clip(g, a, b, c, false, &want)) return true;
+    uint32_t n = 0;
+    for (uint32_t j = 0; j < q->pieces; j++) {
+        const convex d = piece_of(g, 1, j);
+        if (!box_misses(d.box, ax, bx, g->error) && clip(g, a, b, &d, true, buffer + n)) n++;
+    }
+    return intervals_cover(&g->placed.lattice, buffer, n, &want);
+}
+
+static bool piece_contained(sunder_i_pairing *g, uint32_t i, interval *buffer)
+{
+    const sunder_shape *q = g->shape[1];
+    bool meets = false;
+    for (uint32_t j = 0; j < q->pieces && !meets; j++) meets = sunder_i_pieces_overlap(g, i, j);
+    if (!meets) return false;
+    const convex c = piece_of(g, 0, i);
+    for (uint32_t e = 0; e < q->vertices; e++)
+        if (!edge_harmless(g, &c, e, buffer)) return false;
+    return true;
+}
+
+static bool all_contained(sunder_i_pairing *g)
+{
+    const double *p = g->box[0], *q = g->box[1], e = g->error;
+    if (p[0] < q[0] - e || p[1] < q[1] - e || p[2] > q[2] + e || p[3] > q[3] + e) return false;
+    interval *buffer = sunder_i_arena_alloc(&g->placed.lattice.arena, g->shape[1]->pieces, sizeof *buffer);
+    if (!buffer) return false;
+    for (uint32_t i = 0; i < g->shape[0]->pieces; i++)
+        if (!piece_contained(g, i, buffer)) return false;
+    return true;
+}
+
+sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                 bool *contained, sunder_error *err)
+{
+    if (p->pieces == 0 || q->pieces == 0) {
+        *contained = p->pieces == 0;
+        return SUNDER_OK;
+    }
+    if (sunder_i_boxes_apart(p, tp, q, tq, 0)) {
+        *contained = false;
+        return SUNDER_OK;
+    }
+    sunder_i_pairing g;
+    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    if (status) return status;
+    const bool answer = all_contained(&g);
+    if (g.placed.lattice.arena.failed)
+        status = sunder_i_no_memory(err);
+    else
+        *contained = answer;
+    sunder_i_pairing_free(&g);
+    return status;
+}

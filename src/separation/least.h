@@ -1,0 +1,19 @@
+/* The least separating translation, with every knob. */
+#ifndef SUNDER_I_LEAST_H
+#define SUNDER_I_LEAST_H
+
+#include "separation/separation.h"
+
+typedef struct sunder_i_least_options {
+    const double *tp, *tq; /* exact translations, or NULL */
+    double gap;            /* >= 0, finite */
+    double upper;          /* a length past which the answer no longer matters; INFINITY for none */
+    bool texts;            /* make the three texts */
+    bool force_wide;       /* for tests */
+} sunder_i_least_options;
+
+/* *beyond may be NULL. out is all set on success, untouched on failure. */
+sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *options,
+                             sunder_separation *out, bool *beyond, sunder_error *err);
+
+#endif

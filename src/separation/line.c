@@ -1,0 +1,138 @@
+#include "separation/line.h"
+
+#include <math.h>
+
+/* v to within 2^-52: (double) of a 128-bit integer is a call, and rarely needed. */
+static inline double fast_double(sunder_i_i128 v)
+{
+    const int64_t low = (int64_t)v;
+    if (v == low) return (double)low;
+    return (double)v;
+}
+
+static inline sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
+{
+    return (sunder_i_fraction){num, den, fast_double(num) / fast_double(den)};
+}
+
+sunder_i_line sunder_i_line_make(sunder_i_pairing *g, sunder_i_point a, sunder_i_point d)
+{
+    const sunder_i_lattice *l = &g->placed.lattice;
+    return (sunder_i_line){a, sunder_i_pairing_add(g, a, d), d, sunder_i_approx(l, a.x), sunder_i_approx(l, a.y),
+                           sunder_i_approx(l, d.x), sunder_i_approx(l, d.y)};
+}
+
+sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *line)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    if (l->narrow) {
+        const sunder_i_i128 num = -sunder_i_narrow_dot(line->a, line->d), den = sunder_i_narrow_dot(line->d, line->d);
+        if (num <= 0) return (sunder_i_fraction){0, 1, 0};
+        if (num >= den) return (sunder_i_fraction){1, 1, 1};
+        return narrow_fraction(num, den);
+    }
+    const sunder_i_point origin = {sunder_i_lattice_big(l, (sunder_i_big){NULL, 0}),
+                                   sunder_i_lattice_big(l, (sunder_i_big){NULL, 0})};
+    const sunder_i_fraction zero = sunder_i_fraction_int(l, 0), one = sunder_i_fraction_int(l, 1);
+    const sunder_i_fraction foot = sunder_i_foot(l, line->a, line->b, origin);
+    if (sunder_i_fraction_cmp(l, &foot, &zero) <= 0) return zero;
+    return sunder_i_fraction_cmp(l, &foot, &one) >= 0 ? one : foot;
+}
+
+int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    if (!l->narrow) return sunder_i_fraction_cmp(l, s, t);
+    l->operations.comparisons++;
+    const double d = s->value - t->value, bound = 0x1p-49 * (fabs(s->value) + fabs(t->value));
+    if (d > bound) return 1;
+    if (d < -bound) return -1;
+    l->operations.exact_fallbacks++;
+    return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
+}
+
+/* On a narrow lattice, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
+static inline void narrow_linear(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
+                                 sunder_i_i128 *b)
+{
+    *a = sunder_i_narrow_cross(s->side[k], sunder_i_narrow_sub(line->a, s->corner[k]));
+    *b = sunder_i_narrow_cross(s->side[k], line->d);
+}
+
+int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t,
+                       const sunder_i_subsum *s, uint32_t k)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    l->operations.orientation_tests++;
+    l->operations.exact_fallbacks++;
+    if (l->narrow) {
+        sunder_i_i128 a, b;
+        narrow_linear(line, s, k, &a, &b);
+        if (b == 0) return sunder_i_i128_sign(a);
+        return sunder_i_cmp_products(a, t->den, -b, t->num);
+    }
+    const sunder_i_hpoint x = sunder_i_hpoint_at(l, line->a, line->b, t);
+    return sunder_i_orient_hpoint(l, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0], &x);
+}
+
+/* Is the point in the interior of the subsum? Doubles where they suffice. */
+static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                   const sunder_i_subsum *s)
+{
+    bool certain = true;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+        if (v < -s->bound[k]) return false;
+        certain &= v > s->bound[k];
+    }
+    if (certain) return true;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+        if (v <= s->bound[k] && sunder_i_line_side(g, line, t, s, k) <= 0) return false;
+    }
+    return true;
+}
+
+long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                         size_t *first)
+{
+    const double e = g->error;
+    size_t k = first && *first < g->subsums ? *first : 0;
+    for (size_t n = 0; n < g->subsums; n++, k = k + 1 < g->subsums ? k + 1 : 0) {
+        sunder_i_subsum *s = g->subsum + k;
+        if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) continue;
+        if (!s->sides && !sunder_i_subsum_make(g, s)) return -1;
+        g->placed.lattice.operations.orientation_tests += s->sides;
+        if (inside(g, line, t, x, y, s)) {
+            if (first) *first = k;
+            return (long)k;
+        }
+    }
+    return -1;
+}
+
+sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s,
+                                     bool forwards)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_fraction best = {0, 1, 0};
+    bool any = false;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        sunder_i_fraction t;
+        if (l->narrow) {
+            sunder_i_i128 a, b;
+            narrow_linear(line, s, k, &a, &b);
+            if (forwards ? b >= 0 : b <= 0) continue;
+            t = b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
+        } else {
+            const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
+            if (forwards ? turn >= 0 : turn <= 0) continue;
+            t = sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
+        }
+        const int c = any ? sunder_i_line_cmp(g, &t, &best) : 0;
+        if (!any || (forwards ? c < 0 : c > 0)) best = t;
+        any = true;
+    }
+    l->operations.segment_intersections++;
+    return best;
+}

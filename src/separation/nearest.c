@@ -1,0 +1,148 @@
+/* Best first. Each segment of the reduced convolution starts at its point nearest to the origin; while a subsum covers the
+ * point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments come in the
+ * order of their distances, and the search ends when the next one is farther than the best free point. */
+#include "separation/candidates.h"
+#include "separation/nearest.h"
+
+#include <math.h>
+
+typedef struct search {
+    sunder_i_pairing *g;
+    sunder_i_nearest best;
+    sunder_i_hpoint best_point;
+    bool best_point_known;
+    double limit;
+    size_t first; /* the subsum that covered the last foot: often it covers the next one too */
+    sunder_i_fraction zero, one;
+} search;
+
+static sunder_i_big square_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big y)
+{
+    return sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
+}
+
+/* Order of the distances of two points from the origin. Degree 10 over 8. */
+static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
+{
+    sunder_i_big x, y, w, u, v, z;
+    sunder_i_arena *m = &l->arena;
+    sunder_i_hpoint_big(l, a, &x, &y, &w);
+    sunder_i_hpoint_big(l, b, &u, &v, &z);
+    l->operations.exact_fallbacks++;
+    const sunder_i_big left = sunder_i_big_mul(m, square_norm(m, x, y), sunder_i_big_mul(m, z, z));
+    const sunder_i_big right = sunder_i_big_mul(m, square_norm(m, u, v), sunder_i_big_mul(m, w, w));
+    return sunder_i_big_cmp(left, right);
+}
+
+static bool better(search *s, const sunder_i_line *line, const sunder_i_fraction *t, double distance,
+                   sunder_i_hpoint *point, bool *known)
+{
+    *known = false;
+    if (!s->best.found) return true;
+    const double slack = 8 * s->g->error;
+    if (distance > s->best.distance + slack) return false;
+    if (distance < s->best.distance - slack) return true;
+    sunder_i_lattice *l = &s->g->placed.lattice;
+    *point = sunder_i_hpoint_at(l, line->a, line->b, t);
+    *known = true;
+    if (!s->best_point_known)
+        s->best_point = sunder_i_hpoint_at(l, s->best.line.a, s->best.line.b, &s->best.t);
+    s->best_point_known = true;
+    const int order = sunder_i_hpoint_cmp(l, point, &s->best_point);
+    if (order == 0) return false;
+    const int c = norm_cmp(l, point, &s->best_point);
+    return c < 0 || (c == 0 && order < 0);
+}
+
+static void offer(search *s, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y, double distance)
+{
+    sunder_i_hpoint point;
+    bool known;
+    if (!better(s, line, t, distance, &point, &known)) return;
+    s->best = (sunder_i_nearest){true, false, *line, *t, x, y, distance};
+    s->best_point_known = known;
+    if (known) s->best_point = point;
+    if (distance + 8 * s->g->error < s->limit) s->limit = distance + 8 * s->g->error;
+}
+
+/* From t, which subsum `cover` has in its interior, along the line to the first free point; none beyond the limit. */
+static void walk(search *s, const sunder_i_line *line, long cover, bool forwards)
+{
+    sunder_i_pairing *g = s->g;
+    for (;;) {
+        const sunder_i_fraction t = sunder_i_line_exit(g, line, g->subsum + cover, forwards);
+        if (forwards ? sunder_i_line_cmp(g, &t, &s->one) > 0 : sunder_i_line_cmp(g, &t, &s->zero) < 0) return;
+        double x, y;
+        sunder_i_line_at(line, &t, &x, &y);
+        const double distance = sqrt(x * x + y * y);
+        if (distance > s->limit) return;
+        size_t first = (size_t)cover;
+        cover = sunder_i_line_cover(g, line, &t, x, y, &first);
+        if (g->placed.lattice.arena.failed) return;
+        if (cover < 0) {
+            offer(s, line, &t, x, y, distance);
+            return;
+        }
+    }
+}
+
+static void try_candidate(search *s, const sunder_i_line *line)
+{
+    sunder_i_pairing *g = s->g;
+    const sunder_i_fraction foot = sunder_i_line_foot(g, line);
+    double x, y;
+    sunder_i_line_at(line, &foot, &x, &y);
+    const double distance = sqrt(x * x + y * y);
+    if (distance > s->limit) return;
+    const long cover = sunder_i_line_cover(g, line, &foot, x, y, &s->first);
+    if (g->placed.lattice.arena.failed) return;
+    if (cover < 0) {
+        offer(s, line, &foot, x, y, distance);
+        return;
+    }
+    if (foot.value < 0.5 || sunder_i_line_cmp(g, &foot, &s->one) < 0) walk(s, line, cover, true);
+    if (foot.value > 0.5 || sunder_i_line_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
+}
+
+/* The way out along each axis is free, so the nearest free point is not farther than the shortest of them. */
+static double way_out(const sunder_i_pairing *g)
+{
+    double d = INFINITY;
+    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
+    return d + 8 * g->error;
+}
+
+/* Does a subsum cover the origin? The overlap test, asked of the subsums at hand. */
+static bool origin_covered(sunder_i_pairing *g, const sunder_i_fraction *zero)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    const int64_t o = l->narrow ? 0 : sunder_i_lattice_big(l, (sunder_i_big){NULL, 0});
+    const int64_t e = l->narrow ? 1 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 1));
+    const sunder_i_line axis = sunder_i_line_make(g, (sunder_i_point){o, o}, (sunder_i_point){e, o});
+    return sunder_i_line_cover(g, &axis, zero, 0, 0, NULL) >= 0;
+}
+
+sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    search s = {.g = g, .limit = fmin(way_out(g), limit + 8 * g->error)};
+    s.zero = sunder_i_fraction_int(l, 0);
+    s.one = sunder_i_fraction_int(l, 1);
+    if (!sunder_i_pairing_reach(g, s.limit)) return sunder_i_no_memory(err);
+    if (!origin_covered(g, &s.zero)) {
+        s.best.found = s.best.origin = true;
+        if (l->arena.failed) return sunder_i_no_memory(err);
+        *out = s.best;
+        return SUNDER_OK;
+    }
+    sunder_i_candidates heap;
+    if (!sunder_i_candidates_find(g, s.limit, &heap)) return sunder_i_no_memory(err);
+    while (heap.n && heap.item[0].key <= s.limit && !l->arena.failed) {
+        const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
+        const sunder_i_line line = sunder_i_candidate_line(g, &c);
+        try_candidate(&s, &line);
+    }
+    if (l->arena.failed) return sunder_i_no_memory(err);
+    *out = s.best;
+    return SUNDER_OK;
+}
