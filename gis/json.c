@@ -140,6 +140,11 @@ void gis_json_null(gis_json *out)
     append(out, "null", 4);
 }
 
+void gis_json_raw(gis_json *out, const char *text)
+{
+    append(out, text, strlen(text));
+}
+
 /* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no
  * shorter decimal than what it prints does. 17 always read back. (Subnormals have fewer digits: they start lower.) */
 void gis_number_text(double value, char text[GIS_NUMBER_MAX])

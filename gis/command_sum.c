@@ -1,0 +1,284 @@
+/* command_sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
+#include "commands.h"
+#include "message.h"
+#include "report.h"
+#include "sum_layers.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct sum_run {
+    const gis_options *options;
+    gis_operands operands;
+    sunder_shape *reflected; /* -Q, with --reflect */
+    sunder_sum *sum;
+    double max_deviation; /* of layers; NaN: none are written */
+    double read, compute, write, start;
+} sum_run;
+
+static bool compute(sum_run *run, gis_error *error)
+{
+    sunder_error why;
+    const sunder_shape *q = run->operands.q;
+    gis_progress progress = gis_progress_of(run->options);
+    gis_progress_stage(&progress, 0, 1);
+    if (run->options->given[OPT_REFLECT]) {
+        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK)
+            return gis_fail(error, "Q: %s", why.message);
+        q = run->reflected;
+    }
+    sunder_sum_options how = {.progress = gis_progress_call, .progress_user = &progress};
+    double begin = gis_clock();
+    if (sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    run->compute = gis_clock() - begin;
+    gis_progress_done(&progress);
+    return true;
+}
+
+/* One coordinate pair: rationals as strings, or decimals. */
+static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_error *error)
+{
+    gis_json_open(out, '[');
+    if (run->options->given[OPT_EXACT]) {
+        char *x, *y;
+        sunder_error why;
+        if (sunder_sum_vertex_text(run->sum, vertex, &x, &y, &why) != SUNDER_OK)
+            return gis_fail(error, "%s", why.message);
+        gis_json_string(out, x);
+        gis_json_string(out, y);
+        sunder_free(x);
+        sunder_free(y);
+    } else {
+        double xy[2];
+        sunder_sum_vertex(run->sum, vertex, xy);
+        if (!isfinite(xy[0]) || !isfinite(xy[1]))
+            return gis_fail(error, "the sum leaves the range of doubles; --exact gives it as rationals");
+        gis_json_double(out, xy[0]);
+        gis_json_double(out, xy[1]);
+    }
+    gis_json_close(out, ']');
+    return true;
+}
+
+static bool json_ring(gis_json *out, const sum_run *run, size_t polygon, size_t ring, gis_error *error)
+{
+    size_t n;
+    const uint32_t *vertices = sunder_sum_ring(run->sum, polygon, ring, &n);
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < n; i++)
+        if (!json_vertex(out, run, vertices[i], error))
+            return false;
+    gis_json_close(out, ']');
+    return true;
+}
+
+static bool json_polygon(gis_json *out, const sum_run *run, size_t polygon, gis_error *error)
+{
+    gis_json_open(out, '{');
+    gis_json_key(out, "outer");
+    if (!json_ring(out, run, polygon, 0, error))
+        return false;
+    gis_json_key(out, "holes");
+    gis_json_open(out, '[');
+    for (size_t r = 1; r < sunder_sum_rings(run->sum, polygon); r++)
+        if (!json_ring(out, run, polygon, r, error))
+            return false;
+    gis_json_close(out, ']');
+    gis_json_close(out, '}');
+    return true;
+}
+
+/* The keys polygons, degenerate_segments and degenerate_points, to follow those of the summary. */
+static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
+{
+    sunder_sum_counts counts;
+    sunder_sum_count(run->sum, &counts);
+    gis_json_line(out);
+    gis_json_key(out, "polygons");
+    gis_json_open(out, '[');
+    for (size_t p = 0; p < counts.polygons; p++) {
+        gis_json_line(out);
+        if (!json_polygon(out, run, p, error))
+            return false;
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+    gis_json_key(out, "degenerate_segments");
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < counts.degenerate_segments; i++) {
+        uint32_t ends[2];
+        sunder_sum_segment(run->sum, i, ends);
+        gis_json_open(out, '[');
+        if (!json_vertex(out, run, ends[0], error) || !json_vertex(out, run, ends[1], error))
+            return false;
+        gis_json_close(out, ']');
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+    gis_json_key(out, "degenerate_points");
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < counts.degenerate_points; i++)
+        if (!json_vertex(out, run, sunder_sum_point(run->sum, i), error))
+            return false;
+    gis_json_close(out, ']');
+    return true;
+}
+
+static void json_operand(gis_json *out, const char *key, const sunder_shape *shape)
+{
+    gis_json_key(out, key);
+    gis_json_open(out, '{');
+    gis_json_key(out, "polygons");
+    gis_json_size(out, sunder_shape_polygons(shape));
+    gis_json_key(out, "vertices");
+    gis_json_size(out, sunder_shape_vertices(shape));
+    gis_json_close(out, '}');
+}
+
+static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
+{
+    sunder_sum_counts counts;
+    char *area;
+    sunder_error why;
+    sunder_sum_count(run->sum, &counts);
+    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    gis_json_key(out, "result");
+    gis_json_open(out, '{');
+    gis_json_key(out, "polygons");
+    gis_json_size(out, counts.polygons);
+    gis_json_key(out, "holes");
+    gis_json_size(out, counts.holes);
+    gis_json_key(out, "vertices");
+    gis_json_size(out, counts.vertices);
+    gis_json_key(out, "degenerate_segments");
+    gis_json_size(out, counts.degenerate_segments);
+    gis_json_key(out, "degenerate_points");
+    gis_json_size(out, counts.degenerate_points);
+    gis_json_key(out, "area");
+    gis_json_string(out, area);
+    gis_json_key(out, "max_deviation");
+    gis_json_double(out, run->max_deviation);
+    gis_json_close(out, '}');
+    sunder_free(area);
+    return true;
+}
+
+static void json_seconds(gis_json *out, const sum_run *run)
+{
+    double decompose, subsums, unite;
+    sunder_sum_seconds(run->sum, &decompose, &subsums, &unite);
+    const struct {
+        const char *key;
+        double seconds;
+    } times[] = {{"read", run->read}, {"decompose", decompose}, {"subsums", subsums}, {"union", unite},
+                 {"write", run->write}, {"compute", run->compute}, {"total", gis_clock() - run->start}};
+    gis_json_key(out, "seconds");
+    gis_json_open(out, '{');
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        gis_json_key(out, times[i].key);
+        gis_json_double(out, times[i].seconds);
+    }
+    gis_json_close(out, '}');
+}
+
+/* The summary, with `geometry` (its keys, ready) at the end unless that is NULL. */
+static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gis_error *error)
+{
+    sunder_operations operations;
+    sunder_sum_operations(run->sum, &operations);
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "sum");
+    gis_json_key(out, "algorithm");
+    gis_json_string(out, "convolution"); /* what `auto` chooses, too */
+    gis_json_key(out, "decomposition");
+    gis_json_null(out);
+    gis_json_key(out, "order");
+    gis_json_null(out);
+    json_operand(out, "p", run->operands.p);
+    json_operand(out, "q", run->operands.q);
+    gis_json_line(out);
+    if (!json_result(out, run, error))
+        return false;
+    gis_json_line(out);
+    gis_json_key(out, "operations");
+    gis_json_open(out, '{');
+    gis_json_operations(out, &operations);
+    gis_json_key(out, "phases"); /* convolution has no phases that count for themselves */
+    gis_json_open(out, '{');
+    gis_json_close(out, '}');
+    gis_json_close(out, '}');
+    gis_json_line(out);
+    json_seconds(out, run);
+    gis_json_key(out, "peak_rss_bytes");
+    gis_json_size(out, gis_peak_rss());
+    if (geometry)
+        gis_json_raw(out, geometry);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+    return true;
+}
+
+static bool print_json(const sum_run *run, const char *path, const char *geometry, const char *what, gis_error *error)
+{
+    gis_json out = {0};
+    bool ok = json_sum(&out, run, geometry, error);
+    if (ok && !gis_json_text(&out))
+        ok = gis_no_memory(error);
+    ok = ok && gis_write_text(path, gis_json_text(&out), out.length, what, error);
+    gis_json_clear(&out);
+    return ok;
+}
+
+static bool write_layers(sum_run *run, const char *path, gis_error *error)
+{
+    gis_sink_request request = gis_options_sink(run->options, path, "sum");
+    const gis_source *source = run->operands.p_source ? run->operands.p_source : run->operands.q_source;
+    gis_sink *sink;
+    gis_sink_result result;
+    if (!gis_sink_open(&request, source, &sink, error))
+        return false;
+    bool ok = gis_write_sum(sink, run->sum, run->operands.crs, &run->max_deviation, error) &&
+              gis_output_finish(sink, &result, error);
+    gis_sink_free(sink);
+    if (ok && !result.exact)
+        run->max_deviation += result.deviation;
+    return ok;
+}
+
+static bool report(sum_run *run, gis_error *error)
+{
+    const char *output = run->options->operand[2], *stats = gis_stats_path(run->options);
+    bool taken, ok = true;
+    double begin = gis_clock();
+    if (!gis_stdout_taken(run->options, output, &taken, error))
+        return false;
+    gis_json geometry = {.need_comma = true};
+    if (output)
+        ok = write_layers(run, output, error);
+    else if (!taken)
+        ok = json_geometry(&geometry, run, error) && (gis_json_text(&geometry) || gis_no_memory(error));
+    run->write = gis_clock() - begin;
+    if (ok && stats)
+        ok = print_json(run, stats, NULL, "--stats", error);
+    if (ok && !output && !taken)
+        ok = print_json(run, "-", gis_json_text(&geometry), "the sum", error);
+    gis_json_clear(&geometry);
+    return ok;
+}
+
+int gis_command_sum(const gis_options *options)
+{
+    gis_error error;
+    sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
+    bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error);
+    ok = ok && gis_operands_read(options, &run.operands, &error);
+    run.read = gis_clock() - run.start;
+    ok = ok && compute(&run, &error) && report(&run, &error);
+    sunder_sum_free(run.sum);
+    sunder_shape_free(run.reflected);
+    gis_operands_clear(&run.operands);
+    return ok ? GIS_DONE : gis_say_failure(&error);
+}

@@ -1,0 +1,107 @@
+/* main.c: which command, with which options. */
+#include "commands.h"
+#include "message.h"
+#include "sunder.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <errno.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <stdio.h>
+#include <string.h>
+
+const gis_command gis_commands[] = {
+    {GIS_SEPARATE, "separate", "INPUT OUTPUT", 2, 2, "Moves features apart by the least amount", gis_command_separate},
+    {GIS_CHECK, "check", "INPUT [OUTPUT]", 1, 2, "Lists overlaps and gap violations, exactly", gis_command_check},
+    {GIS_SUM, "sum", "P Q [OUTPUT]", 2, 3, "Minkowski sum P + Q, exactly", gis_command_sum},
+    {GIS_PAIR, "pair", "P Q [OUTPUT]", 2, 3, "Least translation of Q that takes its interior off P", gis_command_pair},
+};
+const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
+
+/* What GDAL says outside of the places that listen to it: warnings are passed on in our form; failures come back as
+ * return values and are reported, once, by whoever asked. */
+static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
+{
+    (void)number;
+    if (class == CE_Warning)
+        gis_say_warning("%s", words);
+}
+
+static const gis_command *find_command(const char *name)
+{
+    for (size_t i = 0; i < gis_n_commands; i++)
+        if (strcmp(gis_commands[i].name, name) == 0)
+            return &gis_commands[i];
+    return NULL;
+}
+
+/* The K=V of --config; they must be known before drivers are registered. */
+static void configure(const gis_options *options)
+{
+    const char **pairs = options->list[OPT_CONFIG];
+    for (size_t i = 0; pairs && pairs[i]; i++) {
+        char *key = NULL;
+        const char *value = CPLParseNameValue(pairs[i], &key);
+        if (key)
+            CPLSetConfigOption(key, value);
+        CPLFree(key);
+    }
+}
+
+static int run(const gis_command *command, int argc, char **argv)
+{
+    gis_options options;
+    gis_error error;
+    int status;
+    if (!gis_options_parse(command, argc, argv, &options, &error)) {
+        status = gis_say_failure(&error);
+    } else if (options.given[OPT_HELP]) {
+        gis_help_command(command);
+        status = GIS_DONE;
+    } else {
+        configure(&options);
+        GDALAllRegister();
+        status = command->run(&options);
+        GDALDestroy();
+    }
+    gis_options_clear(&options);
+    return status;
+}
+
+/* A full disk shows when the last bytes leave: stdout counts as an output too. */
+static int close_stdout(int status)
+{
+    bool failed = ferror(stdout) != 0;
+    if ((fclose(stdout) != 0 || failed) && (status == GIS_DONE || status == GIS_CONFLICTS)) {
+        gis_error error;
+        gis_fail(&error, "cannot write to standard output: %s", strerror(errno));
+        return gis_say_failure(&error);
+    }
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    CPLSetErrorHandler(hear_gdal);
+    int status = GIS_DONE;
+    gis_error error;
+    const char *first = argc > 1 ? argv[1] : NULL;
+    const gis_command *command = first ? find_command(first) : NULL;
+    if (command) {
+        status = run(command, argc - 2, argv + 2);
+    } else if (!first) {
+        gis_fail_usage(&error, "which command? `sunder --help` lists them");
+        status = gis_say_failure(&error);
+    } else if (strcmp(first, "--version") == 0) {
+        printf("sunder %s\n", sunder_version());
+    } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
+        gis_help_program();
+    } else {
+        gis_fail_usage(&error, "unknown %s %s; `sunder --help` lists the commands", *first == '-' ? "option" : "command",
+                       first);
+        status = gis_say_failure(&error);
+    }
+    return close_stdout(status);
+}

@@ -1,0 +1,163 @@
+/* operand.c: the operands of sum and pair, and what the options ask of a source. */
+#include "operand.h"
+
+#include "message.h"
+
+#include <cpl_conv.h>
+#include <stdlib.h>
+#include <string.h>
+
+gis_invalid gis_options_invalid(const gis_options *options)
+{
+    switch (options->text[OPT_INVALID][0]) {
+    case 's':
+        return GIS_INVALID_SKIP;
+    case 'f':
+        return GIS_INVALID_FAIL;
+    default:
+        return GIS_INVALID_REPAIR;
+    }
+}
+
+gis_source_request gis_options_source(const gis_options *options, const char *path, unsigned takes)
+{
+    return (gis_source_request){
+        .path = path,
+        .drivers = options->list[OPT_IF],
+        .open_options = options->list[OPT_OO],
+        .layer = options->text[OPT_INPUT_LAYER],
+        .sql = options->text[OPT_SQL],
+        .dialect = options->text[OPT_DIALECT],
+        .where = options->text[OPT_WHERE],
+        .bbox = options->given[OPT_BBOX] ? options->box : NULL,
+        .input_crs = options->text[OPT_INPUT_CRS],
+        .takes = takes,
+    };
+}
+
+/* Appends the polygons of one feature, after the rule of --invalid: each feature is judged by itself, so that the one
+ * at fault can be named. */
+static bool append_feature(const gis_source *source, size_t i, const gis_rings *rings, gis_invalid policy,
+                           gis_polygons *all, bool *any_invalid, gis_error *error)
+{
+    char who[512];
+    snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
+    if (rings->linearised > 0)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, rings->linearised);
+    sunder_shape *alone = NULL;
+    bool invalid;
+    gis_error reason;
+    bool ok = gis_shape_of_polygons(rings->xy, rings->ring_end, rings->poly_end, rings->polygons, policy, who, &alone,
+                                    &invalid, &reason, error);
+    sunder_shape_free(alone);
+    if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
+        return false;
+    if (invalid)
+        gis_say_warning("%s: %s; %s", who, reason.message,
+                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
+    if (!ok)
+        return true;
+    *any_invalid = *any_invalid || invalid;
+    for (size_t p = 0, r = 0, v = 0; p < rings->polygons; p++) {
+        for (; r < rings->poly_end[p]; r++) {
+            for (; v < rings->ring_end[r]; v++)
+                if (!gis_polygons_vertex(all, rings->xy[2 * v], rings->xy[2 * v + 1], error))
+                    return false;
+            if (!gis_polygons_end_ring(all, error))
+                return false;
+        }
+        if (!gis_polygons_end_polygon(all, error))
+            return false;
+    }
+    return true;
+}
+
+static bool shape_of_layer(const gis_source *source, gis_invalid policy, const char *who, sunder_shape **out,
+                           gis_error *error)
+{
+    gis_polygons all = {0};
+    gis_rings rings = {0};
+    bool ok = true, any_invalid = false;
+    for (size_t i = 0; ok && i < gis_source_count(source); i++)
+        if (gis_source_content(source, i) == GIS_POLYGONS)
+            ok = gis_geometry_rings(gis_source_geometry(source, i), &rings, error) &&
+                 append_feature(source, i, &rings, policy, &all, &any_invalid, error);
+    if (ok) {
+        sunder_error why;
+        ok = sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons,
+                                     any_invalid ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
+             gis_fail(error, "%s: %s", who, why.message);
+    }
+    gis_rings_clear(&rings);
+    gis_polygons_clear(&all);
+    return ok;
+}
+
+bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
+                           sunder_shape **out, gis_error *error)
+{
+    gis_source_request request = gis_options_source(options, path, GIS_TAKES_POLYGONS);
+    gis_source *opened;
+    if (!gis_source_open(&request, &opened, error))
+        return false;
+    if (!shape_of_layer(opened, gis_options_invalid(options), who, out, error)) {
+        gis_source_close(opened);
+        return false;
+    }
+    *source = opened;
+    return true;
+}
+
+static bool check_crs(const gis_operands *operands)
+{
+    OGRSpatialReferenceH p = operands->p_source ? gis_source_crs(operands->p_source) : NULL;
+    OGRSpatialReferenceH q = operands->q_source ? gis_source_crs(operands->q_source) : NULL;
+    return !p || !q || OSRIsSame(p, q);
+}
+
+/* Sources first: their CRS gives lengths in the other operand their meaning. */
+bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error *error)
+{
+    static const char *const names[2] = {"P", "Q"};
+    gis_operands read = {0};
+    sunder_shape **shape[2] = {&read.p, &read.q};
+    gis_source **source[2] = {&read.p_source, &read.q_source};
+    bool ok = true, any_source = false;
+    if (strcmp(options->operand[0], "@-") == 0 && strcmp(options->operand[1], "@-") == 0)
+        return gis_fail_usage(error, "P and Q cannot both be read from standard input");
+    for (int i = 0; ok && i < 2; i++) {
+        if (gis_shape_is_text(options->operand[i]))
+            continue;
+        any_source = true;
+        ok = gis_shape_from_source(options, options->operand[i], names[i], source[i], shape[i], error);
+        if (ok && !read.crs)
+            read.crs = gis_source_crs(*source[i]);
+    }
+    if (ok && !check_crs(&read))
+        ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
+    static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX, OPT_INPUT_CRS, OPT_IF, OPT_OO};
+    for (size_t i = 0; ok && !any_source && i < sizeof of_sources / sizeof *of_sources; i++)
+        if (options->given[of_sources[i]])
+            ok = gis_fail_usage(error, "%.*s selects from a data source, and neither P nor Q is one",
+                                (int)strcspn(gis_option_table[of_sources[i]].names, " "),
+                                gis_option_table[of_sources[i]].names);
+    read.rule = gis_ruler_of(read.crs, options);
+    for (int i = 0; ok && i < 2; i++)
+        if (!*source[i])
+            ok = gis_shape_from_text(options->operand[i], names[i], &read.rule, gis_options_invalid(options), shape[i],
+                                     error);
+    if (ok)
+        *out = read;
+    else
+        gis_operands_clear(&read);
+    return ok;
+}
+
+void gis_operands_clear(gis_operands *operands)
+{
+    sunder_shape_free(operands->p);
+    sunder_shape_free(operands->q);
+    gis_source_close(operands->p_source);
+    gis_source_close(operands->q_source);
+    *operands = (gis_operands){0};
+}

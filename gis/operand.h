@@ -1,0 +1,50 @@
+/* operand.h: shapes that a command line names: WKT, @FILE, disc:, square: ..., or a data source. */
+#ifndef GIS_OPERAND_H
+#define GIS_OPERAND_H
+
+#include "options.h"
+#include "source.h"
+#include "wkt.h"
+
+/* --invalid */
+typedef enum gis_invalid { GIS_INVALID_REPAIR, GIS_INVALID_SKIP, GIS_INVALID_FAIL } gis_invalid;
+gis_invalid gis_options_invalid(const gis_options *options);
+
+/* The request that the options of "which features" make. */
+gis_source_request gis_options_source(const gis_options *options, const char *path, unsigned takes);
+
+/* What the CRS says of lengths; `crs` may be NULL. A Mercator projection, whose lengths are not lengths on the ground, and
+ * degrees are warned of, with the name of the layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local scale
+ * is measured. */
+gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options);
+void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
+
+/* A polygonal set from rings. Invalid rings: repaired (the even-odd set; *invalid is set, and the reason stands in
+ * reason), else an error. `who` opens messages. */
+bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
+                           gis_invalid policy, const char *who, sunder_shape **out, bool *invalid, gis_error *reason,
+                           gis_error *error);
+
+/* Is it anything but a data source? */
+bool gis_shape_is_text(const char *text);
+
+/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` opens messages. A repair is warned of. */
+bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+                         sunder_shape **out, gis_error *error);
+
+/* All polygons of a layer as one polygonal set; the source stays open for its CRS. */
+bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
+                           sunder_shape **out, gis_error *error);
+
+/* P and Q of sum and pair. */
+typedef struct gis_operands {
+    sunder_shape *p, *q;
+    gis_source *p_source, *q_source; /* NULL where the operand is a text */
+    gis_ruler rule;                  /* of the CRS of the operands, if any */
+    OGRSpatialReferenceH crs;        /* borrowed from a source, or NULL */
+} gis_operands;
+
+bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error *error);
+void gis_operands_clear(gis_operands *operands);
+
+#endif

@@ -1,0 +1,194 @@
+/* shape_text.c: shapes written on the command line or in a field: WKT, @FILE, @-, disc:, inside-disc:, square:,
+ * rectangle:. */
+#include "message.h"
+#include "operand.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char *const standard_shapes[] = {"disc:", "inside-disc:", "square:", "rectangle:"};
+enum { DISC, INSIDE_DISC, SQUARE, RECTANGLE, N_STANDARD };
+
+static const unsigned default_segments = 32;
+/* More corners than this cannot be told from a circle at any scale, and would be a slip of the pen. */
+static const double most_segments = 65536;
+
+static int standard_shape(const char *text)
+{
+    for (int i = 0; i < N_STANDARD; i++)
+        if (strncmp(text, standard_shapes[i], strlen(standard_shapes[i])) == 0)
+            return i;
+    return N_STANDARD;
+}
+
+bool gis_shape_is_text(const char *text)
+{
+    if (text[0] == '@' || standard_shape(text) != N_STANDARD)
+        return true;
+    return gis_wkt_looks_like(text) && access(text, F_OK) != 0;
+}
+
+static bool read_length(const char *text, size_t n, const char *who, const gis_ruler *rule, double *out, gis_error *error)
+{
+    gis_length length;
+    const char *why;
+    if (!gis_length_parse(text, n, &length, &why))
+        return gis_fail_usage(error, "%s: the length %.*s: %s", who, (int)n, text, why);
+    if (length.value == 0)
+        return gis_fail_usage(error, "%s: the length %.*s must be greater than 0", who, (int)n, text);
+    return gis_length_in_layer_units(&length, rule, who, out, error);
+}
+
+/* A failure of the core about an argument is wrong usage; another one is a failure of the run. */
+static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
+{
+    if (why->status == SUNDER_EARG)
+        return gis_fail_usage(error, "%s: %s", who, why->message);
+    return gis_fail(error, "%s: %s", who, why->message);
+}
+
+static bool read_disc(const char *text, bool inside, const char *who, const gis_ruler *rule, sunder_shape **out,
+                      gis_error *error)
+{
+    size_t n = strcspn(text, ":");
+    double radius, segments = default_segments;
+    if (!read_length(text, n, who, rule, &radius, error))
+        return false;
+    if (text[n] == ':') {
+        const char *count = text + n + 1;
+        if (strspn(count, "0123456789") != strlen(count) || !gis_length_parse_number(count, strlen(count), &segments))
+            return gis_fail_usage(error, "%s: %s is not a number of segments", who, count);
+    }
+    if (segments < 3 || segments > most_segments)
+        return gis_fail_usage(error, "%s: a disc needs 3 segments at least, and no more than %.0f", who, most_segments);
+    sunder_error why;
+    if (sunder_shape_disc(radius, (unsigned)segments, inside, out, &why) != SUNDER_OK)
+        return core_failed(who, &why, error);
+    return true;
+}
+
+static bool read_rectangle(const char *text, bool square, const char *who, const gis_ruler *rule, sunder_shape **out,
+                           gis_error *error)
+{
+    double width, height;
+    size_t n = square ? strlen(text) : strcspn(text, "x");
+    if (!square && text[n] != 'x')
+        return gis_fail_usage(error, "%s: expected rectangle:WIDTHxHEIGHT, as in rectangle:4x2.5", who);
+    if (!read_length(text, n, who, rule, &width, error))
+        return false;
+    height = width;
+    if (!square && !read_length(text + n + 1, strlen(text + n + 1), who, rule, &height, error))
+        return false;
+    sunder_error why;
+    if (sunder_shape_rectangle(width, height, out, &why) != SUNDER_OK)
+        return core_failed(who, &why, error);
+    return true;
+}
+
+/* Reads a whole stream; the caller frees *text. */
+static bool read_stream(FILE *file, char **text, gis_error *error)
+{
+    char *bytes = NULL;
+    size_t n = 0, capacity = 0;
+    for (;;) {
+        if (capacity - n < 2) {
+            capacity = capacity * 2 + 4096;
+            char *larger = realloc(bytes, capacity);
+            if (!larger) {
+                free(bytes);
+                return gis_no_memory(error);
+            }
+            bytes = larger;
+        }
+        size_t got = fread(bytes + n, 1, capacity - n - 1, file);
+        if (got == 0)
+            break;
+        n += got;
+    }
+    bytes[n] = '\0';
+    if (strlen(bytes) != n) {
+        free(bytes);
+        return gis_fail(error, "not a text");
+    }
+    *text = bytes;
+    return true;
+}
+
+static bool read_file(const char *name, const char *who, char **text, gis_error *error)
+{
+    bool standard = strcmp(name, "-") == 0;
+    FILE *file = standard ? stdin : fopen(name, "r");
+    if (!file)
+        return gis_fail(error, "%s: cannot read %s: %s", who, name, strerror(errno));
+    gis_error why = {0};
+    errno = 0;
+    bool ok = read_stream(file, text, &why);
+    if (ok && ferror(file)) {
+        free(*text);
+        ok = gis_fail(&why, "%s", strerror(errno));
+    }
+    if (!standard)
+        fclose(file);
+    return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
+}
+
+bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
+                           gis_invalid policy, const char *who, sunder_shape **out, bool *invalid, gis_error *reason,
+                           gis_error *error)
+{
+    sunder_error why;
+    *invalid = false;
+    sunder_status status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_STRICT, out, &why);
+    if (status == SUNDER_OK)
+        return true;
+    if (status != SUNDER_EINVALID)
+        return gis_fail(error, "%s: %s", who, why.message);
+    *invalid = true;
+    gis_fail(reason, "%s", why.message);
+    if (policy != GIS_INVALID_REPAIR)
+        return gis_fail(error, "%s: %s", who, why.message);
+    if (sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_EVEN_ODD, out, &why) != SUNDER_OK)
+        return gis_fail(error, "%s: %s", who, why.message);
+    return true;
+}
+
+static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, gis_error *error)
+{
+    gis_polygons set = {0};
+    bool invalid = false;
+    gis_error reason;
+    bool ok = gis_wkt_read(text, who, &set, error) &&
+              gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, policy, who, out, &invalid, &reason,
+                                    error);
+    if (ok && invalid)
+        gis_say_warning("%s: %s; taken as what its rings enclose by the even-odd rule", who, reason.message);
+    gis_polygons_clear(&set);
+    return ok;
+}
+
+bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+                         sunder_shape **out, gis_error *error)
+{
+    int standard = standard_shape(text);
+    if (standard != N_STANDARD) {
+        const char *rest = text + strlen(standard_shapes[standard]);
+        if (standard == DISC || standard == INSIDE_DISC)
+            return read_disc(rest, standard == INSIDE_DISC, who, rule, out, error);
+        return read_rectangle(rest, standard == SQUARE, who, rule, out, error);
+    }
+    if (text[0] == '@') {
+        char *wkt;
+        if (!read_file(text + 1, who, &wkt, error))
+            return false;
+        bool ok = shape_of_wkt(wkt, who, policy, out, error);
+        free(wkt);
+        return ok;
+    }
+    if (shape_of_wkt(text, who, policy, out, error))
+        return true;
+    error->exit_status = GIS_USAGE; /* a literal is part of the command line */
+    return false;
+}
