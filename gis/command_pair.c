@@ -1,10 +1,8 @@
-/* command_pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or Q moved as a layer. */
+/* command_pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer
+ * `pair`: the line from the anchor of Q to where it goes. */
 #include "commands.h"
 #include "message.h"
 #include "report.h"
-#include "sum_layers.h"
-
-#include <string.h>
 
 static void json_pair(gis_json *out, const sunder_separation *answer)
 {
@@ -41,6 +39,51 @@ static bool print_pair(const sunder_separation *answer, const char *path, const 
     return ok;
 }
 
+static bool add_translation(gis_sink *sink, const gis_operands *operands, const sunder_separation *answer,
+                            gis_error *error)
+{
+    static const gis_field fields[] = {{"overlap", OFTInteger64, 0},  {"dx", OFTReal, 0},
+                                       {"dy", OFTReal, 0},            {"len", OFTReal, 0},
+                                       {"contact", OFTString, 20},    {"attained", OFTInteger64, 0},
+                                       {"free", OFTInteger64, 0}};
+    const gis_layer_request request = {.suffix = "", .type = wkbLineString, .crs = operands->crs, .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_DISPLACEMENT};
+    const gis_value values[] = {
+        {GIS_INTEGER, {.integer = answer->overlap}},
+        {GIS_REAL, {.real = answer->dx}},
+        {GIS_REAL, {.real = answer->dy}},
+        {GIS_REAL, {.real = answer->distance}},
+        {GIS_TEXT, {.text = sunder_contact_string(answer->contact)}},
+        {GIS_INTEGER, {.integer = answer->attained}},
+        {GIS_INTEGER, {.integer = answer->rounded_is_free}},
+    };
+    double from[2];
+    sunder_shape_anchor(operands->q, from);
+    const double to[2] = {from[0] + answer->dx, from[1] + answer->dy};
+    OGRGeometryH line = gis_geometry_line(from, to);
+    gis_sink_layer *layer;
+    if (!line)
+        return gis_no_memory(error);
+    if (!gis_sink_add(sink, &request, &layer, error)) {
+        OGR_G_DestroyGeometry(line);
+        return false;
+    }
+    return gis_sink_write(layer, NULL, line, values, error);
+}
+
+static bool write_pair(const gis_options *options, const gis_operands *operands, const sunder_separation *answer,
+                       gis_error *error)
+{
+    gis_sink_request request = gis_options_sink(options, options->operand[2], "pair");
+    gis_sink *sink;
+    gis_sink_result result;
+    if (!gis_sink_open(&request, operands->p_source ? operands->p_source : operands->q_source, &sink, error))
+        return false;
+    bool ok = add_translation(sink, operands, answer, error) && gis_output_finish(sink, &result, error);
+    gis_sink_free(sink);
+    return ok;
+}
+
 int gis_command_pair(const gis_options *options)
 {
     gis_error error;
@@ -55,7 +98,7 @@ int gis_command_pair(const gis_options *options)
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
         ok = gis_fail(&error, "%s", why.message);
     if (ok && output)
-        ok = gis_write_pair(options, &operands, &answer, &error);
+        ok = write_pair(options, &operands, &answer, &error);
     if (ok && stats)
         ok = print_pair(&answer, stats, "--stats", &error);
     if (ok && !output && !taken)
