@@ -1,0 +1,108 @@
+/* Where the rings of one polygon meet each other and themselves.
+ *
+ * Two edges that follow each other meet in their common corner and nowhere else (clean.c has seen to spikes). Any others
+ * may be apart, cross (an error), share a piece (an error), or touch: an end of one on the other. A touch is fine if the
+ * two passages through the point stay on their sides of each other, and an error if they change sides; that is decided
+ * locally, from the four directions at the point. Each touch is looked at where the tail of one edge takes part in it, so
+ * that all are seen and few are seen twice. */
+#include "shape/build.h"
+
+bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w, uint32_t d)
+{
+    const int turn = sunder_i_rings_orient(r, p, u, w);
+    if (turn > 0) return sunder_i_rings_orient(r, p, u, d) > 0 && sunder_i_rings_orient(r, p, d, w) > 0;
+    if (turn < 0) return !(sunder_i_rings_orient(r, p, w, d) >= 0 && sunder_i_rings_orient(r, p, d, u) >= 0);
+    const sunder_i_point to_u = sunder_i_point_sub(r->lattice, r->at[u], r->at[p]);
+    const sunder_i_point to_w = sunder_i_point_sub(r->lattice, r->at[w], r->at[p]);
+    const int side = sunder_i_rings_orient(r, p, u, d);
+    if (sunder_i_dot_sign(r->lattice, to_u, to_w) < 0) return side > 0; /* opposite: a half-plane */
+    if (side != 0) return true;                                         /* equal: all but that one direction */
+    return sunder_i_dot_sign(r->lattice, to_u, sunder_i_point_sub(r->lattice, r->at[d], r->at[p])) < 0;
+}
+
+typedef struct contact {
+    const sunder_i_rings *r;
+    sunder_i_problem *problem;
+    bool touches;
+} contact;
+
+static bool report(contact *c, sunder_i_fault fault, uint32_t e, uint32_t f)
+{
+    /* The later edge is named first: "crosses segment 4" then speaks of one already seen. */
+    c->problem->fault = fault;
+    c->problem->vertex = e > f ? e : f;
+    c->problem->other = e > f ? f : e;
+    return false;
+}
+
+/* Two passages through the place of p, u1 -> p -> w1 and u2 -> p -> w2: does the second change sides of the first? */
+static bool touch(contact *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
+{
+    c->touches = true;
+    if (sunder_i_in_wedge(c->r, p, u1, w1, u2) != sunder_i_in_wedge(c->r, p, u1, w1, w2))
+        return report(c, SUNDER_I_CROSSES, e, f);
+    return true;
+}
+
+/* Edges on one line. */
+static bool collinear(contact *c, uint32_t e, uint32_t f)
+{
+    const sunder_i_rings *r = c->r;
+    uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
+    uint32_t swap;
+    if (sunder_i_rings_cmp(r, a, b) > 0) swap = a, a = b, b = swap;
+    if (sunder_i_rings_cmp(r, g, h) > 0) swap = g, g = h, h = swap;
+    const uint32_t low = sunder_i_rings_cmp(r, a, g) > 0 ? a : g, high = sunder_i_rings_cmp(r, b, h) < 0 ? b : h;
+    const int order = sunder_i_rings_cmp(r, low, high);
+    if (order < 0) return report(c, SUNDER_I_OVERLAPS, e, f);
+    if (order == 0 && ((low == e && high == f) || (low == f && high == e)))
+        return touch(c, e, f, e, r->prev[e], r->next[e], r->prev[f], r->next[f]);
+    return true;
+}
+
+static bool pair(void *user, uint32_t e, uint32_t f)
+{
+    contact *c = user;
+    const sunder_i_rings *r = c->r;
+    const uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
+    if (b == g || h == a) return true;
+    const int og = sunder_i_rings_orient(r, a, b, g), oh = sunder_i_rings_orient(r, a, b, h);
+    if (og * oh > 0) return true;
+    if (og == 0 && oh == 0) return collinear(c, e, f);
+    const int oa = sunder_i_rings_orient(r, g, h, a), ob = sunder_i_rings_orient(r, g, h, b);
+    if (oa * ob > 0) return true;
+    if (og && oh && oa && ob) return report(c, SUNDER_I_CROSSES, e, f);
+    /* The lines cross in one point and an end is there. Tails take part in three ways; touches of heads alone are seen
+     * at the edges that start there. */
+    if (og == 0 && oa == 0) return touch(c, e, f, a, r->prev[a], b, r->prev[g], h);
+    if (og == 0 && ob != 0) return touch(c, e, f, g, r->prev[g], h, a, b);
+    if (oa == 0 && oh != 0) return touch(c, e, f, a, r->prev[a], b, g, h);
+    c->touches = true;
+    return true;
+}
+
+void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches)
+{
+    contact c = {r, problem, false};
+    const uint32_t lo = ring_lo ? r->ring_end[ring_lo - 1] : 0, hi = r->ring_end[ring_hi - 1];
+    if (tree) {
+        sunder_i_box_tree_pairs(tree, r, pair, &c, arena);
+    } else {
+        /* Few edges: all pairs, by boxes first. */
+        for (uint32_t e = lo; e < hi; e++) {
+            const double *a = r->xy + 2 * (size_t)e, *b = r->xy + 2 * (size_t)r->next[e];
+            const double x0 = a[0] < b[0] ? a[0] : b[0], x1 = a[0] < b[0] ? b[0] : a[0];
+            const double y0 = a[1] < b[1] ? a[1] : b[1], y1 = a[1] < b[1] ? b[1] : a[1];
+            for (uint32_t f = e + 1; f < hi; f++) {
+                const double *g = r->xy + 2 * (size_t)f, *h = r->xy + 2 * (size_t)r->next[f];
+                if ((g[0] > x1 && h[0] > x1) || (g[0] < x0 && h[0] < x0) || (g[1] > y1 && h[1] > y1) ||
+                    (g[1] < y0 && h[1] < y0))
+                    continue;
+                if (!pair(&c, e, f)) goto done;
+            }
+        }
+    }
+done:
+    *touches = c.touches;
+}

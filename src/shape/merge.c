@@ -1,0 +1,25 @@
+/* Hertel and Mehlhorn's merging [HM83]: a diagonal goes if the pieces on its two sides together are convex at both its
+ * ends. At most four times as many pieces are left as the best decomposition without added vertices has; on buildings
+ * hardly more than it. Strictly convex: a straight corner is not accepted, since it may be needed as an end of edges. */
+#include "shape/build.h"
+
+/* Would the corner at the origin of h be strictly convex without the edge h? g is its twin. */
+static bool convex_without(const sunder_i_rings *r, const sunder_i_mesh *m, uint32_t h, uint32_t g)
+{
+    const uint32_t before = m->origin[m->prev[h]], after = m->origin[m->next[m->next[g]]];
+    return sunder_i_rings_orient(r, before, m->origin[h], after) > 0;
+}
+
+void sunder_i_mesh_merge(const sunder_i_rings *r, sunder_i_mesh *m)
+{
+    for (uint32_t h = 0; h < m->halves; h++) {
+        const uint32_t g = m->twin[h];
+        if (g == SUNDER_I_NONE || g < h) continue;
+        if (!convex_without(r, m, h, g) || !convex_without(r, m, g, h)) continue;
+        m->next[m->prev[h]] = m->next[g];
+        m->prev[m->next[g]] = m->prev[h];
+        m->next[m->prev[g]] = m->next[h];
+        m->prev[m->next[h]] = m->prev[g];
+        m->origin[h] = m->origin[g] = SUNDER_I_NONE; /* gone */
+    }
+}

@@ -1,0 +1,246 @@
+/* Shapes on a lattice.
+ *
+ * A point of an operand with exact shift s stands at x + s - o for the origin o. On a narrow lattice o - s is split into a double c
+ * and an exact remainder d (two-sum), so that x - c is small and all integers fit; the remainder's size is part of what
+ * the lattice is asked to hold. On a wide lattice the three are simply added. */
+#include "shape/shape.h"
+
+#include "predicate/predicate.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+/* Extent of the shape moved by s; bounds stay bounds. */
+static sunder_i_extent shifted_extent(const sunder_shape *shape, const double *s)
+{
+    sunder_i_extent e = shape->extent;
+    if (!s || !e.any) return e;
+    for (int k = 0; k < 2; k++) {
+        if (s[k] == 0) continue;
+        e.low[k] = nextafter(e.low[k] + s[k], -INFINITY);
+        e.high[k] = nextafter(e.high[k] + s[k], INFINITY);
+        const int b = sunder_i_low_bit(s[k]);
+        if (b < e.low_bit) e.low_bit = b;
+    }
+    return e;
+}
+
+/* Bounds past the range of doubles are brought back to its ends; false if there were any. The lattice is wide then. */
+static bool clamp_extent(sunder_i_extent *e)
+{
+    bool inside = true;
+    for (int k = 0; k < 2 && e->any; k++) {
+        if (isfinite(e->low[k]) && isfinite(e->high[k])) continue;
+        inside = false;
+        e->low[k] = fmax(fmin(e->low[k], DBL_MAX), -DBL_MAX);
+        e->high[k] = fmax(fmin(e->high[k], DBL_MAX), -DBL_MAX);
+    }
+    return inside;
+}
+
+static sunder_i_extent extent_union(const sunder_i_extent *a, const sunder_i_extent *b)
+{
+    if (!a->any) return *b;
+    if (!b->any) return *a;
+    sunder_i_extent u = *a;
+    for (int k = 0; k < 2; k++) {
+        u.low[k] = fmin(a->low[k], b->low[k]);
+        u.high[k] = fmax(a->high[k], b->high[k]);
+    }
+    if (b->low_bit < u.low_bit) u.low_bit = b->low_bit;
+    return u;
+}
+
+/* What the remainder of o - s may be: at most an ulp of what lies between. Symmetric, so that its own origin is zero. */
+static void remainder_extent(const sunder_i_extent *shifted, const double *s, sunder_i_extent *extra)
+{
+    for (int k = 0; k < 2; k++) {
+        if (!s || s[k] == 0) continue;
+        const double m = DBL_EPSILON * (fabs(shifted->low[k]) + fabs(shifted->high[k]) + 2 * fabs(s[k])) + DBL_TRUE_MIN;
+        extra->any = true;
+        extra->low[0] = extra->low[1] = fmin(extra->low[0], -m);
+        extra->high[0] = extra->high[1] = fmax(extra->high[0], m);
+        if (shifted->low_bit < extra->low_bit) extra->low_bit = shifted->low_bit;
+    }
+}
+
+static bool is_zero(const double *s) { return !s || (s[0] == 0 && s[1] == 0); }
+
+/* One coordinate's part that is the same for all vertices: x + s - o = int(x, *from) + *add. */
+static int64_t common_part(sunder_i_lattice *l, double s, double o, double *from)
+{
+    if (s == 0) {
+        *from = o;
+        return l->narrow ? 0 : sunder_i_lattice_int(l, 0, 0);
+    }
+    if (!l->narrow) {
+        *from = 0;
+        return sunder_i_lattice_sub(l, sunder_i_lattice_int(l, s, 0), sunder_i_lattice_int(l, o, 0));
+    }
+    const double c = o - s, bb = c - o, rest = (o - (c - bb)) + (-s - bb); /* Knuth's two-sum */
+    *from = c;
+    return sunder_i_lattice_int(l, -rest, 0);
+}
+
+static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, const double origin[2],
+                          sunder_i_point *out)
+{
+    static const double none[2] = {0, 0};
+    const double *s = shift ? shift : none;
+    double from[2];
+    const int64_t add[2] = {common_part(l, s[0], origin[0], &from[0]), common_part(l, s[1], origin[1], &from[1])};
+    const bool adds = !is_zero(shift);
+    for (uint32_t i = 0; i < shape->vertices; i++) {
+        out[i].x = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i], from[0]);
+        out[i].y = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i + 1], from[1]);
+        if (!adds) continue;
+        out[i].x = sunder_i_lattice_add(l, out[i].x, add[0]);
+        out[i].y = sunder_i_lattice_add(l, out[i].y, add[1]);
+    }
+}
+
+/* ---- Rational shapes: a wide lattice over the common denominator, origin zero ---- */
+
+/* A dyadic value in units of 2^exponent / denominator. */
+static sunder_i_big units_of(sunder_i_lattice *l, double v)
+{
+    int e;
+    const sunder_i_big m = sunder_i_big_double(&l->arena, v, &e);
+    if (m.size == 0) return m;
+    return sunder_i_big_mul(&l->arena, sunder_i_big_shl(&l->arena, m, (unsigned long)(e - l->exponent)), l->denominator);
+}
+
+static void place_rational(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, sunder_i_point *out)
+{
+    sunder_i_arena *arena = &l->arena;
+    sunder_i_big add[2] = {{NULL, 0}, {NULL, 0}}, factor = {NULL, 0};
+    for (int k = 0; k < 2 && shift; k++) add[k] = units_of(l, shift[k]);
+    if (shape->rational) {
+        factor = sunder_i_big_div_floor(arena, l->denominator, shape->den);
+        factor = sunder_i_big_shl(arena, factor, (unsigned long)(shape->exponent - l->exponent));
+    }
+    for (uint32_t i = 0; i < shape->vertices; i++) {
+        int64_t at[2];
+        for (size_t k = 0; k < 2; k++) {
+            const size_t c = 2 * (size_t)i + k;
+            const sunder_i_big v = shape->rational ? sunder_i_big_mul(arena, shape->num[c], factor)
+                                                   : units_of(l, shape->xy[c]);
+            at[k] = sunder_i_lattice_big(l, sunder_i_big_add(arena, v, add[k]));
+        }
+        out[i] = (sunder_i_point){at[0], at[1]};
+    }
+}
+
+static sunder_i_big lcm(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
+{
+    return sunder_i_big_mul(arena, sunder_i_big_div_floor(arena, a, sunder_i_big_gcd(arena, a, b)), b);
+}
+
+/* The unit and the denominator that hold both operands and everything else asked for. */
+static void choose_rational(sunder_i_lattice *l, const sunder_shape *const shape[2], const double *const shift[2],
+                            const sunder_i_place_options *options)
+{
+    long exponent = LONG_MAX;
+    sunder_i_big den = sunder_i_big_i64(&l->arena, 1);
+    for (int i = 0; i < 2; i++) {
+        if (!shape[i] || shape[i]->polygons == 0) continue;
+        const long e = shape[i]->rational ? shape[i]->exponent : shape[i]->extent.low_bit;
+        if (e < exponent) exponent = e;
+        if (shape[i]->rational) den = lcm(&l->arena, den, shape[i]->den);
+        for (int k = 0; k < 2 && shift[i]; k++)
+            if (sunder_i_low_bit(shift[i][k]) < exponent) exponent = sunder_i_low_bit(shift[i][k]);
+    }
+    for (size_t i = 0; i < options->extra_n; i++)
+        if (sunder_i_low_bit(options->extra[i]) < exponent) exponent = sunder_i_low_bit(options->extra[i]);
+    l->exponent = exponent == LONG_MAX ? 0 : exponent;
+    l->denominator = den;
+}
+
+/* sunder_i_approx() must stay finite: the largest coordinate sets the shift. */
+static void choose_approx_shift(sunder_i_lattice *l, const sunder_i_point *p, uint32_t n, unsigned long *most)
+{
+    for (uint32_t i = 0; i < n && !l->arena.failed; i++) {
+        const unsigned long x = sunder_i_big_bits(sunder_i_lattice_get(l, p[i].x));
+        const unsigned long y = sunder_i_big_bits(sunder_i_lattice_get(l, p[i].y));
+        if (x > *most) *most = x;
+        if (y > *most) *most = y;
+    }
+    l->approx_shift = *most > 500 ? (int)(*most - 500) : 0;
+}
+
+static sunder_status finish(sunder_i_placed *out, sunder_error *err)
+{
+    if (!out->lattice.arena.failed) return SUNDER_OK;
+    sunder_i_placed_free(out);
+    return sunder_i_no_memory(err);
+}
+
+/* -Q, origin and all. */
+static void reflect(sunder_i_placed *placed, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) placed->q[i] = sunder_i_point_neg(&placed->lattice, placed->q[i]);
+    for (int k = 0; k < 2; k++) placed->origin_q[k] = placed->origin_q[k] == 0 ? 0 : -placed->origin_q[k];
+}
+
+static sunder_status make_room(const sunder_shape *p, const sunder_shape *q, sunder_i_placed *out, sunder_error *err)
+{
+    const size_t n = p->vertices, m = q ? q->vertices : 0;
+    out->p = sunder_i_alloc(n + m, sizeof *out->p);
+    if (!out->p) return sunder_i_no_memory(err);
+    out->q = out->p + n;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const sunder_i_place_options *options,
+                             sunder_i_placed *result, sunder_error *err)
+{
+    static const sunder_i_place_options plain = {0};
+    const sunder_i_place_options *const o = options ? options : &plain;
+    sunder_i_placed placed, *const out = &placed;
+    memset(out, 0, sizeof *out);
+    if (make_room(p, q, out, err)) return SUNDER_ENOMEM;
+    const sunder_shape *const shape[2] = {p, q};
+    const double *const shift[2] = {o->shift_p, o->shift_q};
+    const bool rational = p->rational || (q && q->rational);
+    sunder_i_extent extent[4] = {shifted_extent(p, shift[0])};
+    if (q) extent[1] = shifted_extent(q, shift[1]);
+    if (o->common_origin) extent[0] = extent[1] = extent_union(&extent[0], &extent[1]);
+    extent[2].low_bit = INT_MAX;
+    for (int i = 0; i < 2; i++)
+        if (shape[i] && extent[i].any) remainder_extent(&extent[i], shift[i], &extent[2]);
+    /* The further doubles, symmetric about zero, in both coordinates. */
+    for (size_t i = 0; i < o->extra_n; i++) {
+        const double v = fabs(o->extra[i]), corner[4] = {-v, -v, v, v};
+        sunder_i_extent_add(&extent[3], corner, 2);
+    }
+    double origin[4][2];
+    bool overflow = false;
+    for (int i = 0; i < 3; i++) overflow |= !clamp_extent(&extent[i]);
+    sunder_i_lattice_init(&out->lattice, extent, 4, !overflow && !rational, origin, o->force_wide || overflow || rational);
+    if (rational) {
+        choose_rational(&out->lattice, shape, shift, o);
+        place_rational(&out->lattice, p, shift[0], out->p);
+        if (q) place_rational(&out->lattice, q, shift[1], out->q);
+        unsigned long most = 0;
+        choose_approx_shift(&out->lattice, out->p, p->vertices, &most);
+        if (q) choose_approx_shift(&out->lattice, out->q, q->vertices, &most);
+    } else {
+        memcpy(out->origin_p, origin[0], sizeof origin[0]);
+        memcpy(out->origin_q, origin[1], sizeof origin[1]);
+        place_doubles(&out->lattice, p, shift[0], out->origin_p, out->p);
+        if (q) place_doubles(&out->lattice, q, shift[1], out->origin_q, out->q);
+    }
+    if (q && o->reflect_q) reflect(out, q->vertices);
+    if (finish(out, err)) return SUNDER_ENOMEM;
+    *result = placed;
+    return SUNDER_OK;
+}
+
+void sunder_i_placed_free(sunder_i_placed *placed)
+{
+    sunder_i_lattice_free(&placed->lattice);
+    sunder_i_free(placed->p);
+    placed->p = placed->q = NULL;
+}
