@@ -17,7 +17,7 @@ typedef struct polyset {
 void *test_alloc(size_t n, size_t size);
 void *test_resize(void *old, size_t n, size_t size);
 /* malloc'ed text from a format. */
-char *test_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
+char *test_format(const char *format, ...) __attribute__((format(printf, 1, 2), nonnull(1)));
 
 void polyset_init(polyset *set);
 void polyset_free(polyset *set);

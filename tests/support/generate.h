@@ -1,0 +1,85 @@
+/* Random polygonal sets that lean towards trouble. All are valid: rings touch at points at most; members of one set may
+ * touch, share walls and overlap. */
+#ifndef SUNDER_TESTS_GENERATE_H
+#define SUNDER_TESTS_GENERATE_H
+
+#include "polyset.h"
+#include "random.h"
+
+#define CELLS_MAX 8
+
+/* A board of columns x rows rectangles, each cut in two triangles by one of its diagonals. */
+typedef struct cells {
+    int columns, rows;
+    double x[CELLS_MAX + 1], y[CELLS_MAX + 1]; /* strictly increasing */
+    bool falling[CELLS_MAX][CELLS_MAX];        /* the diagonal runs from top left to bottom right */
+    bool on[CELLS_MAX][CELLS_MAX][2];          /* [column][row][lower, upper] triangle is part of the set */
+} cells;
+
+/* The outline of the triangles that are on: a member for each edge-connected part, with its holes. pinched: rings run through points
+ * where they touch themselves (one closed walk for each side that the part shows); else they only meet there.
+ * bends_only: collinear vertices are left out. */
+void cells_outline(polyset *set, const cells *c, bool pinched, bool bends_only);
+
+/* What spacing the lines of a board have. */
+typedef enum spacing {
+    SPACING_UNIT,   /* 0, 1, 2, ... */
+    SPACING_SMALL,  /* steps of 1 to 3 */
+    SPACING_MAP,    /* eastings and northings with three decimals, as nearest doubles */
+    SPACING_RAGGED, /* full 53-bit doubles */
+    SPACING_HUGE    /* from 1e-300 to 1e300 */
+} spacing;
+
+/* A random board: squares only, or with single triangles too; `percent` of the area is on. */
+void random_cells(cells *c, rng *r, int columns, int rows, spacing kind, bool triangles, int percent);
+
+/* A board with a pocket into which -Q fits exactly, Q the outline of `peg`: the places of the reflected peg are off, and with
+ * slide > 0 the places it sweeps in moving up to that many columns. The same unit steps as the peg. */
+void pocket_for(cells *board, rng *r, const cells *peg, int slide);
+
+/* A simple polygon of n <= 8 vertices on the integers 0..span, no vertex on another edge. */
+void random_simple(polyset *set, rng *r, int n, int span);
+/* A star-shaped polygon: n directions in order, random lengths up to size, integer vertices. */
+void random_star(polyset *set, rng *r, int n, double size);
+/* n teeth upwards with slanted sides on a base, jittered; integer vertices. slant 0: the sides are vertical. */
+void random_comb(polyset *set, rng *r, int teeth, double size, bool slanted);
+/* A comb lying on its side: for forks, with random_comb(..., false). */
+void random_fork(polyset *set, rng *r, int teeth, double size, bool sideways);
+/* A convex polygon: integer vertices near a circle. */
+void random_convex(polyset *set, rng *r, int n, double size);
+/* An L, U, T or rectangle, turned by a random angle, at map-like coordinates in doubles. */
+void random_building(polyset *set, rng *r);
+
+/* ---- Pairs of operands, by kind of trouble ---- */
+
+typedef enum pair_kind {
+    PAIR_SQUARES,       /* parts of a unit grid: every direction repeated, exact fits by chance */
+    PAIR_STEPS,         /* the same with steps of 1, 2 or 3 */
+    PAIR_TRIANGLES,     /* half squares: vertices on edges, rings that touch */
+    PAIR_TRIANGLE_STEPS,
+    PAIR_PEG,           /* an exact fit: P has a pocket of the shape of -Q */
+    PAIR_SLIDE,         /* a pocket as high as the peg, and longer */
+    PAIR_SLANTED,       /* boards under a linear map: repeated slanted directions */
+    PAIR_SIMPLE,        /* small simple polygons */
+    PAIR_MEMBERS,       /* several simple polygons that overlap and touch */
+    PAIR_BOARDS,        /* several boards that overlap, touch and share walls */
+    PAIR_HOLES,         /* holes on both sides, rings that touch themselves */
+    PAIR_ROOMS,         /* P on a grid twice as wide as Q's: rooms, passages, corridors exactly as wide */
+    PAIR_MAP,           /* boards at map coordinates with three decimals */
+    PAIR_BUILDINGS,     /* turned buildings at map coordinates */
+    PAIR_RAGGED,        /* boards with 53-bit spacing */
+    PAIR_SELF,          /* Q is P, or -P */
+    PAIR_HUGE,          /* coordinates from 1e-300 to 1e300 */
+    PAIR_KINDS
+} pair_kind;
+
+const char *pair_kind_string(pair_kind kind);
+void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind);
+/* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in the
+ * middle of edges where these are exact; members in another order. */
+void random_dress(polyset *set, rng *r);
+
+/* x' = a x + b y, y' = c x + d y; exact for small integers. */
+void polyset_map(polyset *set, double a, double b, double c, double d);
+
+#endif
