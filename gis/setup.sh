@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Sourced by gis/demo.sh and tests/run.sh: what a build needs is looked for, and what is missing is installed where
 # apt-get is, else named. Nothing is installed when all is present.
 #

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # The generator of towns: the committed layer comes out again, larger towns begin with smaller ones, seeds differ,
 # houses of a terrace share walls, and nothing is overwritten unasked.
 set -eu

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Installs to a scratch prefix and builds a small program against what lies there: by pkg-config and by find_package,
 # with the shared and with the static library. The prefix is moved after installing, as packagers do.
 set -eu

@@ -1,0 +1,8 @@
+# shellcheck shell=bash
+# Builds the fuzz targets with clang and the sanitizers, in a build tree inside the one that runs the tests.
+set -eu
+command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 77; }
+cmake -S "$SUNDER_SOURCE" -B "$SUNDER_BUILD/fuzz" -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug \
+    -DCMAKE_C_FLAGS_DEBUG="-O1 -g" -DSUNDER_FUZZ=ON -DSUNDER_PROGRAM=OFF -DSUNDER_TESTS=OFF \
+    -DSUNDER_SANITIZE=fuzzer-no-link,address,undefined
+cmake --build "$SUNDER_BUILD/fuzz" --target fuzzers -j 2

@@ -1,0 +1,39 @@
+/* From a fuzzer's bytes to arguments. Most bytes give small shapes on a small grid, where everything touches and
+ * coincides; some give map coordinates, some any double at all. */
+#ifndef SUNDER_TEST_FUZZ_BYTES_H
+#define SUNDER_TEST_FUZZ_BYTES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "sunder.h"
+
+typedef struct fuzz_bytes {
+    const uint8_t *data;
+    size_t left;
+} fuzz_bytes;
+
+typedef enum fuzz_scale { FUZZ_GRID, FUZZ_MAP, FUZZ_ANY } fuzz_scale;
+
+/* The next byte; 0 when there are no more. */
+unsigned fuzz_byte(fuzz_bytes *bytes);
+fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes);
+double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale);
+
+/* From here on allocation number `after` fails, and every one after it; 0: none does. Installs the hooks once. */
+void fuzz_fail_allocations(unsigned after);
+
+/* Ends the process, so that the fuzzer keeps the input, if the statement is false. */
+#define FUZZ_DEMAND(statement) \
+    do { \
+        if (!(statement)) { \
+            fuzz_complain(__FILE__, __LINE__, #statement); \
+        } \
+    } while (0)
+_Noreturn void fuzz_complain(const char *file, int line, const char *statement);
+
+/* A shape of at most so many vertices; NULL where the library refuses it or has no memory for it. Demands that a refusal
+ * has a reason and leaves the output untouched. */
+sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices);
+
+#endif

@@ -1,0 +1,87 @@
+/* A layer of hostile shapes: what separate leaves is what check finds on the features as moved. */
+#include <string.h>
+
+#include "bytes.h"
+
+enum { MOST = 6 };
+
+static size_t count_between_blocks(const sunder_report *report) {
+    sunder_layer_summary summary;
+    sunder_report_summary(report, &summary);
+    const sunder_conflict_counts *after = &summary.after;
+    return after->overlap + after->too_close + after->barrier + after->contained + after->duplicate;
+}
+
+/* The features moved by their moves, in the blocks that the report gives them, and no others. */
+static void demand_agreement(const sunder_feature *features, size_t n, const sunder_layer_options *options,
+                             const sunder_report *report) {
+    sunder_feature moved[MOST];
+    sunder_shape *shapes[MOST] = {0};
+    sunder_layer *layer = NULL;
+    sunder_report *again = NULL;
+    sunder_layer_options checked = *options;
+    bool complete = true;
+    checked.no_blocks = true;
+    for (size_t i = 0; i < n; ++i) {
+        double dx, dy;
+        bool exact;
+        sunder_report_move(report, i, &dx, &dy);
+        complete = complete && sunder_shape_translate(features[i].shape, dx, dy, &shapes[i], &exact, NULL) == SUNDER_OK;
+        moved[i] = features[i];
+        moved[i].shape = shapes[i];
+        moved[i].block = sunder_report_block(report, i);
+    }
+    if (complete && sunder_layer_new(moved, n, &layer, NULL) == SUNDER_OK &&
+        sunder_layer_check(layer, &checked, &again, NULL) == SUNDER_OK) {
+        FUZZ_DEMAND(count_between_blocks(again) == count_between_blocks(report));
+    }
+    sunder_report_free(again);
+    sunder_layer_free(layer);
+    for (size_t i = 0; i < n; ++i) {
+        sunder_shape_free(shapes[i]);
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    fuzz_bytes bytes = {data, size};
+    unsigned fail = fuzz_byte(&bytes), plan = fuzz_byte(&bytes);
+    fuzz_scale scale = plan & 1 ? FUZZ_MAP : FUZZ_GRID;
+    sunder_feature features[MOST];
+    sunder_layer_options options;
+    size_t n = 0, wanted = 2 + plan / 2 % (MOST - 1);
+    fuzz_fail_allocations(0);
+    sunder_layer_options_init(&options);
+    options.gap = plan & 64 ? (double)(fuzz_byte(&bytes) % 16) / 4 : 0;
+    options.touch_tolerance = plan & 128 ? -1 : 0;
+    options.contained = (sunder_containment)(fuzz_byte(&bytes) % 3);
+    while (n < wanted && bytes.left > 0) {
+        sunder_shape *shape = fuzz_shape(&bytes, scale, 12);
+        if (!shape) {
+            break;
+        }
+        unsigned kind = fuzz_byte(&bytes);
+        features[n++] = (sunder_feature){.shape = shape,
+                                         .weight = 1 + (double)(kind & 3),
+                                         .max_shift = kind & 4 ? (double)(fuzz_byte(&bytes) % 16) : 1e9,
+                                         .block = kind & 8 ? (kind >> 4) & 1 : -1,
+                                         .fixed = (kind & 0xe0) == 0x20};
+    }
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    if (n > 0 && sunder_layer_new(features, n, &layer, NULL) == SUNDER_OK) {
+        fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);
+        sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
+        fuzz_fail_allocations(0);
+        FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
+        if (report) {
+            demand_agreement(features, n, &options, report);
+        }
+    }
+    sunder_report_free(report);
+    sunder_layer_free(layer);
+    for (size_t i = 0; i < n; ++i) {
+        sunder_shape_free((sunder_shape *)(uintptr_t)features[i].shape);
+    }
+    return 0;
+}

@@ -1,0 +1,17 @@
+# shellcheck shell=bash
+# Runs one fuzz target: the inputs that once failed, then a fixed number of new ones. The number of runs is fixed, and not
+# the time, so a seed replays a run; an input that takes minutes is a failure of its own (a hang).
+set -eu
+name=$1
+program=$SUNDER_BUILD/fuzz/$name
+[ -x "$program" ] || { echo "skipped: $name was not built"; exit 77; }
+seed=${SUNDER_SEED:-1} runs=$((${2:-10000} * ${SUNDER_TEST_SCALE:-1}))
+work=$SUNDER_BUILD/fuzz/found
+mkdir -p "$work"
+echo "SUNDER_SEED=$seed, $runs runs"
+shopt -s nullglob
+known=("$SUNDER_SOURCE/tests/fuzz/known/$name"/*)
+[ "${#known[@]}" -eq 0 ] || "$program" "${known[@]}"
+"$program" -seed="$seed" -runs="$runs" -max_len=400 -timeout=100 -rss_limit_mb=4096 -artifact_prefix="$work/$name-" \
+    -print_final_stats=1 -verbosity=1 2>&1 | tail -n 40
+exit "${PIPESTATUS[0]}"
