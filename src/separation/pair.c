@@ -5,19 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *sunder_contact_string(sunder_contact contact)
-{
-    switch (contact) {
-    case SUNDER_CONTACT_NONE: return "none";
-    case SUNDER_CONTACT_EDGE: return "edge";
-    case SUNDER_CONTACT_VERTEX: return "vertex";
-    case SUNDER_CONTACT_ARC: return "arc";
-    case SUNDER_CONTACT_DEGENERATE_SEGMENT: return "degenerate_segment";
-    case SUNDER_CONTACT_DEGENERATE_POINT: return "degenerate_point";
-    }
-    return "none";
-}
-
 void sunder_separation_clear(sunder_separation *separation)
 {
     if (!separation) return;

@@ -14,6 +14,9 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
 /* Does P + tp lie in Q + tq (closed sets)? Exact. */
 sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                  bool *contained, sunder_error *err);
+/* sunder_pair_distance() of translated shapes. An empty operand: infinite, with both ends at the origin. */
+sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                double *distance, double on_p[2], double on_q[2], sunder_error *err);
 /* sunder_pair_separate() of translated shapes, numbers only: no texts. upper: INFINITY, or a length past which the
  * answer no longer matters: if the least translation is longer, *beyond is set and out->lower_bound = upper. */
 sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],

@@ -1,0 +1,213 @@
+/* The distance of two sets, to about an ulp, and a shortest link. */
+#include "separation/pairing.h"
+
+#include <math.h>
+
+typedef struct link {
+    double square; /* units, squared */
+    uint32_t i, j; /* edges of P and Q, by their tails */
+} link;
+
+typedef struct vector {
+    double x, y;
+} vector;
+
+/* Differences are taken on the lattice, where nothing cancels, and only then rounded. */
+static vector between(sunder_i_pairing *g, sunder_i_point to, sunder_i_point from)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    if (l->narrow) {
+        const sunder_i_point d = sunder_i_narrow_sub(to, from);
+        return (vector){(double)d.x, (double)d.y};
+    }
+    const sunder_i_point d = sunder_i_point_sub(l, to, from);
+    return (vector){sunder_i_approx(l, d.x), sunder_i_approx(l, d.y)};
+}
+
+/* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact cross
+ * product over the length. */
+static double to_segment(sunder_i_pairing *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    const vector u = between(g, b, a), v = between(g, p, a), w = between(g, p, b);
+    const double along = v.x * u.x + v.y * u.y, square = u.x * u.x + u.y * u.y;
+    *t = 0;
+    if (!(along > 0)) return v.x * v.x + v.y * v.y;
+    *t = 1;
+    if (!(w.x * u.x + w.y * u.y < 0)) return w.x * w.x + w.y * w.y;
+    *t = along / square;
+    double cross = u.x * v.y - u.y * v.x;
+    if (l->narrow) cross = (double)sunder_i_narrow_orient(a, b, p);
+    return cross * cross / square;
+}
+
+/* The least over the four ends; *which says which: 0 a, 1 b (ends of P's edge), 2 c, 3 d. */
+static double edge_square(sunder_i_pairing *g, uint32_t i, uint32_t j, int *which, double *t)
+{
+    const sunder_i_point a = g->at[0][i], b = g->at[0][g->shape[0]->next[i]];
+    const sunder_i_point c = g->at[1][j], d = g->at[1][g->shape[1]->next[j]];
+    const sunder_i_point end[4] = {a, b, c, d};
+    double best = INFINITY;
+    for (int k = 0; k < 4; k++) {
+        double s;
+        const double square = k < 2 ? to_segment(g, end[k], c, d, &s) : to_segment(g, end[k], a, b, &s);
+        if (square < best) {
+            best = square;
+            *which = k;
+            *t = s;
+        }
+    }
+    return best;
+}
+
+static double box_square(const double *a, const double *b, const double *c, const double *d)
+{
+    double square = 0;
+    for (int k = 0; k < 2; k++) {
+        const double low = fmin(a[k], b[k]), high = fmax(a[k], b[k]), from = fmin(c[k], d[k]), to = fmax(c[k], d[k]);
+        const double off = from > high ? from - high : low > to ? low - to : 0;
+        square += off * off;
+    }
+    return square;
+}
+
+static link nearest_edges(sunder_i_pairing *g)
+{
+    const sunder_shape *p = g->shape[0], *q = g->shape[1];
+    link best = {INFINITY, 0, 0};
+    for (uint32_t i = 0; i < p->vertices; i++) {
+        const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * p->next[i];
+        const double reach = sqrt(best.square) + 4 * g->error;
+        if (box_square(a, b, g->box[1], g->box[1] + 2) > reach * reach) continue;
+        for (uint32_t j = 0; j < q->vertices; j++) {
+            const double now = sqrt(best.square) + 4 * g->error;
+            if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->next[j]) > now * now) continue;
+            int which;
+            double t;
+            const double square = edge_square(g, i, j, &which, &t);
+            if (square < best.square) best = (link){square, i, j};
+        }
+    }
+    return best;
+}
+
+/* A coordinate in the caller's units again. */
+static vector outside(sunder_i_pairing *g, vector v)
+{
+    return (vector){v.x * g->unit + g->placed.origin_p[0], v.y * g->unit + g->placed.origin_p[1]};
+}
+
+static vector link_point(sunder_i_pairing *g, int side, uint32_t edge, double t)
+{
+    const double *a = g->xy[side] + 2 * edge, *b = g->xy[side] + 2 * g->shape[side]->next[edge];
+    return outside(g, (vector){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+}
+
+static void link_ends(sunder_i_pairing *g, const link *k, double on_p[2], double on_q[2])
+{
+    int which = 0;
+    double t = 0;
+    edge_square(g, k->i, k->j, &which, &t);
+    const vector a = link_point(g, 0, k->i, which < 2 ? which : t);
+    const vector b = link_point(g, 1, k->j, which < 2 ? t : which - 2);
+    on_p[0] = a.x;
+    on_p[1] = a.y;
+    on_q[0] = b.x;
+    on_q[1] = b.y;
+}
+
+/* A point of both pieces i and j: P's is clipped by the sides of Q's, in doubles, and the middle of what is left taken. */
+static vector common_point(sunder_i_pairing *g, uint32_t i, uint32_t j, vector *buffer)
+{
+    const sunder_shape *p = g->shape[0], *q = g->shape[1];
+    const uint32_t first = i ? p->piece_end[i - 1] : 0, from = j ? q->piece_end[j - 1] : 0;
+    uint32_t n = p->piece_end[i] - first;
+    vector *now = buffer, *then = buffer + (n + q->piece_end[j] - from + 2);
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t v = p->piece_vertex[first + k];
+        now[k] = (vector){g->xy[0][2 * v], g->xy[0][2 * v + 1]};
+    }
+    for (uint32_t m = from; m < q->piece_end[j]; m++) {
+        const uint32_t a = q->piece_vertex[m], b = q->piece_vertex[m + 1 < q->piece_end[j] ? m + 1 : from];
+        const double ax = g->xy[1][2 * a], ay = g->xy[1][2 * a + 1];
+        const double ux = g->xy[1][2 * b] - ax, uy = g->xy[1][2 * b + 1] - ay;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < n; k++) {
+            const vector u = now[k], v = now[k + 1 < n ? k + 1 : 0];
+            const double s = ux * (u.y - ay) - uy * (u.x - ax), t = ux * (v.y - ay) - uy * (v.x - ax);
+            if (s >= 0) then[kept++] = u;
+            if ((s > 0 && t < 0) || (s < 0 && t > 0))
+                then[kept++] = (vector){u.x + (v.x - u.x) * (s / (s - t)), u.y + (v.y - u.y) * (s / (s - t))};
+        }
+        if (kept == 0) break; /* thinner than the doubles can tell: what was left is near enough */
+        vector *swap = now;
+        now = then;
+        then = swap;
+        n = kept;
+    }
+    vector sum = {0, 0};
+    for (uint32_t k = 0; k < n; k++) sum = (vector){sum.x + now[k].x / n, sum.y + now[k].y / n};
+    return outside(g, sum);
+}
+
+static bool common(sunder_i_pairing *g, double on[2])
+{
+    for (uint32_t i = 0; i < g->shape[0]->pieces; i++)
+        for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
+            if (!sunder_i_pieces_overlap(g, i, j)) continue;
+            const size_t most = (size_t)g->shape[0]->vertices + g->shape[1]->vertices + 2;
+            vector *buffer = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * most, sizeof *buffer);
+            if (!buffer) return true;
+            const vector v = common_point(g, i, j, buffer);
+            on[0] = v.x;
+            on[1] = v.y;
+            return true;
+        }
+    return false;
+}
+
+sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                double *distance, double on_p[2], double on_q[2], sunder_error *err)
+{
+    if (p->pieces == 0 || q->pieces == 0) {
+        *distance = INFINITY;
+        on_p[0] = on_p[1] = on_q[0] = on_q[1] = 0;
+        return SUNDER_OK;
+    }
+    sunder_i_pairing g;
+    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    if (status) return status;
+    double d = 0, ends[4] = {0, 0, 0, 0};
+    if (common(&g, ends)) {
+        ends[2] = ends[0];
+        ends[3] = ends[1];
+    } else {
+        const link k = nearest_edges(&g);
+        sunder_i_lattice *l = &g.placed.lattice;
+        d = sqrt(k.square) * g.unit;
+        /* Zero exactly where they touch. */
+        if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->next[k.i]], g.at[1][k.j], g.at[1][q->next[k.j]]) != SUNDER_I_APART)
+            d = 0;
+        else if (d == 0)
+            d = 0x1p-1074;
+        link_ends(&g, &k, ends, ends + 2);
+    }
+    if (g.placed.lattice.arena.failed)
+        status = sunder_i_no_memory(err);
+    else {
+        *distance = d;
+        for (int k = 0; k < 2; k++) {
+            on_p[k] = ends[k];
+            on_q[k] = ends[k + 2];
+        }
+    }
+    sunder_i_pairing_free(&g);
+    return status;
+}
+
+sunder_status sunder_pair_distance(const sunder_shape *p, const sunder_shape *q, double *distance, double on_p[2],
+                                   double on_q[2], sunder_error *err)
+{
+    return sunder_i_distance(p, NULL, q, NULL, distance, on_p, on_q, err);
+}
