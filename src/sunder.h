@@ -125,6 +125,11 @@ SUNDER_API size_t sunder_shape_polygons(const sunder_shape *shape);
 SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cleaning: no repeated, no collinear ones */
 SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
 SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
+/* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. */
+SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
+/* The corners x0 y0 x1 y1 ... of one ring, *n of them, outer rings counter-clockwise; of a repaired shape the nearest
+ * doubles to them. */
+SUNDER_API const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_t ring, size_t *n);
 /* xmin, ymin, xmax, ymax; of a repaired shape rounded outward. The empty set: all zero. */
 SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
 /* Area, the sum over members (overlaps count twice), to the nearest double. */
