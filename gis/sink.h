@@ -20,6 +20,7 @@ typedef struct gis_sink_request {
     const char *const *layer_options;  /* --lco */
     const char *const *dataset_options; /* --co, -dsco */
     const char *main_layer;            /* name of the main layer: --output-layer, else gis_source_name() ("sum") */
+    const char *const *suffixes;       /* of the layers that will be added besides the main one: checked at once */
     bool overwrite, update, overwrite_layer;
     bool strict;                       /* any loss is an error */
     bool allow_inexact;                /* --allow-inexact-output */

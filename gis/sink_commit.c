@@ -1,0 +1,195 @@
+/* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
+#define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "sink_internal.h"
+#include "style.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Looking at what was written -------------------------------------------------------------------------- */
+
+static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
+{
+    if (layer->file || GDALDatasetGetLayerCount(dataset) == 1)
+        return GDALDatasetGetLayer(dataset, 0); /* some formats name the layer after the file */
+    return GDALDatasetGetLayerByName(dataset, layer->name);
+}
+
+static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_result *result, gis_error *error)
+{
+    gis_sink *sink = layer->sink;
+    OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
+    if (!as_written) {
+        if (sink->format.keeps_doubles || !sink->request.allow_inexact)
+            return gis_fail(error, "%s: layer %s cannot be read back", sink->request.path, layer->name);
+        result->exact = false; /* a format that is only written, and the user knows */
+        result->deviation = INFINITY;
+        return true;
+    }
+    gis_sink_find_losses(layer, as_written);
+    if (layer->keep_sent)
+        return gis_sink_compare(layer, as_written, result, error);
+    GIntBig count = OGR_L_GetFeatureCount(as_written, TRUE);
+    if (count != (GIntBig)layer->written)
+        return gis_fail(error, "%s, layer %s: %zu features were written, but %" PRId64 " read back",
+                        sink->request.path, layer->name, layer->written, (int64_t)count);
+    return true;
+}
+
+static GDALDatasetH reopen(gis_sink *sink, const char *file)
+{
+    const char *drivers[] = {sink->format.name, NULL};
+    char *path = gis_sink_inside(sink, file);
+    GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
+    CPLFree(path);
+    return dataset;
+}
+
+static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
+{
+    bool done = true;
+    gis_listener listener = {0}; /* what a reader grumbles about is not our user's business */
+    gis_listen_begin(&listener);
+    GDALDatasetH common = sink->format.one_layer && sink->n_layers && sink->layers[0]->file
+                              ? NULL
+                              : reopen(sink, sink->main_file);
+    for (size_t i = 0; done && i < sink->n_layers; i++) {
+        gis_sink_layer *layer = sink->layers[i];
+        GDALDatasetH dataset = layer->file ? reopen(sink, layer->file) : common;
+        done = inspect_layer(layer, dataset, result, error);
+        gis_sink_forget_sent(layer);
+        if (layer->file && dataset)
+            GDALClose(dataset);
+    }
+    if (common)
+        GDALClose(common);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return done;
+}
+
+/* In a database the layers are looked at before the transaction ends: afterwards it would be too late to refuse. */
+static void inspect_database(gis_sink *sink, gis_sink_result *result)
+{
+    for (size_t i = 0; i < sink->n_layers; i++)
+        gis_sink_find_losses(sink->layers[i], sink->layers[i]->layer);
+    if (!sink->format.keeps_doubles) {
+        result->exact = false;
+        result->deviation = INFINITY;
+    }
+}
+
+static bool apply_strict(const gis_sink *sink, gis_error *error)
+{
+    if (!sink->request.strict || !sink->losses.n)
+        return true;
+    if (sink->losses.n == 1)
+        return gis_fail(error, "%s: %s (--strict)", sink->request.path, sink->losses.items[0]);
+    return gis_fail(error, "%s: %s, and %zu more losses (--strict)", sink->request.path, sink->losses.items[0],
+                    sink->losses.n - 1);
+}
+
+/* ---- Out of memory's files -------------------------------------------------------------------------------- */
+
+static bool copy_stream(VSILFILE *from, FILE *to_stdout, VSILFILE *to)
+{
+    static const size_t size = 1 << 16;
+    char *buffer = CPLMalloc(size);
+    bool done = true;
+    for (size_t got; done && (got = VSIFReadL(buffer, 1, size, from)) > 0;)
+        done = to_stdout ? fwrite(buffer, 1, got, to_stdout) == got : VSIFWriteL(buffer, 1, got, to) == got;
+    CPLFree(buffer);
+    return done;
+}
+
+static bool copy_out(gis_sink *sink, const char *file, const char *target, gis_error *error)
+{
+    char *inside = gis_sink_inside(sink, file);
+    VSILFILE *from = VSIFOpenL(inside, "rb");
+    VSILFILE *to = from && target ? VSIFOpenL(target, "wb") : NULL;
+    errno = 0;
+    bool done = from && (to || !target) && copy_stream(from, target ? NULL : stdout, to);
+    if (to && VSIFCloseL(to) != 0)
+        done = false;
+    if (!target && fflush(stdout) != 0)
+        done = false;
+    int reason = errno;
+    if (from)
+        VSIFCloseL(from);
+    CPLFree(inside);
+    return done || gis_fail(error, "%s: cannot be written%s%s", sink->request.path, reason ? ": " : "",
+                            reason ? strerror(reason) : "");
+}
+
+static bool publish_memory(gis_sink *sink, gis_error *error)
+{
+    char **files = VSIReadDir(sink->memory);
+    int n = CSLCount(files);
+    bool done = true;
+    if (sink->to_stdout && n > 1)
+        done = gis_fail(error, "%s: %s makes several files, which cannot go to the standard output",
+                        sink->request.path, sink->format.name);
+    char *base = CPLStrdup(CPLGetPath(sink->request.path));
+    int copied = 0;
+    for (int i = 0; done && i < n; i++) {
+        char *target = sink->to_stdout ? NULL : CPLStrdup(CPLFormFilename(base, files[i], NULL));
+        done = copy_out(sink, files[i], target, error);
+        copied += done;
+        CPLFree(target);
+    }
+    for (int i = 0; !done && !sink->to_stdout && i <= copied && i < n; i++) {
+        char *target = CPLStrdup(CPLFormFilename(base, files[i], NULL));
+        VSIUnlink(target);
+        CPLFree(target);
+    }
+    CPLFree(base);
+    CSLDestroy(files);
+    return done;
+}
+
+/* ---- Commit ----------------------------------------------------------------------------------------------- */
+
+static bool write_styles(gis_sink *sink, gis_error *error)
+{
+    if (!sink->format.geopackage || sink->request.no_styles)
+        return true;
+    for (size_t i = 0; i < sink->n_layers; i++) {
+        gis_sink_layer *layer = sink->layers[i];
+        if (!gis_styles_write(layer->dataset, layer->layer, layer->request.style,
+                              layer->request.as_source ? sink->source : NULL, error))
+            return false;
+    }
+    return true;
+}
+
+static bool close_all(gis_sink *sink, gis_error *error)
+{
+    for (size_t i = 0; i < sink->n_layers; i++)
+        if (sink->layers[i]->file && !gis_sink_close(sink, sink->layers[i], error))
+            return false;
+    return gis_sink_close(sink, NULL, error);
+}
+
+bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error)
+{
+    gis_sink_result seen = {true, 0};
+    if (sink->place == GIS_PLACE_DATABASE) {
+        inspect_database(sink, &seen);
+        if (!apply_strict(sink, error) || !close_all(sink, error))
+            return false;
+    } else {
+        if (!write_styles(sink, error) || !close_all(sink, error) || !inspect(sink, &seen, error) ||
+            !apply_strict(sink, error))
+            return false;
+        if (!(sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, error) : publish_memory(sink, error)))
+            return false;
+    }
+    sink->committed = true;
+    *result = seen;
+    return true;
+}
