@@ -1,0 +1,211 @@
+/* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; then round. Afterwards,
+ * from a free start, look for cheaper sides. */
+#include "displacement/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How much the search for better sides may cost: constraints looked at. About a second a hundred million. */
+#define EFFORT 40000000u
+
+static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
+{
+    if (!status && s->failed) status = sunder_i_no_memory(err);
+    if (!status)
+        for (size_t k = 0; k < s->n; k++)
+            if (s->mass[k] > 0) sunder_i_round_move(s->town, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
+    return status;
+}
+
+sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move, bool *solved,
+                                     sunder_error *err)
+{
+    sunder_i_search s;
+    if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
+    bool done = !s.failed && sunder_i_search_descend(&s);
+    if (!done && !s.failed && sunder_i_search_jump(&s)) done = sunder_i_search_descend(&s);
+    if (!done && !s.failed) sunder_i_search_relax(&s);
+    const sunder_status status = finish(&s, move, SUNDER_OK, err);
+    sunder_i_search_free(&s);
+    if (!status) *solved = done;
+    return status;
+}
+
+/* ---- Better sides ---------------------------------------------------------------------------------------------- */
+
+typedef struct rank {
+    double cost;
+    uint32_t index, other;
+} rank;
+
+static int by_cost(const void *a, const void *b)
+{
+    const rank *p = a, *q = b;
+    if (p->cost != q->cost) return p->cost > q->cost ? -1 : 1;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    return p->other < q->other ? -1 : p->other > q->other;
+}
+
+/* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
+static bool attempt(sunder_i_search *s, double *best, double *cost)
+{
+    const size_t size = 2 * s->n * sizeof *best;
+    const bool free_now = sunder_i_search_descend(s);
+    const double now = sunder_i_search_cost(s, s->t);
+    if (!s->failed && free_now && now < *cost * (1 - 1e-6)) {
+        memcpy(best, s->t, size);
+        *cost = now;
+        return true;
+    }
+    memcpy(s->t, best, size);
+    return false;
+}
+
+/* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
+static void try_places(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    size_t n = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const double c = s->mass[k] > 0 ? (s->t[2 * k] * s->t[2 * k] + s->t[2 * k + 1] * s->t[2 * k + 1]) / s->mass[k] : 0;
+        if (c > 0) order[n++] = (rank){c, k, 0};
+    }
+    qsort(order, n, sizeof *order, by_cost);
+    for (size_t k = 0; k < n && s->steps < EFFORT && !s->failed; k++) {
+        const uint32_t i = order[k].index;
+        const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
+        double place[2];
+        if (!sunder_i_search_free_body(s, i, 0.98 * length, place)) continue;
+        memcpy(s->t + 2 * i, place, sizeof place);
+        attempt(s, best, cost);
+    }
+}
+
+/* Pairs in contact, those that press hardest first, put to their other sides. */
+static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best, double *cost)
+{
+    sunder_i_search_descend(s); /* for the forces */
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+    size_t n = 0;
+    for (size_t k = 0; k < s->program.n; k++) {
+        const sunder_i_constraint *c = &s->program.constraint[k];
+        if (!(c->force > 0) || c->i == SUNDER_I_NOBODY || c->j == SUNDER_I_NOBODY) continue;
+        size_t at = 0;
+        while (at < n && (order[at].index != c->i || order[at].other != c->j)) at++;
+        if (at == room) continue;
+        if (at == n) order[n++] = (rank){0, c->i, c->j};
+        order[at].cost += c->force * c->d;
+    }
+    qsort(order, n, sizeof *order, by_cost);
+    for (size_t k = 0; k < n && s->steps < EFFORT && !s->failed; k++) {
+        const uint32_t i = order[k].index, j = order[k].other;
+        const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+        const double length = hypot(u[0], u[1]);
+        double places[4][2];
+        const size_t found = sunder_i_search_free_pair(s, i, j, home, 0.3 * length, 4, places);
+        for (size_t p = 0; p < found && s->steps < EFFORT && !s->failed; p++) {
+            if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < 0.3 * length) continue;
+            /* The lighter goes farther. */
+            const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
+            for (int c = 0; c < 2; c++) {
+                const double change = places[p][c] - u[c];
+                s->t[2 * j + (uint32_t)c] += share * change;
+                s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
+            }
+            if (attempt(s, best, cost)) break;
+        }
+    }
+}
+
+/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. */
+static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move, size_t *n,
+                          const double *own)
+{
+    sunder_i_list hits = {0};
+    bool ok = true;
+    double longest = 0;
+    for (size_t k = 0; k < 2 * cluster->n; k++) longest = fmax(longest, fabs(own[k]));
+    const double reach = town->rules.gap + cluster->margin + 2 * longest + town->far;
+    for (size_t k = 0; k < cluster->n && ok; k++) {
+        const sunder_i_body *b = &town->body[cluster->body[k]];
+        if (b->fixed || b->pieces == 0) continue;
+        double box[4];
+        for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
+        ok = sunder_i_box_tree_query(&town->tree, box, &hits);
+    }
+    for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
+    /* Sorted and without repetition, and without the cluster's own, which are sorted too. */
+    rank *order = sunder_i_alloc(hits.n, sizeof *order);
+    ok = ok && order;
+    size_t strangers = 0;
+    if (ok) {
+        for (size_t k = 0; k < hits.n; k++) order[k] = (rank){0, hits.item[k], 0};
+        qsort(order, hits.n, sizeof *order, by_cost);
+        size_t own_at = 0;
+        for (size_t k = 0; k < hits.n; k++) {
+            const uint32_t b = order[k].index;
+            if (k && b == order[k - 1].index) continue;
+            while (own_at < cluster->n && cluster->body[own_at] < b) own_at++;
+            if (own_at < cluster->n && cluster->body[own_at] == b) continue;
+            hits.item[strangers++] = b;
+        }
+        *body = sunder_i_alloc(cluster->n + strangers, sizeof **body);
+        *move = sunder_i_alloc(2 * (cluster->n + strangers), sizeof **move);
+        ok = *body && *move;
+    }
+    if (ok) {
+        memcpy(*body, cluster->body, cluster->n * sizeof **body);
+        memcpy(*move, own, 2 * cluster->n * sizeof **move);
+        for (size_t k = 0; k < strangers; k++) {
+            (*body)[cluster->n + k] = hits.item[k];
+            memcpy(*move + 2 * (cluster->n + k), town->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
+        }
+        *n = cluster->n + strangers;
+    }
+    sunder_i_free(order);
+    sunder_i_free(hits.item);
+    return ok;
+}
+
+sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                       sunder_error *err)
+{
+    uint32_t *body = NULL;
+    double *all = NULL, *best = NULL;
+    size_t n = 0;
+    rank *order = NULL;
+    sunder_i_search s;
+    memset(&s, 0, sizeof s);
+    bool ok = add_strangers(town, cluster, &body, &all, &n, move);
+    const size_t room = n > 4096 ? n : 4096;
+    if (ok) {
+        best = sunder_i_alloc(2 * n, sizeof *best);
+        order = sunder_i_alloc(room, sizeof *order);
+        ok = best && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+    }
+    if (ok) {
+        /* Strangers stay. */
+        for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
+        if (sunder_i_search_look(&s, s.t) <= s.tolerance) {
+            memcpy(best, s.t, 2 * n * sizeof *best);
+            const double before = sunder_i_search_cost(&s, s.t);
+            double cost = before;
+            for (int round = 0; round < 4 && s.steps < EFFORT && !s.failed; round++) {
+                const double start = cost;
+                try_places(&s, order, best, &cost);
+                try_sides(&s, order, room, best, &cost);
+                if (!(cost < start * (1 - 1e-3))) break;
+            }
+            memcpy(s.t, best, 2 * n * sizeof *best);
+            s.n = cluster->n;
+            if (cost < before && !s.failed) finish(&s, move, SUNDER_OK, err);
+        }
+        ok = !s.failed;
+    }
+    sunder_i_search_free(&s);
+    sunder_i_free(body);
+    sunder_i_free(all);
+    sunder_i_free(best);
+    sunder_i_free(order);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

@@ -1,0 +1,286 @@
+/* The sequence of quadratic programs.
+ *
+ * Around a reference position each pair of convex pieces gives one support constraint (contact.c). Its direction is that of the
+ * nearest point where the pair stands free; where two bodies clash the directions are taken where the pair would stand if the least
+ * translation from here had parted it, so that all pieces of the pair agree on the side. The program's solution is feasible for
+ * the true shapes, since support constraints are global; from a feasible position every round is feasible and no dearer than the last. Pieces
+ * farther off than the reach are left out until they are found in the way.
+ *
+ * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
+ * reference position. */
+#include "displacement/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_ROUNDS 40    /* rounds in all: a bound that is not met in practice */
+#define MOST_CLASHING 12  /* rounds that end in a clash before the search gives up */
+#define SOFT 1e-3
+#define SWEEPS 4000
+
+/* ---- Constraints ----------------------------------------------------------------------------------------------------- */
+
+static int by_key(const void *a, const void *b)
+{
+    const sunder_i_constraint *c = a, *d = b;
+    return c->key < d->key ? -1 : c->key > d->key;
+}
+
+static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
+{
+    const sunder_i_constraint wanted = {.key = key};
+    return n ? bsearch(&wanted, c, n, sizeof *c, by_key) : NULL;
+}
+
+static void add_constraint(sunder_i_search *s, const sunder_i_constraint *c)
+{
+    sunder_i_quadratic *p = &s->program;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
+        s->failed = true;
+        return;
+    }
+    p->constraint[p->n++] = *c;
+}
+
+/* The constraints of pair (i, j) around relative position u, of pieces no farther apart there than gap + reach. Those for which `skip`
+ * holds a constraint already are left as they are. */
+static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                           const sunder_i_constraint *skip, size_t skip_n)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_piece *a = &town->piece[p->piece + k];
+        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_piece *b = &town->piece[q->piece + l];
+            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+            const uint64_t key = (uint64_t)(p->piece + k) << 32 | (q->piece + l);
+            if (look_up(skip, skip_n, key)) continue;
+            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
+                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+            if (n == 0) {
+                s->failed = true;
+                return;
+            }
+            s->steps++;
+            const sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, u);
+            if (h.distance > r) continue;
+            const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
+            add_constraint(s, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = h.support + s->gap,
+                                                     .force = before ? before->force : 0, .key = key});
+        }
+    }
+}
+
+typedef struct around {
+    const double *t;
+    double reach;
+    const sunder_i_constraint *skip; /* NULL, or only what is missing there */
+    size_t skip_n;
+    bool clashing;
+} around;
+
+static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    around *a = context;
+    double u[2] = {a->t[2 * j] - a->t[2 * i], a->t[2 * j + 1] - a->t[2 * i + 1]};
+    if (sunder_i_search_pair(s, i, j, u) > s->tolerance) {
+        a->clashing = true;
+        double place[1][2];
+        if (sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
+    }
+    constrain_pair(s, i, j, u, a->reach, a->skip, a->skip_n);
+}
+
+static void sort_constraints(sunder_i_search *s)
+{
+    if (s->program.n) qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
+}
+
+/* All constraints around t. Returns whether a pair clashes there. */
+static bool constrain_all(sunder_i_search *s, double reach)
+{
+    sunder_i_quadratic *p = &s->program;
+    /* The last round's constraints become the old ones. */
+    sunder_i_constraint *swap = s->old;
+    const size_t capacity = s->old_capacity;
+    s->old = p->constraint;
+    s->old_n = p->n;
+    s->old_capacity = p->capacity;
+    p->constraint = swap;
+    p->capacity = capacity;
+    p->n = 0;
+    around a = {.t = s->t, .reach = reach};
+    sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
+    sort_constraints(s);
+    return a.clashing;
+}
+
+/* The limits of moves, as tangents of the discs that they are: those that s->next oversteps. Returns whether there were any. */
+static bool constrain_limits(sunder_i_search *s)
+{
+    bool any = false;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const double limit = s->town->body[s->body[k]].limit, *t = s->next + 2 * k, length = hypot(t[0], t[1]);
+        if (!(s->mass[k] > 0) || length <= limit * (1 + 1e-12)) continue;
+        any = true;
+        const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
+        add_constraint(s, &(sunder_i_constraint){.i = SUNDER_I_NOBODY, .j = k, .n = {-t[0] / length, -t[1] / length},
+                                                 .d = -limit, .key = key});
+    }
+    return any;
+}
+
+/* ---- Solving one program --------------------------------------------------------------------------------------------------- */
+
+static double longest_step(const sunder_i_search *s)
+{
+    double longest = 0;
+    for (size_t k = 0; k < 2 * s->n; k++) longest = fmax(longest, fabs(s->next[k] - s->t[k]));
+    return longest;
+}
+
+/* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the violation left. */
+static double solve(sunder_i_search *s, double softness)
+{
+    sunder_i_quadratic *p = &s->program;
+    double v = sunder_i_quadratic_solve(p, softness, s->tolerance, SWEEPS);
+    s->steps += p->n * 20;
+    if (v < 0) s->failed = true;
+    if (softness > 0 || v <= s->tolerance) return v;
+    const double step = longest_step(s);
+    double asked = 0;
+    for (int k = 0; k < 4 && v > s->tolerance && v <= 1e-3 * (step + s->gap) && !s->failed; k++) {
+        const double more = 1.5 * v;
+        asked += more;
+        for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
+        v = sunder_i_quadratic_solve(p, 0, s->tolerance, SWEEPS);
+        if (v < 0) s->failed = true;
+        v = fmax(0, v - asked);
+    }
+    return v;
+}
+
+/* The program around s->t with everything that its solution runs into. */
+static double solve_lazily(sunder_i_search *s, double softness)
+{
+    double v = 0;
+    for (int k = 0; k < 12 && !s->failed; k++) {
+        v = solve(s, softness);
+        bool more = constrain_limits(s);
+        sort_constraints(s);
+        const size_t before = s->program.n;
+        sunder_i_constraint *known = sunder_i_alloc(before, sizeof *known);
+        if (!known) {
+            s->failed = true;
+            break;
+        }
+        if (before) memcpy(known, s->program.constraint, before * sizeof *known);
+        /* Pieces in the way that no constraint knows of: their sides are those of the reference position, where they stood apart. */
+        sunder_i_search_look(s, s->next);
+        const size_t clashes = s->clashes;
+        for (size_t c = 0; c < clashes && !s->failed; c++) {
+            const uint32_t i = s->clash[c].i, j = s->clash[c].j;
+            double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+            if (sunder_i_search_pair(s, i, j, u) > s->tolerance) continue;
+            const double w[2] = {s->next[2 * j] - s->next[2 * i], s->next[2 * j + 1] - s->next[2 * i + 1]};
+            constrain_pair(s, i, j, u, hypot(w[0] - u[0], w[1] - u[1]) + s->clash[c].violation, known, before);
+        }
+        more = more || s->program.n > before;
+        sunder_i_free(known);
+        sort_constraints(s);
+        if (!more) break;
+    }
+    return v;
+}
+
+/* ---- The sequence --------------------------------------------------------------------------------------------------------------- */
+
+bool sunder_i_search_descend(sunder_i_search *s)
+{
+    double reach = s->gap, cost = INFINITY;
+    bool free_now = false;
+    int clashing_rounds = 0;
+    for (int round = 0; round < MOST_ROUNDS && !s->failed; round++) {
+        const bool clashing = constrain_all(s, reach);
+        if (s->failed) return false;
+        double v;
+        if (clashing) {
+            v = solve_lazily(s, SOFT);
+            /* A compromise that misses by more than softness explains is a contradiction; else the hard program has a solution. */
+            const double step = longest_step(s);
+            if (v <= 5 * SOFT * (step + s->gap)) {
+                double *soft = sunder_i_alloc(2 * s->n, sizeof *soft);
+                if (!soft) {
+                    s->failed = true;
+                    return false;
+                }
+                memcpy(soft, s->next, 2 * s->n * sizeof *soft);
+                v = solve_lazily(s, 0);
+                if (v > s->tolerance) memcpy(s->next, soft, 2 * s->n * sizeof *soft);
+                sunder_i_free(soft);
+            }
+        } else {
+            v = solve_lazily(s, 0);
+        }
+        if (s->failed) return false;
+        const bool free_next = sunder_i_search_look(s, s->next) <= s->tolerance;
+        const double next_cost = sunder_i_search_cost(s, s->next);
+        const double step = longest_step(s);
+        if (free_next && free_now && next_cost > cost - 1e-9 * cost) {
+            if (next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+            return true;
+        }
+        if (!free_next && free_now) return true; /* numerically stuck: what stands is free */
+        memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+        free_now = free_next;
+        cost = next_cost;
+        reach = fmax(1.5 * step, s->gap / 8);
+        if (!free_now && ++clashing_rounds >= MOST_CLASHING) break;
+    }
+    return free_now;
+}
+
+/* ---- Jumping ------------------------------------------------------------------------------------------------------------------------- */
+
+static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
+{
+    return (t[0] * t[0] + t[1] * t[1]) / (2 * s->mass[i]);
+}
+
+bool sunder_i_search_jump(sunder_i_search *s)
+{
+    /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
+    size_t stuck = 0;
+    for (size_t k = 0; k <= 2 * s->n && !s->failed; k++) {
+        sunder_i_search_look(s, s->t);
+        if (s->clashes <= stuck) break;
+        double best_cost = INFINITY, best[2] = {0, 0};
+        uint32_t who = 0;
+        stuck = 0;
+        for (size_t c = 0; c < s->clashes && !(best_cost < INFINITY); c++) {
+            const uint32_t pair[2] = {s->clash[c].i, s->clash[c].j};
+            for (int e = 0; e < 2; e++) {
+                double place[2];
+                const uint32_t i = pair[e];
+                if (!(s->mass[i] > 0) || !sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place)) continue;
+                const double more = cost_of(s, i, place) - cost_of(s, i, s->t + 2 * i);
+                if (more < best_cost) {
+                    best_cost = more;
+                    memcpy(best, place, sizeof best);
+                    who = i;
+                }
+            }
+            if (!(best_cost < INFINITY)) stuck++;
+        }
+        if (!(best_cost < INFINITY)) break;
+        memcpy(s->t + 2 * who, best, sizeof best);
+    }
+    if (s->failed) return false;
+    return sunder_i_search_look(s, s->t) <= s->tolerance;
+}

@@ -1,0 +1,265 @@
+/* Places outside a union of open convex polygons, nearest first.
+ *
+ * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and where two walls
+ * of different obstacles cross: at a corner of one obstacle the distance falls along one of its two walls. So these are all the
+ * candidates; they are taken by distance, and each is tested against all obstacles. Walls are sorted by distance, and a
+ * crossing is no nearer than the farther of its walls, so the search stops as soon as the walls left are farther than the places
+ * found.
+ *
+ * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
+#include "displacement/displacement.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Round corners are cut by tangents so that normals turn by at most this: the place proposed keeps at most 2 % more than the gap. */
+#define TURN (3.14159265358979323846 / 8)
+/* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block stands amid
+ * hundreds of neighbours. */
+#define MOST_CROSSED 3000
+
+void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
+{
+    sunder_i_free(obstacles->obstacle);
+    sunder_i_free(obstacles->wall);
+    memset(obstacles, 0, sizeof *obstacles);
+}
+
+/* ---- Building ------------------------------------------------------------------------------------------------- */
+
+/* A wall with normal n through the corner c, ends to be filled in. */
+static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
+{
+    if (o->failed || !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall)) {
+        o->failed = true;
+        return;
+    }
+    sunder_i_wall *w = &o->wall[o->walls++];
+    memset(w, 0, sizeof *w);
+    w->n[0] = n[0];
+    w->n[1] = n[1];
+    w->h = n[0] * c[0] + n[1] * c[1] + gap;
+    w->from[0] = c[0]; /* for now the corner that this wall starts at; close_walls() moves it out */
+    w->from[1] = c[1];
+    w->obstacle = (uint32_t)o->n;
+}
+
+/* The normals between those of two edges that meet in c. */
+static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
+{
+    const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
+    const double angle = turn < -1e-3 ? turn + 2 * 3.14159265358979323846 : turn; /* a flat piece turns by half a circle */
+    const int steps = (int)ceil(angle / TURN);
+    for (int k = 1; k < steps; k++) {
+        const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
+        add_normal(o, t, c, gap);
+    }
+}
+
+/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along the
+ * bisector of the normals. */
+static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
+{
+    const size_t n = o->walls - first;
+    sunder_i_obstacle *obstacle = &o->obstacle[o->n];
+    obstacle->wall = (uint32_t)first;
+    obstacle->walls = (uint32_t)n;
+    obstacle->box[0] = obstacle->box[1] = INFINITY;
+    obstacle->box[2] = obstacle->box[3] = -INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        sunder_i_wall *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
+        const double s = gap / (1 + w->n[0] * before->n[0] + w->n[1] * before->n[1]);
+        const double c[2] = {w->from[0] + s * (w->n[0] + before->n[0]), w->from[1] + s * (w->n[1] + before->n[1])};
+        for (int i = 0; i < 2; i++) {
+            w->from[i] = before->to[i] = c[i];
+            obstacle->box[i] = fmin(obstacle->box[i], c[i]);
+            obstacle->box[i + 2] = fmax(obstacle->box[i + 2], c[i]);
+        }
+    }
+    o->n++;
+}
+
+void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, double gap)
+{
+    const size_t first = o->walls;
+    if (o->failed || !sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) {
+        o->failed = true;
+        return;
+    }
+    double before[2] = {0, 0}, first_normal[2] = {0, 0};
+    const double *first_corner = d;
+    bool any = false;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
+        const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
+        if (!(length > 0)) continue;
+        const double m[2] = {ey / length, -ex / length};
+        if (any && gap > 0) add_round(o, before, m, p, gap);
+        add_normal(o, m, p, gap);
+        if (!any) {
+            memcpy(first_normal, m, sizeof m);
+            first_corner = p;
+        }
+        memcpy(before, m, sizeof m);
+        any = true;
+    }
+    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap);
+    if (o->failed) return;
+    if (o->walls - first < 3) {
+        o->walls = first; /* no area, no gap: no obstacle */
+        return;
+    }
+    close_walls(o, first, gap);
+}
+
+/* ---- Searching --------------------------------------------------------------------------------------------------- */
+
+static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
+{
+    const double *b = obstacle->box;
+    if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
+    /* Places are computed on walls: within this of one counts as on it. */
+    const double slack = 1e-9 * (b[2] - b[0] + b[3] - b[1]);
+    for (uint32_t k = 0; k < obstacle->walls; k++) {
+        const sunder_i_wall *w = &o->wall[obstacle->wall + k];
+        if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
+    }
+    return true;
+}
+
+/* hint: the obstacle that was hit last is often hit again. */
+static bool free_at(const sunder_i_obstacles *o, const double x[2], size_t *hint)
+{
+    if (*hint < o->n && inside(o, &o->obstacle[*hint], x)) return false;
+    for (size_t k = 0; k < o->n; k++)
+        if (inside(o, &o->obstacle[k], x)) {
+            *hint = k;
+            return false;
+        }
+    return true;
+}
+
+bool sunder_i_obstacles_free_at(const sunder_i_obstacles *o, const double x[2])
+{
+    size_t hint = 0;
+    return free_at(o, x, &hint);
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const sunder_i_wall *v = a, *w = b;
+    if (v->distance != w->distance) return v->distance < w->distance ? -1 : 1;
+    if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle ? -1 : 1;
+    if (v->n[0] != w->n[0]) return v->n[0] < w->n[0] ? -1 : 1;
+    return v->n[1] < w->n[1] ? -1 : v->n[1] > w->n[1];
+}
+
+/* The point of the wall nearest to x. */
+static void nearest_on(const sunder_i_wall *w, const double x[2], double out[2])
+{
+    const double ex = w->to[0] - w->from[0], ey = w->to[1] - w->from[1], square = ex * ex + ey * ey;
+    double s = square > 0 ? ((x[0] - w->from[0]) * ex + (x[1] - w->from[1]) * ey) / square : 0;
+    s = s < 0 ? 0 : s > 1 ? 1 : s;
+    out[0] = w->from[0] + s * ex;
+    out[1] = w->from[1] + s * ey;
+}
+
+typedef struct harvest {
+    const sunder_i_obstacles *obstacles;
+    const double *target;
+    double limit, spread;
+    size_t most, n, hint;
+    double (*place)[2];
+    double *distance;
+} harvest;
+
+/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the nearer stays. */
+static void offer(harvest *h, const double x[2])
+{
+    const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+    if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
+    for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
+        if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
+    if (!free_at(h->obstacles, x, &h->hint)) return;
+    size_t k = 0;
+    while (k < h->n && h->distance[k] <= d) k++;
+    /* Those behind that are too near the new one go. */
+    size_t out = k;
+    for (size_t i = k; i < h->n; i++)
+        if (hypot(x[0] - h->place[i][0], x[1] - h->place[i][1]) > h->spread) {
+            memmove(h->place[out], h->place[i], sizeof h->place[i]);
+            h->distance[out++] = h->distance[i];
+        }
+    h->n = out;
+    if (h->n == h->most) h->n--;
+    for (size_t i = h->n; i > k; i--) {
+        memcpy(h->place[i], h->place[i - 1], sizeof h->place[i]);
+        h->distance[i] = h->distance[i - 1];
+    }
+    h->place[k][0] = x[0];
+    h->place[k][1] = x[1];
+    h->distance[k] = d;
+    h->n++;
+}
+
+static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
+
+/* Crossings of wall w with every wall before it. */
+static void offer_crossings(harvest *h, const sunder_i_obstacles *o, size_t w)
+{
+    const sunder_i_wall *a = &o->wall[w];
+    for (size_t v = 0; v < w; v++) {
+        const sunder_i_wall *b = &o->wall[v];
+        if (a->obstacle == b->obstacle) continue;
+        const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h, d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
+        if ((d1 > 0) == (d2 > 0)) continue;
+        const double e1 = a->n[0] * b->from[0] + a->n[1] * b->from[1] - a->h, e2 = a->n[0] * b->to[0] + a->n[1] * b->to[1] - a->h;
+        if ((e1 > 0) == (e2 > 0)) continue;
+        const double s = d1 / (d1 - d2), x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
+        offer(h, x);
+    }
+}
+
+size_t sunder_i_free_places(sunder_i_obstacles *o, const double target[2], double limit, double spread, size_t most,
+                            double (*places)[2])
+{
+    enum { MOST = 16 };
+    double distance[MOST];
+    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, 0, places, distance};
+    if (h.most == 0 || o->failed) return 0;
+    offer(&h, target);
+    if (h.n) return h.n;
+    for (size_t k = 0; k < o->walls; k++) {
+        double x[2];
+        nearest_on(&o->wall[k], target, x);
+        o->wall[k].distance = hypot(x[0] - target[0], x[1] - target[1]);
+    }
+    if (o->walls) qsort(o->wall, o->walls, sizeof *o->wall, by_distance);
+    /* Sorted walls are no longer grouped by obstacle, which inside() needs; regroup a copy for it. */
+    sunder_i_wall *sorted = o->wall, *grouped = sunder_i_alloc(o->walls, sizeof *grouped);
+    if (!grouped) {
+        o->failed = true;
+        return 0;
+    }
+    for (size_t k = 0; k < o->n; k++) o->obstacle[k].walls = 0;
+    for (size_t k = 0; k < o->walls; k++) {
+        sunder_i_obstacle *obstacle = &o->obstacle[sorted[k].obstacle];
+        grouped[obstacle->wall + obstacle->walls++] = sorted[k];
+    }
+    sunder_i_obstacles view = *o, by_wall = *o;
+    view.wall = grouped;
+    by_wall.wall = sorted;
+    h.obstacles = &view;
+    for (size_t k = 0; k < o->walls && sorted[k].distance <= reach_of(&h); k++) {
+        double x[2];
+        nearest_on(&sorted[k], target, x);
+        offer(&h, x);
+    }
+    for (size_t k = 0; k < o->walls && k < MOST_CROSSED && sorted[k].distance <= reach_of(&h); k++)
+        offer_crossings(&h, &by_wall, k);
+    sunder_i_free(sorted);
+    o->wall = grouped;
+    o->wall_capacity = o->walls;
+    return h.n;
+}

@@ -1,0 +1,92 @@
+/* The report: what was done, feature by feature, and what remains. */
+#include "displacement/displacement.h"
+
+#include <string.h>
+
+sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err)
+{
+    const size_t n = town->features;
+    sunder_report *r = sunder_i_calloc(1, sizeof *r);
+    if (!r) return sunder_i_no_memory(err);
+    r->n = n;
+    r->move = sunder_i_calloc(2 * n, sizeof *r->move);
+    r->status = sunder_i_calloc(n, sizeof *r->status);
+    r->block = sunder_i_calloc(n, sizeof *r->block);
+    if (!r->move || !r->status || !r->block) {
+        sunder_report_free(r);
+        return sunder_i_no_memory(err);
+    }
+    /* Bodies are numbered by their first members, so one pass over them numbers the blocks as promised. */
+    int64_t blocks = 0;
+    for (size_t b = 0; b < town->bodies; b++) {
+        const sunder_i_body *body = &town->body[b];
+        const int64_t number = body->members > 1 ? blocks++ : -1;
+        for (uint32_t k = 0; k < body->members; k++) r->block[town->member[body->member + k]] = number;
+    }
+    r->summary.features = n;
+    r->summary.blocks = (size_t)blocks;
+    r->summary.max_feature = SIZE_MAX;
+    for (size_t f = 0; f < n; f++) {
+        const sunder_feature *feature = &town->layer->feature[f];
+        if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
+        const bool fixed = town->body[town->body_of[f]].fixed;
+        r->status[f] = feature->ignored ? SUNDER_SKIPPED : fixed ? SUNDER_FIXED : SUNDER_UNMOVED;
+        if (feature->ignored) r->summary.skipped++;
+    }
+    *out = r;
+    return SUNDER_OK;
+}
+
+void sunder_report_free(sunder_report *r)
+{
+    if (!r) return;
+    sunder_i_free(r->move);
+    sunder_i_free(r->status);
+    sunder_i_free(r->block);
+    sunder_i_free(r->conflict);
+    sunder_i_free(r->blocker);
+    sunder_i_free(r->bound_pair);
+    sunder_i_free(r);
+}
+
+void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)
+{
+    if (conflict->inside_block) {
+        counts->inside_blocks++;
+        return;
+    }
+    switch (conflict->kind) {
+    case SUNDER_OVERLAP: counts->overlap++; break;
+    case SUNDER_TOO_CLOSE: counts->too_close++; break;
+    case SUNDER_BARRIER: counts->barrier++; break;
+    case SUNDER_CONTAINED: counts->contained++; break;
+    case SUNDER_DUPLICATE: counts->duplicate++; break;
+    }
+}
+
+void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary) { *summary = report->summary; }
+
+void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy)
+{
+    *dx = report->move[2 * feature];
+    *dy = report->move[2 * feature + 1];
+}
+
+sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature)
+{
+    return report->status[feature];
+}
+
+int64_t sunder_report_block(const sunder_report *report, size_t feature) { return report->block[feature]; }
+
+const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n)
+{
+    *n = report->conflicts;
+    return report->conflict;
+}
+
+const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n)
+{
+    *n = report->bound_pairs;
+    return report->bound_pair;
+}

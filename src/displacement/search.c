@@ -1,0 +1,293 @@
+/* One cluster as the search sees it: which bodies stand near each other, which clash, and by how much. */
+#include "displacement/search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const uint32_t *body, size_t n, double margin,
+                          const double *move)
+{
+    memset(s, 0, sizeof *s);
+    s->town = town;
+    s->body = body;
+    s->n = n;
+    s->gap = town->rules.gap + margin;
+    s->tolerance = margin / 4;
+    s->mass = sunder_i_alloc(n, sizeof *s->mass);
+    s->t = sunder_i_alloc(2 * n, sizeof *s->t);
+    s->next = sunder_i_alloc(2 * n, sizeof *s->next);
+    s->box = sunder_i_alloc(4 * n, sizeof *s->box);
+    s->order = sunder_i_alloc(n, sizeof *s->order);
+    if (!s->mass || !s->t || !s->next || !s->box || !s->order) return false;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *b = &town->body[body[k]];
+        s->mass[k] = b->fixed ? 0 : 0.5 / b->weight;
+    }
+    memcpy(s->t, move, 2 * n * sizeof *s->t);
+    s->program.bodies = n;
+    s->program.mass = s->mass;
+    s->program.t = s->next;
+    return true;
+}
+
+void sunder_i_search_free(sunder_i_search *s)
+{
+    sunder_i_free(s->mass);
+    sunder_i_free(s->t);
+    sunder_i_free(s->next);
+    sunder_i_free(s->box);
+    sunder_i_free(s->order);
+    sunder_i_free(s->program.constraint);
+    sunder_i_free(s->old);
+    sunder_i_free(s->clash);
+    sunder_i_free(s->scratch.xy);
+    memset(s, 0, sizeof *s);
+}
+
+double sunder_i_search_cost(const sunder_i_search *s, const double *t)
+{
+    double cost = 0;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * s->mass[k]);
+    return cost;
+}
+
+/* ---- Who stands near whom ---------------------------------------------------------------------------------------- */
+
+/* Sorts order by the left sides of the boxes; insertion would do between rounds, but clusters can be large. */
+static int by_left(const void *a, const void *b)
+{
+    const double *p = *(const double *const *)a, *q = *(const double *const *)b;
+    if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+    return p < q ? -1 : p > q;
+}
+
+static bool sort_boxes(sunder_i_search *s, const double *t, double reach)
+{
+    const double *o = s->town->body[s->body[0]].origin;
+    const double **left = sunder_i_alloc(s->n, sizeof *left);
+    if (!left) return false;
+    for (size_t k = 0; k < s->n; k++) {
+        const sunder_i_body *b = &s->town->body[s->body[k]];
+        for (int c = 0; c < 4; c++)
+            s->box[4 * k + (size_t)c] =
+                b->box[c] + (b->origin[c & 1] - o[c & 1]) + t[2 * k + (size_t)(c & 1)] + (c < 2 ? -reach / 2 : reach / 2);
+        left[k] = s->box + 4 * k;
+    }
+    qsort(left, s->n, sizeof *left, by_left);
+    for (size_t k = 0; k < s->n; k++) s->order[k] = (uint32_t)((size_t)(left[k] - s->box) / 4);
+    sunder_i_free(left);
+    return true;
+}
+
+void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sunder_i_near visit, void *context)
+{
+    if (!sort_boxes(s, t, reach)) {
+        s->failed = true;
+        return;
+    }
+    /* visit() may look elsewhere, but never sorts again. */
+    for (size_t x = 0; x < s->n && !s->failed; x++) {
+        const uint32_t i = s->order[x];
+        const double *a = s->box + 4 * i;
+        for (size_t y = x + 1; y < s->n; y++) {
+            const uint32_t j = s->order[y];
+            const double *b = s->box + 4 * j;
+            if (b[0] > a[2]) break;
+            if (b[1] > a[3] || a[1] > b[3] || !(s->mass[i] + s->mass[j] > 0)) continue;
+            visit(s, i < j ? i : j, i < j ? j : i, context);
+        }
+    }
+}
+
+/* ---- Who clashes -------------------------------------------------------------------------------------------------- */
+
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
+    double worst = 0;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_piece *a = &town->piece[p->piece + k];
+        const double box[4] = {a->box[0] - v[0] - s->gap, a->box[1] - v[1] - s->gap, a->box[2] - v[0] + s->gap,
+                               a->box[3] - v[1] + s->gap};
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_piece *b = &town->piece[q->piece + l];
+            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
+                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+            if (n == 0) {
+                s->failed = true;
+                return worst;
+            }
+            s->steps++;
+            worst = fmax(worst, s->gap - sunder_i_support_at(s->scratch.xy, n, u).distance);
+        }
+    }
+    return worst;
+}
+
+typedef struct look {
+    const double *t;
+    double worst;
+} look;
+
+static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    look *l = context;
+    const double u[2] = {l->t[2 * j] - l->t[2 * i], l->t[2 * j + 1] - l->t[2 * i + 1]};
+    const double v = sunder_i_search_pair(s, i, j, u);
+    if (v > l->worst) l->worst = v;
+    if (v <= s->tolerance || s->failed) return;
+    if (!sunder_i_reserve(&s->clash, &s->clash_capacity, s->clashes + 1, sizeof *s->clash)) {
+        s->failed = true;
+        return;
+    }
+    s->clash[s->clashes++] = (sunder_i_clash){i, j, v};
+}
+
+double sunder_i_search_look(sunder_i_search *s, const double *t)
+{
+    look l = {t, 0};
+    s->clashes = 0;
+    sunder_i_search_near(s, t, s->gap, look_at, &l);
+    return l.worst;
+}
+
+/* ---- Where there is room ------------------------------------------------------------------------------------------- */
+
+/* Adds the obstacles that pieces of q make for pieces of p (or for the one convex outline given), within reach of u. */
+static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
+                          const double offset[2], const double u[2], double reach)
+{
+    const sunder_i_town *town = s->town;
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
+    for (uint32_t k = 0; k < p->pieces; k++) {
+        const sunder_i_piece *a = &town->piece[p->piece + k];
+        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) {
+            const sunder_i_piece *b = &town->piece[q->piece + l];
+            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
+                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+            if (n == 0) {
+                s->failed = true;
+                return;
+            }
+            s->steps += 4;
+            sunder_i_obstacles_add(o, s->scratch.xy, n, s->gap);
+        }
+    }
+}
+
+static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+
+/* Beyond everything, in the four directions: always free, for when all else is full. */
+static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
+{
+    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, best = INFINITY;
+    for (size_t k = 0; k < o->n; k++)
+        for (int c = 0; c < 2; c++) {
+            all[c] = fmin(all[c], o->obstacle[k].box[c]);
+            all[c + 2] = fmax(all[c + 2], o->obstacle[k].box[c + 2]);
+        }
+    for (int c = 0; c < 4; c++) {
+        const double d = fabs(all[c] - target[c & 1]);
+        if (!(d < best) || d > limit) continue;
+        best = d;
+        place[c & 1] = all[c];
+        place[1 - (c & 1)] = target[1 - (c & 1)];
+    }
+    return best < INFINITY;
+}
+
+size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
+                                 size_t most, double (*places)[2])
+{
+    const sunder_i_body *p = &s->town->body[s->body[i]], *q = &s->town->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
+    for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
+        sunder_i_obstacles o;
+        memset(&o, 0, sizeof o);
+        add_obstacles(s, &o, p, q, offset, target, reach);
+        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places);
+        if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
+        s->failed = s->failed || o.failed;
+        sunder_i_obstacles_free(&o);
+        if (n || s->failed) return n;
+        if (reach > all) return 0;
+    }
+}
+
+/* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to hits once each. */
+static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
+{
+    const sunder_i_town *town = s->town;
+    double where[4];
+    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1] + (c < 2 ? -s->town->far : s->town->far);
+    if (!sunder_i_box_tree_query(&town->tree, where, hits)) return false;
+    for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
+    size_t out = 0;
+    for (size_t k = 0; k < hits->n; k++) {
+        bool known = false;
+        for (size_t m = 0; m < s->n && !known; m++) known = s->body[m] == hits->item[k];
+        for (size_t m = 0; m < out && !known; m++) known = hits->item[m] == hits->item[k];
+        if (!known) hits->item[out++] = hits->item[k];
+    }
+    hits->n = out;
+    return true;
+}
+
+/* Obstacles for body i from all the others, within reach of place `at`. */
+static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
+                     const sunder_i_list *foreign)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]];
+    for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
+        if (k == i) continue;
+        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
+        const sunder_i_body *q = &town->body[body];
+        if (q->pieces == 0) continue;
+        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
+        const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
+        add_obstacles(s, o, q, p, offset, at, reach);
+    }
+}
+
+bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+{
+    const sunder_i_body *p = &s->town->body[s->body[i]];
+    const double home[2] = {0, 0};
+    const double *town_box = s->town->tree.box + 4 * (s->town->tree.level[s->town->tree.levels] - 1);
+    const double all = 4 * (extent(town_box) + extent(p->box) + s->town->far + s->gap);
+    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
+    for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
+        if (reach > limit) reach = limit;
+        sunder_i_list foreign = {0};
+        sunder_i_obstacles o;
+        memset(&o, 0, sizeof o);
+        const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
+        if (!strangers(s, p, box, &foreign)) s->failed = true;
+        surround(s, &o, i, home, reach, &foreign);
+        double best[1][2];
+        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best);
+        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
+        s->failed = s->failed || o.failed;
+        sunder_i_obstacles_free(&o);
+        sunder_i_free(foreign.item);
+        if (n) {
+            place[0] = best[0][0];
+            place[1] = best[0][1];
+        }
+        if (n || s->failed) return n != 0 && !s->failed;
+        if (reach >= limit || reach > all) return false;
+    }
+}

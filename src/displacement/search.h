@@ -1,0 +1,63 @@
+/* The search for the moves of one cluster: state shared by its stages. All in doubles; see README.md. */
+#ifndef SUNDER_I_SEARCH_H
+#define SUNDER_I_SEARCH_H
+
+#include "displacement/displacement.h"
+
+/* Two bodies of the cluster, by their places in it, and what they miss. */
+typedef struct sunder_i_clash {
+    uint32_t i, j;
+    double violation;
+} sunder_i_clash;
+
+typedef struct sunder_i_search {
+    const sunder_i_town *town;
+    const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
+    size_t n;
+    double gap;                 /* the gap and the margin */
+    double tolerance;           /* a violation below this counts as none: a quarter of the margin */
+    double *mass;               /* [n] 1 / (2 weight), or 0 */
+    double *t;                  /* [2 n] where they stand */
+    double *box;                /* [4 n] of the bodies as they stand, relative to the first body's origin */
+    uint32_t *order;            /* [n] for sweeps over boxes */
+    sunder_i_quadratic program; /* its constraints are kept sorted by key */
+    double *next;               /* [2 n] the program's result */
+    sunder_i_constraint *old;   /* the previous round's, for the forces */
+    size_t old_n, old_capacity;
+    sunder_i_clash *clash;      /* of the last look */
+    size_t clashes, clash_capacity;
+    sunder_i_scratch scratch;
+    uint64_t steps;             /* work done, in constraints looked at */
+    bool failed;                /* memory is out */
+} sunder_i_search;
+
+/* Looks at the bodies as they stand at move (two doubles a body, copied). */
+bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, const uint32_t *body, size_t n, double margin,
+                          const double *move);
+void sunder_i_search_free(sunder_i_search *search);
+
+/* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
+typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
+void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
+
+/* Fills search->clash with the pairs that violate the gap at t; returns the worst violation. */
+double sunder_i_search_look(sunder_i_search *search, const double *t);
+/* What pair (i, j) misses at relative position u. */
+double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
+/* sum w |t|^2 */
+double sunder_i_search_cost(const sunder_i_search *search, const double *t);
+
+/* Free relative positions of j to i, nearest to target first. */
+size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
+                                 size_t most, double (*places)[2]);
+/* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
+bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
+
+/* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a compromise. */
+bool sunder_i_search_descend(sunder_i_search *search);
+/* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
+bool sunder_i_search_jump(sunder_i_search *search);
+/* Clashes that no move within the limits resolves: makes the worst violation least, then the next, then the cost. */
+void sunder_i_search_relax(sunder_i_search *search);
+
+#endif

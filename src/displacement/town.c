@@ -1,0 +1,231 @@
+/* The town: features with their boxes, the near pairs, and the bodies that the rules make of them. */
+#include "displacement/displacement.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_town_free(sunder_i_town *town)
+{
+    sunder_i_free(town->body_of);
+    sunder_i_free(town->member);
+    sunder_i_free(town->body);
+    sunder_i_free(town->piece);
+    sunder_i_free(town->corner);
+    sunder_i_free(town->box);
+    sunder_i_free(town->present);
+    sunder_i_free(town->kept);
+    sunder_i_free(town->move);
+    sunder_i_free(town->inexact);
+    sunder_i_box_tree_free(&town->tree);
+    memset(town, 0, sizeof *town);
+}
+
+sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_town *town,
+                                 sunder_error *err)
+{
+    memset(town, 0, sizeof *town);
+    const size_t n = layer->n;
+    town->layer = layer;
+    town->rules = *rules;
+    town->features = n;
+    town->body_of = sunder_i_alloc(n, sizeof *town->body_of);
+    town->member = sunder_i_alloc(n, sizeof *town->member);
+    town->body = sunder_i_calloc(n, sizeof *town->body);
+    town->box = sunder_i_calloc(4 * n, sizeof *town->box);
+    town->present = sunder_i_calloc(n, sizeof *town->present);
+    town->move = sunder_i_calloc(2 * n, sizeof *town->move);
+    town->inexact = sunder_i_calloc(n, sizeof *town->inexact);
+    if (!town->body_of || !town->member || !town->body || !town->box || !town->present || !town->move || !town->inexact)
+        return sunder_i_no_memory(err);
+    for (size_t f = 0; f < n; f++) {
+        town->present[f] = sunder_i_is_present(&layer->feature[f]);
+        if (town->present[f]) sunder_shape_box(layer->feature[f].shape, town->box + 4 * f);
+    }
+    return sunder_i_box_tree_build(town->box, town->present, n, &town->tree, err);
+}
+
+/* ---- Bodies ---------------------------------------------------------------------------------------------------- */
+
+/* The representative of x, the least member of its set; paths are halved on the way. */
+static uint32_t find(uint32_t *parent, uint32_t x)
+{
+    while (parent[x] != x) {
+        parent[x] = parent[parent[x]];
+        x = parent[x];
+    }
+    return x;
+}
+
+static void unite(uint32_t *parent, uint32_t x, uint32_t y)
+{
+    x = find(parent, x);
+    y = find(parent, y);
+    if (x < y)
+        parent[y] = x;
+    else
+        parent[x] = y;
+}
+
+typedef struct label {
+    int64_t block;
+    uint32_t feature;
+} label;
+
+static int by_label(const void *a, const void *b)
+{
+    const label *p = a, *q = b;
+    if (p->block != q->block) return p->block < q->block ? -1 : 1;
+    return p->feature < q->feature ? -1 : p->feature > q->feature;
+}
+
+/* Equal block numbers of the caller's. */
+static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
+{
+    label *labels = sunder_i_alloc(layer->n, sizeof *labels);
+    if (!labels) return false;
+    size_t k = 0;
+    for (size_t f = 0; f < layer->n; f++)
+        if (layer->feature[f].block >= 0 && !layer->feature[f].ignored) {
+            labels[k].block = layer->feature[f].block;
+            labels[k++].feature = (uint32_t)f;
+        }
+    qsort(labels, k, sizeof *labels, by_label);
+    for (size_t i = 1; i < k; i++)
+        if (labels[i].block == labels[i - 1].block) unite(parent, labels[i - 1].feature, labels[i].feature);
+    sunder_i_free(labels);
+    return true;
+}
+
+/* Numbers the sets by their least members and fills the bodies. */
+static void number_bodies(sunder_i_town *town, uint32_t *parent)
+{
+    uint32_t bodies = 0;
+    for (size_t f = 0; f < town->features; f++) {
+        const uint32_t root = find(parent, (uint32_t)f);
+        /* The least member is its own root, and comes first. */
+        town->body_of[f] = root == f ? bodies++ : town->body_of[root];
+        town->body[town->body_of[f]].members++;
+    }
+    town->bodies = bodies;
+    uint32_t next = 0;
+    for (uint32_t b = 0; b < bodies; b++) {
+        sunder_i_body *body = &town->body[b];
+        body->member = next;
+        next += body->members;
+        body->members = 0;
+        body->limit = INFINITY;
+    }
+    for (size_t f = 0; f < town->features; f++) {
+        const sunder_feature *feature = &town->layer->feature[f];
+        sunder_i_body *body = &town->body[town->body_of[f]];
+        town->member[body->member + body->members++] = (uint32_t)f;
+        body->weight += feature->weight;
+        body->limit = fmin(body->limit, feature->max_shift);
+        body->fixed = body->fixed || feature->fixed || feature->ignored || feature->max_shift == 0;
+    }
+}
+
+sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err)
+{
+    const size_t n = town->features;
+    uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
+    if (!parent) return sunder_i_no_memory(err);
+    for (size_t f = 0; f < n; f++) parent[f] = (uint32_t)f;
+    size_t kept = 0;
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        if (r->kept) kept++;
+        if (!town->rules.joins) continue;
+        if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINED_BLOCK)) unite(parent, r->a, r->b);
+    }
+    town->kept = sunder_i_alloc(kept, sizeof *town->kept);
+    if (!town->kept || !unite_labelled(town->layer, parent)) {
+        sunder_i_free(parent);
+        return sunder_i_no_memory(err);
+    }
+    for (size_t k = 0; k < relations->n; k++)
+        if (relations->pair[k].kept) {
+            town->kept[town->kept_n].a = relations->pair[k].a;
+            town->kept[town->kept_n++].b = relations->pair[k].b;
+        }
+    number_bodies(town, parent);
+    sunder_i_free(parent);
+    return SUNDER_OK;
+}
+
+bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
+{
+    if (town->kept_n == 0) return false;
+    const uint32_t a = f < g ? f : g, b = f < g ? g : f;
+    size_t low = 0, high = town->kept_n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const sunder_i_couple *c = &town->kept[middle];
+        if (c->a < a || (c->a == a && c->b < b))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < town->kept_n && town->kept[low].a == a && town->kept[low].b == b;
+}
+
+/* ---- Convex pieces ------------------------------------------------------------------------------------------------ */
+
+static void cut_feature(sunder_i_town *town, sunder_i_body *body, uint32_t f, size_t *corner)
+{
+    const sunder_shape *shape = town->layer->feature[f].shape;
+    uint32_t from = 0;
+    for (uint32_t p = 0; p < shape->pieces; p++) {
+        sunder_i_piece *piece = &town->piece[town->pieces++];
+        piece->feature = f;
+        piece->corner = (uint32_t)*corner;
+        piece->corners = shape->piece_end[p] - from;
+        piece->box[0] = piece->box[1] = INFINITY;
+        piece->box[2] = piece->box[3] = -INFINITY;
+        for (; from < shape->piece_end[p]; from++, ++*corner) {
+            double *c = town->corner + 2 * *corner;
+            for (int k = 0; k < 2; k++) {
+                c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
+                piece->box[k] = fmin(piece->box[k], c[k]);
+                piece->box[k + 2] = fmax(piece->box[k + 2], c[k]);
+            }
+        }
+        for (int k = 0; k < 2; k++) {
+            body->box[k] = fmin(body->box[k], piece->box[k]);
+            body->box[k + 2] = fmax(body->box[k + 2], piece->box[k + 2]);
+        }
+        body->pieces++;
+    }
+}
+
+sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
+{
+    size_t pieces = 0, corners = 0;
+    for (size_t f = 0; f < town->features; f++)
+        if (town->present[f]) {
+            const sunder_shape *shape = town->layer->feature[f].shape;
+            pieces += shape->pieces;
+            if (shape->pieces) corners += shape->piece_end[shape->pieces - 1];
+        }
+    if (pieces >= UINT32_MAX || corners >= UINT32_MAX)
+        return sunder_i_fail(err, SUNDER_ERANGE, "too many corners: %zu", corners);
+    town->piece = sunder_i_alloc(pieces, sizeof *town->piece);
+    town->corner = sunder_i_alloc(2 * corners, sizeof *town->corner);
+    if (!town->piece || !town->corner) return sunder_i_no_memory(err);
+    size_t corner = 0;
+    for (size_t b = 0; b < town->bodies; b++) {
+        sunder_i_body *body = &town->body[b];
+        body->piece = (uint32_t)town->pieces;
+        body->box[0] = body->box[1] = INFINITY;
+        body->box[2] = body->box[3] = -INFINITY;
+        const uint32_t first = town->member[body->member];
+        body->origin[0] = town->box[4 * first];
+        body->origin[1] = town->box[4 * first + 1];
+        for (uint32_t k = 0; k < body->members; k++) {
+            const uint32_t f = town->member[body->member + k];
+            if (town->present[f]) cut_feature(town, body, f, &corner);
+        }
+    }
+    return SUNDER_OK;
+}
