@@ -92,7 +92,8 @@ int gis_command_pair(const gis_options *options)
     sunder_error why;
     double gap = 0;
     const char *stats = gis_stats_path(options), *output = options->operand[2];
-    bool taken, ok = gis_stdout_taken(options, output, &taken, &error) && gis_operands_read(options, &operands, &error);
+    bool taken, ok = gis_stdout_taken(options, output, &taken, &error) && gis_stats_check(options, &error) &&
+                     gis_operands_read(options, &operands, &error);
     if (ok && options->given[OPT_GAP])
         ok = gis_length_in_layer_units(&options->length[OPT_GAP], &operands.rule, "--gap", &gap, &error);
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)

@@ -234,7 +234,9 @@ static bool print_json(const sum_run *run, const char *path, const char *geometr
 
 static bool write_layers(sum_run *run, const char *path, gis_error *error)
 {
+    static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", NULL};
     gis_sink_request request = gis_options_sink(run->options, path, "sum");
+    request.suffixes = suffixes;
     const gis_source *source = run->operands.p_source ? run->operands.p_source : run->operands.q_source;
     gis_sink *sink;
     gis_sink_result result;
@@ -274,7 +276,7 @@ int gis_command_sum(const gis_options *options)
     gis_error error;
     sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
     bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error);
-    ok = ok && gis_operands_read(options, &run.operands, &error);
+    ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
     run.read = gis_clock() - run.start;
     ok = ok && compute(&run, &error) && report(&run, &error);
     sunder_sum_free(run.sum);

@@ -3,10 +3,13 @@
 
 #include "message.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 double gis_clock(void)
 {
@@ -53,17 +56,30 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
     gis_json_close(out, '}');
 }
 
-void gis_json_list(gis_json *out, const gis_list *sentences)
-{
-    gis_json_open(out, '[');
-    for (size_t i = 0; i < sentences->n; i++)
-        gis_json_string(out, sentences->items[i]);
-    gis_json_close(out, ']');
-}
-
 const char *gis_stats_path(const gis_options *options)
 {
     return options->given[OPT_STATS] ? options->text[OPT_STATS] : NULL;
+}
+
+bool gis_stats_check(const gis_options *options, gis_error *error)
+{
+    const char *path = gis_stats_path(options);
+    struct stat info;
+    if (!path || strcmp(path, "-") == 0)
+        return true;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
+        return gis_fail(error, "--stats: %s is a directory", path);
+    char directory[4096];
+    const char *slash = strrchr(path, '/');
+    snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
+    if (access(directory, W_OK) != 0)
+        return gis_fail(error, "--stats: cannot write to %s: %s", directory, strerror(errno));
+    return true;
+}
+
+bool gis_any_conflict(const sunder_conflict_counts *counts)
+{
+    return counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
 }
 
 bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error)

@@ -14,10 +14,13 @@ uint64_t gis_peak_rss(void);
 
 void gis_json_operations(gis_json *out, const sunder_operations *operations);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
-void gis_json_list(gis_json *out, const gis_list *sentences);
 
 /* Where --stats goes; NULL if nowhere. */
 const char *gis_stats_path(const gis_options *options);
+/* Can the file of --stats be made? Asked before the work, so that its failure does not come when all is done. */
+bool gis_stats_check(const gis_options *options, gis_error *error);
+/* Is anything in conflict between blocks? */
+bool gis_any_conflict(const sunder_conflict_counts *counts);
 /* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
  * once is wrong usage. */
 bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error);

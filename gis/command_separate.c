@@ -1,0 +1,282 @@
+/* command_separate.c: sunder separate. Read, separate, write, say what came of it. */
+#include "commands.h"
+#include "layer_output.h"
+#include "message.h"
+#include "report.h"
+
+#include <cpl_conv.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct separate_run {
+    const gis_options *options;
+    gis_layer_input input;
+    sunder_report *report;
+    sunder_layer_summary summary;
+    gis_progress progress;
+    bool verified;
+    gis_json losses; /* ready as JSON, since the sink that lists them is gone when they are printed */
+    double start, read, solve, write;
+} separate_run;
+
+static bool solve(separate_run *run, gis_error *error)
+{
+    sunder_layer_options how = gis_layer_core_options(&run->input);
+    sunder_error why;
+    gis_progress_stage(&run->progress, 0.1, 0.8);
+    how.progress = gis_progress_call;
+    how.progress_user = &run->progress;
+    double begin = gis_clock();
+    sunder_status status = sunder_layer_separate(run->input.layer, &how, &run->report, &why);
+    if (status == SUNDER_EARG)
+        return gis_fail_usage(error, "%s", why.message);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "layer %s: %s", gis_source_name(run->input.source), why.message);
+    run->solve = gis_clock() - begin;
+    sunder_report_summary(run->report, &run->summary);
+    return true;
+}
+
+static bool write_layers(const separate_run *run, gis_sink *sink, unsigned chosen, gis_error *error)
+{
+    const gis_layer_input *input = &run->input;
+    if ((chosen & GIS_LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
+        return false;
+    if ((chosen & GIS_LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error))
+        return false;
+    if ((chosen & GIS_LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error))
+        return false;
+    return !(chosen & GIS_LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
+}
+
+/* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
+static bool open_sink(const separate_run *run, const char *const *suffixes, gis_sink **sink, gis_error *error)
+{
+    gis_sink_request request =
+        gis_options_sink(run->options, run->options->operand[1], gis_source_name(run->input.source));
+    request.suffixes = suffixes;
+    return gis_sink_open(&request, run->input.source, sink, error);
+}
+
+static void note_losses(separate_run *run, const gis_sink *sink, const gis_sink_result *result)
+{
+    run->verified = run->summary.verified && result->exact;
+    const gis_list *losses = gis_sink_losses(sink);
+    gis_json_open(&run->losses, '[');
+    for (size_t i = 0; i < losses->n; i++)
+        gis_json_string(&run->losses, losses->items[i]);
+    if (!result->exact) {
+        char sentence[160];
+        if (isfinite(result->deviation))
+            snprintf(sentence, sizeof sentence, "the format rounds coordinates: they are off by up to %.9g",
+                     result->deviation);
+        else
+            snprintf(sentence, sizeof sentence, "the format changes geometries: they do not read back as written");
+        gis_say_warning("%s", sentence);
+        gis_json_string(&run->losses, sentence);
+    }
+    gis_json_close(&run->losses, ']');
+}
+
+static bool solve_and_write(separate_run *run, gis_error *error)
+{
+    unsigned chosen;
+    gis_sink *sink;
+    gis_sink_result result;
+    const char *suffixes[4] = {NULL};
+    if (!gis_layers_chosen(run->options, run->input.points, &chosen, error))
+        return false;
+    size_t n = 0;
+    if (chosen & GIS_LAYER_DISPLACEMENT)
+        suffixes[n++] = "displacement";
+    if (chosen & GIS_LAYER_CONFLICTS)
+        suffixes[n++] = "conflicts";
+    if (chosen & GIS_LAYER_SYMBOLS)
+        suffixes[n++] = "symbols";
+    if (!open_sink(run, suffixes, &sink, error))
+        return false;
+    if (!gis_sink_takes_more(sink))
+        chosen = GIS_LAYER_MAIN;
+    bool ok = solve(run, error);
+    double begin = gis_clock();
+    if (ok)
+        gis_progress_stage(&run->progress, 0.8, 1);
+    ok = ok && write_layers(run, sink, chosen, error) && gis_output_finish(sink, &result, error);
+    if (ok)
+        note_losses(run, sink, &result);
+    gis_sink_free(sink);
+    run->write = gis_clock() - begin;
+    if (ok)
+        gis_progress_done(&run->progress);
+    return ok;
+}
+
+static void json_number(gis_json *out, const char *key, double value)
+{
+    gis_json_key(out, key);
+    gis_json_double(out, value);
+}
+
+static void json_count(gis_json *out, const char *key, size_t value)
+{
+    gis_json_key(out, key);
+    gis_json_size(out, value);
+}
+
+/* What part of the cost is not proved to be needed. */
+static double optimality_gap(const sunder_layer_summary *summary)
+{
+    return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
+}
+
+static void json_displacement(gis_json *out, const separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_key(out, "displacement");
+    gis_json_open(out, '{');
+    json_number(out, "total", summary->total);
+    json_number(out, "mean", summary->mean);
+    json_number(out, "max", summary->max);
+    gis_json_key(out, "max_fid");
+    if (summary->max_feature < run->input.n && gis_source_fid(run->input.source, summary->max_feature) != OGRNullFID)
+        gis_json_signed(out, gis_source_fid(run->input.source, summary->max_feature));
+    else
+        gis_json_null(out);
+    json_number(out, "cost", summary->cost);
+    json_number(out, "lower_bound", summary->lower_bound);
+    json_number(out, "optimality_gap", optimality_gap(summary));
+    gis_json_close(out, '}');
+}
+
+static const char *unit_name(const separate_run *run)
+{
+    OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
+    char *name = NULL;
+    if (!crs)
+        return "unknown";
+    if (run->input.rule.geographic)
+        OSRGetAngularUnits(crs, &name);
+    else
+        OSRGetLinearUnits(crs, &name);
+    return name ? name : "unknown"; /* the CRS owns it */
+}
+
+static void json_separate(gis_json *out, const separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "separate");
+    gis_json_key(out, "layer");
+    gis_json_string(out, gis_source_name(run->input.source));
+    gis_json_key(out, "unit");
+    gis_json_string(out, unit_name(run));
+    json_count(out, "features", run->input.n);
+    json_count(out, "vertices", summary->vertices);
+    json_count(out, "blocks", summary->blocks);
+    json_count(out, "clusters", summary->clusters);
+    gis_json_key(out, "clusters_optimal"); /* nothing proves optimality yet */
+    gis_json_null(out);
+    gis_json_line(out);
+    gis_json_key(out, "conflicts");
+    gis_json_open(out, '{');
+    gis_json_key(out, "before");
+    gis_json_conflict_counts(out, &summary->before);
+    gis_json_key(out, "after");
+    gis_json_conflict_counts(out, &summary->after);
+    gis_json_close(out, '}');
+    gis_json_line(out);
+    json_count(out, "moved", summary->moved);
+    json_count(out, "blocked", summary->blocked);
+    json_count(out, "skipped", summary->skipped);
+    json_count(out, "invalid", run->input.invalid);
+    json_count(out, "null", run->input.null);
+    json_count(out, "rounded", summary->rounded);
+    gis_json_line(out);
+    json_displacement(out, run);
+    gis_json_line(out);
+    gis_json_key(out, "verified");
+    gis_json_bool(out, run->verified);
+    gis_json_key(out, "losses");
+    gis_json_raw(out, gis_json_text(&run->losses));
+    gis_json_line(out);
+    gis_json_key(out, "seconds");
+    gis_json_open(out, '{');
+    json_number(out, "read", run->read);
+    json_number(out, "solve", summary->seconds_solve);
+    json_number(out, "verify", summary->seconds_verify);
+    json_number(out, "write", run->write);
+    json_number(out, "total", gis_clock() - run->start);
+    gis_json_close(out, '}');
+    json_count(out, "peak_rss_bytes", gis_peak_rss());
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+static bool write_stats(const separate_run *run, const char *path, gis_error *error)
+{
+    gis_json out = {0};
+    if (!gis_json_text(&run->losses))
+        return gis_no_memory(error);
+    json_separate(&out, run);
+    bool ok = (gis_json_text(&out) || gis_no_memory(error)) &&
+              gis_write_text(path, gis_json_text(&out), out.length, "--stats", error);
+    gis_json_clear(&out);
+    return ok;
+}
+
+static void print_summary(const separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
+    const struct {
+        const char *name;
+        size_t before, after;
+    } rows[] = {{"overlap", before->overlap, after->overlap},       {"too close", before->too_close, after->too_close},
+                {"barrier", before->barrier, after->barrier},       {"contained", before->contained, after->contained},
+                {"duplicate", before->duplicate, after->duplicate}, {"inside blocks", before->inside_blocks, after->inside_blocks}};
+    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source), run->input.n,
+           summary->vertices, summary->blocks, summary->clusters);
+    printf("conflicts           before      after\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
+    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved, summary->blocked,
+           summary->skipped, run->input.invalid, run->input.null, summary->rounded);
+    printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean, summary->max);
+    if (summary->max_feature < run->input.n)
+        printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
+    printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
+           optimality_gap(summary));
+    printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
+           gis_clock() - run->start);
+}
+
+static bool report(const separate_run *run, bool taken, gis_error *error)
+{
+    const char *stats = gis_stats_path(run->options);
+    if (stats && !write_stats(run, stats, error))
+        return false;
+    if (!taken && !run->options->given[OPT_QUIET])
+        print_summary(run);
+    return true;
+}
+
+int gis_command_separate(const gis_options *options)
+{
+    gis_error error;
+    separate_run run = {.options = options, .progress = gis_progress_of(options), .start = gis_clock()};
+    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
+    gis_progress_stage(&run.progress, 0, 0.1);
+    ok = ok && gis_layer_input_read(options, &run.input, &error);
+    run.read = gis_clock() - run.start;
+    ok = ok && solve_and_write(&run, &error) && report(&run, taken, &error);
+    int status = !ok ? gis_say_failure(&error)
+                 : gis_any_conflict(&run.summary.after) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
+                                                                                                 : GIS_DONE;
+    gis_json_clear(&run.losses);
+    sunder_report_free(run.report);
+    gis_layer_input_clear(&run.input);
+    return status;
+}

@@ -1,0 +1,283 @@
+/* layer_input.c: from features to shapes. Polygons are taken as they are, arcs as polylines grown by what they may be off,
+ * points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid skip) has no
+ * shape and passes through as skipped. */
+#include "layer_input.h"
+
+#include "message.h"
+#include "sum_layers.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const unsigned growth_segments = 16;
+
+void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
+{
+    GIntBig fid = gis_source_fid(input->source, i);
+    int n = snprintf(text, size, "layer %s, ", gis_source_name(input->source));
+    if (n < 0 || (size_t)n >= size)
+        return;
+    if (fid == OGRNullFID)
+        n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
+    else
+        n += snprintf(text + n, size - (size_t)n, "FID " CPL_FRMT_GIB, fid);
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    if (input->id_field >= 0 && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
+        snprintf(text + n, size - (size_t)n, " (id %s)", OGR_F_GetFieldAsString(feature, input->id_field));
+}
+
+/* The core's status of a call about one feature. */
+static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
+{
+    return gis_fail(error, "%s: %s", who, why->message);
+}
+
+/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. Rounding the sum to doubles takes it in by
+ * less than four units in the last place: the radius is increased by eight. */
+static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
+{
+    double box[4], most = 0;
+    sunder_shape_box(shape, box);
+    for (int i = 0; i < 4; i++)
+        most = fmax(most, fabs(box[i]));
+    radius = radius * (1 + 1e-9) + 8 * (nextafter(most, INFINITY) - most);
+    sunder_shape *disc = NULL, *grown = NULL;
+    sunder_sum *sum = NULL;
+    gis_rounded rounded = {0};
+    sunder_error why;
+    bool ok = sunder_shape_disc(radius, growth_segments, false, &disc, &why) == SUNDER_OK &&
+              sunder_minkowski_sum(shape, disc, NULL, &sum, &why) == SUNDER_OK;
+    if (!ok)
+        core_failed(who, &why, error);
+    ok = ok && gis_round_sum(sum, &rounded, error);
+    if (ok && sunder_shape_from_rings(rounded.set.xy, rounded.set.ring_end, rounded.set.poly_end, rounded.set.polygons,
+                                      SUNDER_STRICT, &grown, &why) != SUNDER_OK)
+        ok = core_failed(who, &why, error);
+    gis_rounded_clear(&rounded);
+    sunder_sum_free(sum);
+    sunder_shape_free(disc);
+    if (ok)
+        *out = grown;
+    return ok;
+}
+
+static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gis_error *error)
+{
+    char who[512];
+    gis_invalid policy = gis_options_invalid(input->options);
+    sunder_shape *shape = NULL, *grown;
+    bool invalid;
+    gis_error reason;
+    if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error))
+        return false;
+    gis_feature_name(input, i, who, sizeof who);
+    bool ok = gis_shape_of_polygons(rings->xy, rings->ring_end, rings->poly_end, rings->polygons, policy, who, &shape,
+                                    &invalid, &reason, error);
+    if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
+        return false;
+    if (invalid) {
+        input->invalid++;
+        gis_say_warning("%s: invalid: %s; %s", who, reason.message,
+                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
+    }
+    if (rings->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
+        if (!grow(shape, rings->linearised, who, &grown, error)) {
+            sunder_shape_free(shape);
+            return false;
+        }
+        sunder_shape_free(shape);
+        shape = grown;
+    }
+    input->shape[i] = shape;
+    return true;
+}
+
+static bool append_translate(const sunder_shape *symbol, const double at[2], gis_polygons *all, const char *who,
+                             gis_error *error)
+{
+    sunder_shape *moved;
+    sunder_error why;
+    bool exact;
+    if (sunder_shape_translate(symbol, at[0], at[1], &moved, &exact, &why) != SUNDER_OK)
+        return core_failed(who, &why, error);
+    bool ok = true;
+    for (size_t p = 0; ok && p < sunder_shape_polygons(moved); p++) {
+        for (size_t r = 0; ok && r < sunder_shape_rings(moved, p); r++) {
+            size_t n;
+            const double *xy = sunder_shape_ring(moved, p, r, &n);
+            for (size_t v = 0; ok && v < n; v++)
+                ok = gis_polygons_vertex(all, xy[2 * v], xy[2 * v + 1], error);
+            ok = ok && gis_polygons_end_ring(all, error);
+        }
+        ok = ok && gis_polygons_end_polygon(all, error);
+    }
+    sunder_shape_free(moved);
+    return ok;
+}
+
+/* The symbol at every point of the feature; of several their union. */
+static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *symbol, const char *who, gis_error *error)
+{
+    double *at;
+    size_t n;
+    gis_polygons all = {0};
+    if (!gis_geometry_points(gis_source_geometry(input->source, i), &at, &n, error))
+        return false;
+    bool ok = true;
+    for (size_t k = 0; ok && k < n; k++)
+        ok = append_translate(symbol, at + 2 * k, &all, who, error);
+    CPLFree(at);
+    sunder_error why;
+    if (ok && sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_EVEN_ODD, &input->shape[i],
+                                      &why) != SUNDER_OK)
+        ok = core_failed(who, &why, error);
+    gis_polygons_clear(&all);
+    return ok;
+}
+
+/* The feature's own symbol, from --symbol-field, else the common one. */
+static bool point_shape(gis_layer_input *input, size_t i, int field, const sunder_shape *common, gis_error *error)
+{
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    char who[512];
+    gis_feature_name(input, i, who, sizeof who);
+    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) {
+        if (common)
+            return place_symbol(input, i, common, who, error);
+        return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
+                        input->options->text[OPT_SYMBOL_FIELD]);
+    }
+    sunder_shape *own;
+    if (!gis_shape_from_text(OGR_F_GetFieldAsString(feature, field), who, &input->rule, gis_options_invalid(input->options),
+                             &own, error)) {
+        error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
+        return false;
+    }
+    bool ok = place_symbol(input, i, own, who, error);
+    sunder_shape_free(own);
+    return ok;
+}
+
+static bool polygon_shapes(gis_layer_input *input, gis_error *error)
+{
+    gis_rings rings = {0};
+    bool ok = true;
+    for (size_t i = 0; ok && i < input->n; i++) {
+        gis_content content = gis_source_content(input->source, i);
+        input->null += content == GIS_NOTHING;
+        input->other += content == GIS_POINTS || content == GIS_OTHER;
+        if (content == GIS_POLYGONS)
+            ok = polygon_shape(input, i, &rings, error);
+    }
+    gis_rings_clear(&rings);
+    return ok;
+}
+
+static bool point_shapes(gis_layer_input *input, gis_error *error)
+{
+    const gis_options *options = input->options;
+    sunder_shape *common = NULL;
+    int field = -1;
+    bool ok = true;
+    if (options->given[OPT_SYMBOL]) {
+        if (!gis_shape_is_text(options->text[OPT_SYMBOL]))
+            return gis_fail_usage(error, "--symbol %s: expected WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or "
+                                  "rectangle:WxH", options->text[OPT_SYMBOL]);
+        ok = gis_shape_from_text(options->text[OPT_SYMBOL], "--symbol", &input->rule, gis_options_invalid(options), &common,
+                                 error);
+    }
+    if (ok && options->given[OPT_SYMBOL_FIELD]) {
+        field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);
+        if (field < 0)
+            ok = gis_fail(error, "--symbol-field: layer %s has no field %s", gis_source_name(input->source),
+                          options->text[OPT_SYMBOL_FIELD]);
+    }
+    for (size_t i = 0; ok && i < input->n; i++) {
+        gis_content content = gis_source_content(input->source, i);
+        input->null += content == GIS_NOTHING;
+        input->other += content == GIS_POLYGONS || content == GIS_OTHER;
+        if (content == GIS_POINTS)
+            ok = point_shape(input, i, field, common, error);
+    }
+    sunder_shape_free(common);
+    return ok;
+}
+
+static bool open_source(gis_layer_input *input, gis_error *error)
+{
+    const gis_options *options = input->options;
+    input->points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
+    gis_source_request request =
+        gis_options_source(options, options->operand[0], input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS);
+    if (!gis_source_open(&request, &input->source, error))
+        return false;
+    input->n = gis_source_count(input->source);
+    if (options->given[OPT_ID_FIELD]) {
+        input->id_field = gis_source_field(input->source, options->text[OPT_ID_FIELD]);
+        if (input->id_field < 0)
+            return gis_fail(error, "--id-field: layer %s has no field %s", gis_source_name(input->source),
+                            options->text[OPT_ID_FIELD]);
+    }
+    return true;
+}
+
+static void warn_of_crs(const gis_layer_input *input)
+{
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < input->n; i++) {
+        double one[4];
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
+            continue;
+        sunder_shape_box(input->shape[i], one);
+        for (int k = 0; k < 2; k++) {
+            box[k] = fmin(box[k], one[k]);
+            box[k + 2] = fmax(box[k + 2], one[k + 2]);
+        }
+    }
+    gis_ruler_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+}
+
+static bool make_layer(gis_layer_input *input, gis_error *error)
+{
+    sunder_error why;
+    for (size_t i = 0; i < input->n; i++)
+        input->feature[i].shape = input->shape[i];
+    if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
+        return core_failed(gis_source_name(input->source), &why, error);
+    return true;
+}
+
+bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
+{
+    *out = (gis_layer_input){.options = options, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
+    if (!open_source(out, error))
+        return false;
+    out->rule = gis_ruler_of(gis_source_crs(out->source), options);
+    out->shape = calloc(out->n + 1, sizeof *out->shape);
+    out->feature = calloc(out->n + 1, sizeof *out->feature);
+    if (!out->shape || !out->feature)
+        return gis_no_memory(error);
+    if (!gis_layer_lengths(out, error) || !(out->points ? point_shapes(out, error) : polygon_shapes(out, error)))
+        return false;
+    for (size_t i = 0; i < out->n; i++) {
+        bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
+        out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
+    }
+    warn_of_crs(out);
+    return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
+           make_layer(out, error);
+}
+
+void gis_layer_input_clear(gis_layer_input *input)
+{
+    sunder_layer_free(input->layer);
+    for (size_t i = 0; input->shape && i < input->n; i++)
+        sunder_shape_free(input->shape[i]);
+    free(input->shape);
+    free(input->feature);
+    gis_source_close(input->source);
+    *input = (gis_layer_input){0};
+}

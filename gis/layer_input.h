@@ -1,0 +1,40 @@
+/* layer_input.h: a source's features as the core's layer, after the options of separate and check. */
+#ifndef GIS_LAYER_INPUT_H
+#define GIS_LAYER_INPUT_H
+
+#include "operand.h"
+#include "sunder.h"
+
+typedef struct gis_layer_input {
+    const gis_options *options;
+    gis_source *source;
+    size_t n;                 /* features */
+    bool points;              /* the features are points, and the shapes the symbols at them */
+    gis_ruler rule;
+    double gap, max_shift;    /* in units of the layer; INFINITY: no limit */
+    double tolerance;         /* negative: the default */
+    sunder_shape **shape;     /* [n] NULL: nothing that could conflict */
+    sunder_feature *feature;  /* [n] */
+    sunder_layer *layer;
+    int id_field;             /* -1: none */
+    size_t invalid, null;     /* features with invalid, with no geometry */
+    size_t other;             /* features with geometries that are not looked at */
+} gis_layer_input;
+
+/* Reads everything. On failure what was read can be released all the same. */
+bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error);
+void gis_layer_input_clear(gis_layer_input *input);
+
+/* "layer buildings, FID 12", with the user's own id if there is one. */
+void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size);
+
+/* The stages, in this order: shapes (layer_input.c) and rules (layer_rules.c). */
+bool gis_layer_lengths(gis_layer_input *input, gis_error *error);
+bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-where, --fixed-where */
+bool gis_layer_blocks(gis_layer_input *input, gis_error *error);  /* --block-field */
+bool gis_layer_weights(gis_layer_input *input, gis_error *error); /* --weight, --weight-field */
+
+/* The options of the core. */
+sunder_layer_options gis_layer_core_options(const gis_layer_input *input);
+
+#endif
