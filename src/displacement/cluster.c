@@ -131,7 +131,7 @@ static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *clu
         if (b->fixed || b->pieces == 0) continue;
         double box[4];
         for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
-        ok = sunder_i_box_tree_query(&town->tree, box, &hits);
+        ok = sunder_i_index_query(&town->tree, box, &hits);
     }
     for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
     /* Sorted and without repetition, and without the cluster's own, which are sorted too. */

@@ -205,7 +205,7 @@ static sunder_status find_blockers(const sunder_i_town *town, const sunder_i_sce
             double box[4];
             sunder_i_box_grow(scene->box + 4 * (size_t)f, reach, box);
             near.n = 0;
-            if (!sunder_i_box_tree_query(&scene->tree, box, &near)) status = sunder_i_no_memory(err);
+            if (!sunder_i_index_query(&scene->tree, box, &near)) status = sunder_i_no_memory(err);
             for (size_t k = 0; k < near.n && !status; k++) {
                 const uint32_t g = near.item[k], other = town->body_of[g];
                 if (other == bodies[0] || other == bodies[1] || sunder_i_is_kept(town, f, g)) continue;

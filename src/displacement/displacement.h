@@ -44,18 +44,18 @@ sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder
 /* ---- Broad phase ------------------------------------------------------------------------------------------------ */
 
 /* A packed R-tree over boxes that do not change. */
-typedef struct sunder_i_box_tree {
+typedef struct sunder_i_index {
     double *box;       /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
     uint32_t *item;    /* [leaves] what each leaf holds */
     size_t level[16];  /* first node of each level; level[levels] is the end */
     unsigned levels;
     size_t leaves;
-} sunder_i_box_tree;
+} sunder_i_index;
 
 /* Boxes of the items for which present[i] (NULL: all). */
-sunder_status sunder_i_box_tree_build(const double *box, const bool *present, size_t n, sunder_i_box_tree *out,
+sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
                                       sunder_error *err);
-void sunder_i_box_tree_free(sunder_i_box_tree *tree);
+void sunder_i_index_free(sunder_i_index *tree);
 
 typedef struct sunder_i_list {
     uint32_t *item;
@@ -63,7 +63,7 @@ typedef struct sunder_i_list {
 } sunder_i_list;
 
 /* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
-bool sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_list *hits);
+bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
 /* The box grown by reach, rounded outward. */
 void sunder_i_box_grow(const double box[4], double reach, double out[4]);
 static inline bool sunder_i_box_meet(const double *a, const double *b)
@@ -137,7 +137,7 @@ typedef struct sunder_i_town {
     double *corner;     /* [2 * corners] relative to the body's origin */
     double *box;        /* [4 * features] as they stood at the start */
     bool *present;      /* [features] */
-    sunder_i_box_tree tree;
+    sunder_i_index tree;
     sunder_i_couple *kept; /* pairs that may overlap */
     size_t kept_n;
     double *move;       /* [2 * bodies] where each stands now, relative to the start */
@@ -154,7 +154,7 @@ typedef struct sunder_i_scene {
     sunder_shape **rounded;     /* [features] owned shapes of those whose translate was rounded; else NULL */
     bool *was_rounded;          /* [features] at any time */
     double *box;                /* [4 * features] */
-    sunder_i_box_tree tree;
+    sunder_i_index tree;
 } sunder_i_scene;
 
 /* All pairs that are near, touch or are kept, as the features stand; exact. before (or NULL): the relations when all but the features with

@@ -80,21 +80,3 @@ bool sunder_i_progress(const sunder_i_rules *rules, double fraction)
 {
     return !rules->progress || rules->progress(fraction, rules->progress_user);
 }
-
-const char *sunder_feature_status_string(sunder_feature_status status)
-{
-    static const char *const text[] = {"unmoved", "moved", "fixed", "blocked", "skipped"};
-    return (unsigned)status < sizeof text / sizeof *text ? text[status] : "unknown";
-}
-
-const char *sunder_conflict_kind_string(sunder_conflict_kind kind)
-{
-    static const char *const text[] = {"overlap", "too_close", "barrier", "contained", "duplicate"};
-    return (unsigned)kind < sizeof text / sizeof *text ? text[kind] : "unknown";
-}
-
-const char *sunder_reason_string(sunder_reason reason)
-{
-    static const char *const text[] = {"", "max_shift", "fixed", "side", "no_room", "same_block", "kept", "unresolved"};
-    return (unsigned)reason < sizeof text / sizeof *text ? text[reason] : "unknown";
-}

@@ -19,7 +19,7 @@ sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *sce
     if (!scene->stand || !scene->rounded || !scene->was_rounded || !scene->box) return sunder_i_no_memory(err);
     memcpy(scene->box, town->box, 4 * n * sizeof *scene->box);
     for (size_t f = 0; f < n; f++) scene->stand[f].shape = town->layer->feature[f].shape;
-    return sunder_i_box_tree_build(scene->box, town->present, n, &scene->tree, err);
+    return sunder_i_index_build(scene->box, town->present, n, &scene->tree, err);
 }
 
 void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene)
@@ -29,7 +29,7 @@ void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene)
     sunder_i_free(scene->was_rounded);
     sunder_i_free(scene->stand);
     sunder_i_free(scene->box);
-    sunder_i_box_tree_free(&scene->tree);
+    sunder_i_index_free(&scene->tree);
     memset(scene, 0, sizeof *scene);
 }
 
@@ -69,8 +69,8 @@ sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, co
         const sunder_status status = stand_feature(town, scene, f, err);
         if (status) return status;
     }
-    sunder_i_box_tree_free(&scene->tree);
-    return sunder_i_box_tree_build(scene->box, town->present, town->features, &scene->tree, err);
+    sunder_i_index_free(&scene->tree);
+    return sunder_i_index_build(scene->box, town->present, town->features, &scene->tree, err);
 }
 
 /* ---- Near pairs --------------------------------------------------------------------------------------------- */
@@ -100,7 +100,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         else
             memcpy(box, s->scene->box + 4 * f, sizeof box);
         sunder_i_list *list = &s->found[f];
-        if (!sunder_i_box_tree_query(&s->scene->tree, box, list)) return sunder_i_no_memory(err);
+        if (!sunder_i_index_query(&s->scene->tree, box, list)) return sunder_i_no_memory(err);
         size_t kept = 0;
         for (size_t k = 0; k < list->n; k++)
             if (list->item[k] > f) list->item[kept++] = list->item[k];

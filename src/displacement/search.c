@@ -231,7 +231,7 @@ static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double b
     const sunder_i_town *town = s->town;
     double where[4];
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1] + (c < 2 ? -s->town->far : s->town->far);
-    if (!sunder_i_box_tree_query(&town->tree, where, hits)) return false;
+    if (!sunder_i_index_query(&town->tree, where, hits)) return false;
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++) {

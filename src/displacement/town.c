@@ -17,7 +17,7 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->kept);
     sunder_i_free(town->move);
     sunder_i_free(town->inexact);
-    sunder_i_box_tree_free(&town->tree);
+    sunder_i_index_free(&town->tree);
     memset(town, 0, sizeof *town);
 }
 
@@ -42,7 +42,7 @@ sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules
         town->present[f] = sunder_i_is_present(&layer->feature[f]);
         if (town->present[f]) sunder_shape_box(layer->feature[f].shape, town->box + 4 * f);
     }
-    return sunder_i_box_tree_build(town->box, town->present, n, &town->tree, err);
+    return sunder_i_index_build(town->box, town->present, n, &town->tree, err);
 }
 
 /* ---- Bodies ---------------------------------------------------------------------------------------------------- */

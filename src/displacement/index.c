@@ -84,13 +84,13 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_box_tree_build(const double *box, const bool *present, size_t n, sunder_i_box_tree *out,
+sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
                                       sunder_error *err)
 {
     place *places = NULL;
     size_t leaves = 0;
     if (sort_places(box, present, n, &places, &leaves)) return sunder_i_no_memory(err);
-    sunder_i_box_tree tree;
+    sunder_i_index tree;
     memset(&tree, 0, sizeof tree);
     tree.leaves = leaves;
     size_t nodes = leaves, width = leaves;
@@ -105,7 +105,7 @@ sunder_status sunder_i_box_tree_build(const double *box, const bool *present, si
     tree.item = sunder_i_alloc(leaves, sizeof *tree.item);
     if (!tree.box || !tree.item) {
         sunder_i_free(places);
-        sunder_i_box_tree_free(&tree);
+        sunder_i_index_free(&tree);
         return sunder_i_no_memory(err);
     }
     for (size_t i = 0; i < leaves; i++) {
@@ -124,14 +124,14 @@ sunder_status sunder_i_box_tree_build(const double *box, const bool *present, si
     return SUNDER_OK;
 }
 
-void sunder_i_box_tree_free(sunder_i_box_tree *tree)
+void sunder_i_index_free(sunder_i_index *tree)
 {
     sunder_i_free(tree->box);
     sunder_i_free(tree->item);
     memset(tree, 0, sizeof *tree);
 }
 
-bool sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_list *hits)
+bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
     /* At most 15 siblings wait on each of at most 16 levels. */
