@@ -3,7 +3,7 @@
  * and covers the whole segment. The range is taken closed; with it the ends of the segments are all vertices that can be
  * free: two disjoint cones at a pair of vertices are parted by the line of an edge of one of them.
  *
- * A vertex where rings touch does not see its true cone through its own ring, so it is taken with every edge. Diagonals of
+ * A vertex where rings touch, or a ring itself, does not see its true cone through its own ring: it is taken with every edge. Diagonals of
  * the decomposition lie inside an operand, so what they would carry is covered. */
 #include "separation/candidates.h"
 
@@ -13,6 +13,25 @@ typedef struct turn {
     sunder_i_point in, out; /* the edges that arrive and leave */
     bool convex, shared;
 } turn;
+
+/* May reflex vertex v lie inside an edge of its polygon, whose vertices are first .. last - 1? In doubles: a false alarm only
+ * costs candidates. (A convex one that does so sees its true cone all the same: no straight edge fits in it.) */
+static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint32_t first, uint32_t last)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side], x = xy[2 * v], y = xy[2 * v + 1], e = 2 * g->error;
+    for (uint32_t a = first; a < last; a++) {
+        const uint32_t b = s->next[a];
+        if (a == v || b == v) continue;
+        const double ax = xy[2 * a], ay = xy[2 * a + 1], bx = xy[2 * b], by = xy[2 * b + 1];
+        if ((x > ax + e && x > bx + e) || (x < ax - e && x < bx - e) || (y > ay + e && y > by + e) ||
+            (y < ay - e && y < by - e))
+            continue;
+        const double bound = (fabs(bx - ax) + fabs(by - ay) + e) * e + g->magnitude * g->rough;
+        if (fabs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) <= bound) return true;
+    }
+    return false;
+}
 
 static turn *find_turns(sunder_i_pairing *g, int side)
 {
@@ -24,9 +43,12 @@ static turn *find_turns(sunder_i_pairing *g, int side)
         const uint32_t next = s->next[v];
         t[v].out = t[next].in = sunder_i_pairing_diff(g, at[next], at[v]);
     }
-    for (uint32_t v = 0; v < s->vertices; v++) {
-        t[v].shared = s->shared[v];
-        t[v].convex = sunder_i_pairing_cross(g, t[v].in, t[v].out) > 0;
+    for (uint32_t p = 0, v = 0; p < s->polygons; p++) {
+        const uint32_t first = v, last = s->ring_end[s->poly_end[p] - 1];
+        for (; v < last; v++) {
+            t[v].convex = sunder_i_pairing_cross(g, t[v].in, t[v].out) > 0;
+            t[v].shared = s->shared[v] || (!t[v].convex && may_touch_edge(g, side, v, first, last));
+        }
     }
     return t;
 }
