@@ -7,19 +7,9 @@
  * are closed and their coordinates monotone images of the exact ones, so edges that meet are always candidates. */
 #include "shape/build.h"
 
+#include "number/sort.h"
+
 #include <math.h>
-#include <stdlib.h>
-
-typedef struct ring_key {
-    uint32_t code, ring;
-} ring_key;
-
-static int key_order(const void *a, const void *b)
-{
-    const ring_key *s = a, *t = b;
-    if (s->code != t->code) return s->code < t->code ? -1 : 1;
-    return (s->ring > t->ring) - (s->ring < t->ring);
-}
 
 /* Bits of the two 16-bit numbers in turn (Morton order). */
 static uint32_t interleave(uint32_t x, uint32_t y)
@@ -39,7 +29,7 @@ static uint32_t cell(double v, double low, double high)
 static void sort_rings(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
                        sunder_i_arena *arena)
 {
-    ring_key *key = sunder_i_arena_alloc(arena, ring_hi - ring_lo, sizeof *key);
+    uint64_t *key = sunder_i_arena_alloc(arena, ring_hi - ring_lo, sizeof *key);
     tree->edge = sunder_i_arena_alloc(arena, tree->edges, sizeof *tree->edge);
     if (!key || !tree->edge) return;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -50,13 +40,15 @@ static void sort_rings(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_
         }
     for (uint32_t ring = ring_lo; ring < ring_hi; ring++) {
         const double *at = r->xy + 2 * (size_t)(ring ? r->ring_end[ring - 1] : 0);
-        key[ring - ring_lo] = (ring_key){interleave(cell(at[0], low[0], high[0]), cell(at[1], low[1], high[1])), ring};
+        const uint32_t code = interleave(cell(at[0], low[0], high[0]), cell(at[1], low[1], high[1]));
+        key[ring - ring_lo] = (uint64_t)code << 32 | ring;
     }
-    qsort(key, ring_hi - ring_lo, sizeof *key, key_order);
+    if (!sunder_i_sort_keys(key, ring_hi - ring_lo)) arena->failed = true;
     uint32_t n = 0;
-    for (uint32_t k = 0; k < ring_hi - ring_lo; k++)
-        for (uint32_t e = key[k].ring ? r->ring_end[key[k].ring - 1] : 0; e < r->ring_end[key[k].ring]; e++)
-            tree->edge[n++] = e;
+    for (uint32_t k = 0; k < ring_hi - ring_lo; k++) {
+        const uint32_t ring = (uint32_t)key[k];
+        for (uint32_t e = ring ? r->ring_end[ring - 1] : 0; e < r->ring_end[ring]; e++) tree->edge[n++] = e;
+    }
 }
 
 static uint32_t edge_at(const sunder_i_box_tree *tree, uint32_t i) { return tree->edge ? tree->edge[i] : tree->first + i; }
@@ -132,9 +124,8 @@ static bool join_blocks(const sunder_i_box_tree *tree, const sunder_i_rings *r, 
 }
 
 bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
-                             void *user, sunder_i_arena *arena)
+                             void *user)
 {
-    (void)arena;
     /* Depth at most 28 levels, and each level leaves at most three pairs waiting. */
     uint32_t stack[128][2];
     int n = 0;

@@ -4,8 +4,8 @@
  * box_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
  * contact.c    where rings cross (an error) or touch
  * nesting.c    orientation; holes inside outer rings, and not inside each other
+ * repair.c     the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
  * pieces.c     ears cut off, holes bridged (bridge.c), triangles merged (merge.c)
- * repair.c     the even-odd set of a polygon, by the arrangement of planar_map/even_odd.c
  * finish.c     everything into one block of memory */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
@@ -25,9 +25,15 @@ typedef struct sunder_i_rings {
     sunder_i_point *at;
     double *xy;
     bool rounded;
-    uint32_t *source; /* raw vertex number of each vertex, for messages */
+    uint32_t *source; /* raw vertex number of each vertex, or SUNDER_I_MADE + number of a point made by repair.c */
     uint32_t *ring_end, *poly_end, *next, *prev;
+    size_t room[3];   /* for vertices, rings, polygons */
 } sunder_i_rings;
+
+#define SUNDER_I_MADE 0x80000000u
+
+/* Makes room for so many more; contents stay. False if memory is out. */
+bool sunder_i_rings_grow(sunder_i_rings *r, sunder_i_arena *arena, size_t vertices, size_t rings, size_t polygons);
 
 /* Order by x, by y, and lexicographic (x first). */
 static inline int sunder_i_rings_cmp_x(const sunder_i_rings *r, uint32_t i, uint32_t j)
@@ -103,7 +109,7 @@ void sunder_i_box_tree_build(sunder_i_box_tree *tree, const sunder_i_rings *r, u
 /* Calls visit for each pair of edges whose boxes meet, until it returns false. Each pair once. */
 typedef bool (*sunder_i_pair_visitor)(void *user, uint32_t e, uint32_t f);
 bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
-                             void *user, sunder_i_arena *arena);
+                             void *user);
 
 /* Calls visit for each edge whose box may meet the ray that starts at vertex v and goes to the right. */
 typedef void (*sunder_i_edge_visitor)(void *user, uint32_t e);
@@ -115,7 +121,7 @@ void sunder_i_box_tree_ray(const sunder_i_box_tree *tree, const sunder_i_rings *
 /* Do the rings ring_lo .. ring_hi (one polygon) cross or share a piece of edge? *touches: some meet in points, and so may
  * need the arrangement to be told apart. tree may be NULL for few edges. */
 void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
-                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches);
+                           sunder_i_problem *problem, bool *touches);
 
 /* Turns the outer ring counter-clockwise and holes clockwise. */
 void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi);

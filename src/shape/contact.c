@@ -82,12 +82,12 @@ static bool pair(void *user, uint32_t e, uint32_t f)
 }
 
 void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
-                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches)
+                           sunder_i_problem *problem, bool *touches)
 {
     contact c = {r, problem, false};
     const uint32_t lo = ring_lo ? r->ring_end[ring_lo - 1] : 0, hi = r->ring_end[ring_hi - 1];
     if (tree) {
-        sunder_i_box_tree_pairs(tree, r, pair, &c, arena);
+        sunder_i_box_tree_pairs(tree, r, pair, &c);
     } else {
         /* Few edges: all pairs, by boxes first. */
         for (uint32_t e = lo; e < hi; e++) {

@@ -3,9 +3,10 @@
  *
  * Most input is tiny and there is much of it, so the plain path allocates twice: one arena for the work, one block for the
  * shape. */
-#include "shape/build.h"
-
 #include "shape/from_rings.h"
+
+#include "shape/rational.h"
+#include "shape/repair.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -118,7 +119,7 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
         if (arena->failed) return;
         use = &tree;
     }
-    sunder_i_contact_find(r, ring_lo, r->rings, use, arena, problem, touches);
+    sunder_i_contact_find(r, ring_lo, r->rings, use, problem, touches);
     if (!problem->fault && r->rings - ring_lo > 1) sunder_i_nesting_check(r, ring_lo, r->rings, use, problem);
     if (problem->fault) {
         problem->vertex = r->source[problem->vertex];
@@ -127,52 +128,87 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
     sunder_i_arena_release(arena, mark);
 }
 
-static bool make_room(sunder_i_rings *r, const sunder_i_input *in, sunder_i_arena *arena)
+/* What build() works with. */
+typedef struct builder {
+    const sunder_i_input *in;
+    sunder_validity validity;
+    sunder_i_arena arena;
+    sunder_i_lattice lattice, second; /* the second one for shapes with made points */
+    double origin[1][2];
+    sunder_i_point *at; /* of the raw vertices */
+    sunder_i_rings r;
+    sunder_i_made_points made;
+    sunder_i_rationals rationals;
+    bool repaired;
+} builder;
+
+static bool place_input(builder *b)
 {
-    const size_t n = in->vertices;
-    r->at = sunder_i_arena_alloc(arena, n, sizeof *r->at);
-    r->xy = sunder_i_arena_alloc(arena, 2 * n, sizeof *r->xy);
-    r->source = sunder_i_arena_alloc(arena, 3 * n + in->rings + in->polygons, sizeof *r->source);
-    if (arena->failed) return false;
-    r->next = r->source + n;
-    r->prev = r->next + n;
-    r->ring_end = r->prev + n;
-    r->poly_end = r->ring_end + in->rings;
-    return true;
+    const sunder_i_input *in = b->in;
+    sunder_i_extent extent = {0};
+    sunder_i_extent_add(&extent, in->xy, in->vertices);
+    sunder_i_lattice_init(&b->lattice, &extent, 1, true, b->origin, false);
+    b->at = sunder_i_arena_alloc(&b->arena, in->vertices, sizeof *b->at);
+    b->r.lattice = &b->lattice;
+    if (!b->at || !sunder_i_rings_grow(&b->r, &b->arena, in->vertices, in->rings, in->polygons)) return false;
+    for (size_t i = 0; i < in->vertices; i++) {
+        b->at[i].x = sunder_i_lattice_int(&b->lattice, in->xy[2 * i], b->origin[0][0]);
+        b->at[i].y = sunder_i_lattice_int(&b->lattice, in->xy[2 * i + 1], b->origin[0][1]);
+    }
+    return !b->lattice.arena.failed;
 }
 
-/* The whole way, on a lattice and an arena that the caller frees. */
-static sunder_status build(const sunder_i_input *in, sunder_validity validity, sunder_i_lattice *lattice,
-                           sunder_i_arena *arena, sunder_shape **out, sunder_error *err)
+/* Polygon p as it is, or the even-odd set of its rings. */
+static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
 {
-    sunder_i_extent extent = {0};
-    double origin[1][2];
-    sunder_i_extent_add(&extent, in->xy, in->vertices);
-    sunder_i_lattice_init(lattice, &extent, 1, true, origin, false);
-    sunder_i_point *at = sunder_i_arena_alloc(arena, in->vertices, sizeof *at);
-    sunder_i_rings r = {.lattice = lattice};
-    if (!at || !make_room(&r, in, arena)) return sunder_i_no_memory(err);
-    for (size_t i = 0; i < in->vertices; i++) {
-        at[i].x = sunder_i_lattice_int(lattice, in->xy[2 * i], origin[0][0]);
-        at[i].y = sunder_i_lattice_int(lattice, in->xy[2 * i + 1], origin[0][1]);
+    sunder_i_rings *r = &b->r;
+    const uint32_t vertices = r->vertices, rings = r->rings;
+    sunder_i_problem problem = {SUNDER_I_SOUND, 0, SUNDER_I_NONE};
+    bool touches = false;
+    if (b->in->poly_end[p] == (p ? b->in->poly_end[p - 1] : 0)) return SUNDER_OK;
+    append_polygon(r, b->in, b->at, p, &problem);
+    if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
+    if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
+    if (problem.fault && b->validity == SUNDER_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
+    if (problem.fault || touches) {
+        b->repaired |= problem.fault != SUNDER_I_SOUND;
+        r->vertices = vertices;
+        r->rings = rings;
+        return sunder_i_repair_polygon(r, b->in, b->at, b->origin[0], p, &b->made, &b->arena) ? SUNDER_OK
+                                                                                             : sunder_i_no_memory(err);
     }
+    r->poly_end[r->polygons++] = r->rings;
+    return SUNDER_OK;
+}
+
+/* Coordinates, box and marks of the assembled shape. False if memory is out. */
+static bool complete(builder *b, sunder_shape *s)
+{
+    s->repaired = b->repaired;
+    if (b->made.rational) {
+        const sunder_i_rationals *q = &b->rationals;
+        if (!sunder_i_shape_set_rational(s, q->num, q->den, q->exponent) || !sunder_i_shape_measure_rational(s)) return false;
+    } else {
+        sunder_i_shape_measure(s);
+    }
+    return sunder_i_shape_mark_shared(s, &b->arena);
+}
+
+static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
+{
+    const sunder_i_input *in = b->in;
+    if (!place_input(b)) return sunder_i_no_memory(err);
     for (size_t p = 0; p < in->polygons; p++) {
-        const uint32_t ring_lo = r.rings;
-        sunder_i_problem problem = {SUNDER_I_SOUND, 0, SUNDER_I_NONE};
-        bool touches = false;
-        append_polygon(&r, in, at, p, &problem);
-        if (!problem.fault && r.rings > ring_lo) check_polygon(&r, ring_lo, arena, &problem, &touches);
-        if (arena->failed || lattice->arena.failed) return sunder_i_no_memory(err);
-        if (problem.fault) return sunder_i_fail_problem(in, &problem, err);
-        if (r.rings > ring_lo) r.poly_end[r.polygons++] = r.rings;
+        const sunder_status status = add_polygon(b, p, err);
+        if (status) return status;
     }
-    (void)validity;
+    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, &b->second, &b->rationals, &b->arena))
+        return sunder_i_no_memory(err);
     sunder_i_pieces pieces;
-    if (!sunder_i_pieces_find(&r, arena, &pieces)) return sunder_i_no_memory(err);
-    sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &r, &pieces);
+    if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
+    sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);
     if (!s) return sunder_i_no_memory(err);
-    sunder_i_shape_measure(s);
-    if (!sunder_i_shape_mark_shared(s, arena)) {
+    if (!complete(b, s)) {
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }
@@ -186,11 +222,11 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     sunder_i_input in = {.xy = xy, .ring_end = ring_end, .poly_end = poly_end, .polygons = polygons};
     sunder_status status = read_input(&in, err);
     if (status) return status;
-    sunder_i_arena arena;
-    sunder_i_arena_init(&arena);
-    sunder_i_lattice lattice = {0};
-    status = build(&in, validity, &lattice, &arena, out, err);
-    sunder_i_lattice_free(&lattice);
-    sunder_i_arena_free(&arena);
+    builder b = {.in = &in, .validity = validity};
+    status = build(&b, out, err);
+    sunder_i_lattice_free(&b.lattice);
+    sunder_i_lattice_free(&b.second);
+    sunder_i_free(b.made.point);
+    sunder_i_arena_free(&b.arena);
     return status;
 }

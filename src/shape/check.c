@@ -1,0 +1,241 @@
+/* sunder_i_shape_check(): every invariant of shape.h, from the definitions and by looking at all pairs. Slow on purpose: it
+ * shares the predicates with the code that it checks, and nothing else. */
+#include "shape/shape.h"
+
+#include "predicate/predicate.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct checker {
+    const sunder_shape *s;
+    sunder_i_lattice *l;
+    const sunder_i_point *at;
+    sunder_i_arena arena;
+    uint32_t *polygon; /* of each vertex */
+} checker;
+
+static int turn(const checker *c, uint32_t a, uint32_t b, uint32_t d)
+{
+    return sunder_i_orient(c->l, c->at[a], c->at[b], c->at[d]);
+}
+
+static bool same(const checker *c, uint32_t a, uint32_t b) { return sunder_i_point_equal(c->l, c->at[a], c->at[b]); }
+
+static uint32_t ring_begin(const sunder_shape *s, uint32_t ring) { return ring ? s->ring_end[ring - 1] : 0; }
+
+static const char *check_links(checker *c)
+{
+    const sunder_shape *s = c->s;
+    uint32_t v = 0, ring = 0;
+    for (uint32_t p = 0; p < s->polygons; p++) {
+        if (s->poly_end[p] <= ring) return "a polygon has no ring";
+        for (; ring < s->poly_end[p]; ring++) {
+            if (ring >= s->rings || s->ring_end[ring] < v + 3) return "a ring has under three vertices";
+            const uint32_t first = v, end = s->ring_end[ring];
+            for (; v < end; v++) {
+                c->polygon[v] = p;
+                if (s->next[v] != (v + 1 < end ? v + 1 : first)) return "next is not along the ring";
+                if (s->prev[s->next[v]] != v) return "prev is not the reverse of next";
+            }
+        }
+    }
+    return v == s->vertices && ring == s->rings ? NULL : "the counts do not agree";
+}
+
+static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t g, uint32_t h)
+{
+    for (size_t k = 0; k < 2; k++) {
+        const double p = s->xy[2 * (size_t)a + k], q = s->xy[2 * (size_t)b + k];
+        const double t = s->xy[2 * (size_t)g + k], u = s->xy[2 * (size_t)h + k];
+        if (fmax(p, q) < fmin(t, u) || fmax(t, u) < fmin(p, q)) return true;
+    }
+    return false;
+}
+
+/* Is the direction v -> d in the closed sector of the interior at v? */
+static bool in_sector(const checker *c, uint32_t v, uint32_t d)
+{
+    const uint32_t u = c->s->next[v], w = c->s->prev[v];
+    const bool left = turn(c, v, u, d) >= 0, right = turn(c, v, d, w) >= 0;
+    return turn(c, v, u, w) > 0 ? left && right : left || right;
+}
+
+static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
+{
+    const sunder_shape *s = c->s;
+    const uint32_t a = e, b = s->next[e], g = f, h = s->next[f];
+    if (boxes_apart(s, a, b, g, h)) return NULL;
+    switch (sunder_i_segments_meet(c->l, c->at[a], c->at[b], c->at[g], c->at[h])) {
+    case SUNDER_I_CROSS: return "edges cross";
+    case SUNDER_I_OVERLAP: return "edges share a piece";
+    case SUNDER_I_END_INSIDE:
+        /* Only from outside: the vertex's edges lie on the right. */
+        if (turn(c, a, b, g) == 0 && !same(c, g, a) && !same(c, g, b) && turn(c, a, b, h) > 0)
+            return "a vertex touches an edge from inside";
+        if (turn(c, g, h, a) == 0 && !same(c, a, g) && !same(c, a, h) && turn(c, g, h, b) > 0)
+            return "a vertex touches an edge from inside";
+        return NULL;
+    default:
+        if (same(c, a, g) && (in_sector(c, a, h) || in_sector(c, a, s->prev[g]) || in_sector(c, g, b)))
+            return "sectors at one place overlap";
+        return NULL;
+    }
+}
+
+static const char *check_edges(const checker *c)
+{
+    const sunder_shape *s = c->s;
+    for (uint32_t e = 0; e < s->vertices; e++) {
+        if (turn(c, s->prev[e], e, s->next[e]) == 0) return "a collinear vertex";
+        for (uint32_t f = e + 1; f < s->vertices && c->polygon[f] == c->polygon[e]; f++) {
+            if (s->next[e] == f || s->next[f] == e) continue;
+            const char *fault = check_edge_pair(c, e, f);
+            if (fault) return fault;
+        }
+    }
+    return NULL;
+}
+
+static const char *check_shared(const checker *c)
+{
+    const sunder_shape *s = c->s;
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        bool found = false;
+        for (uint32_t w = 0; w < s->vertices && !found; w++) found = w != v && same(c, v, w);
+        if (found != s->shared[v]) return "shared is wrong";
+    }
+    return NULL;
+}
+
+/* Twice the signed area of a cycle of vertices. */
+static sunder_i_big twice_area(checker *c, const uint32_t *list, uint32_t first, uint32_t n)
+{
+    sunder_i_big sum = {NULL, 0};
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t j = i + 1 < n ? i + 1 : 0;
+        const sunder_i_point p = c->at[list ? list[i] : first + i], q = c->at[list ? list[j] : first + j];
+        const sunder_i_big s =
+            sunder_i_big_mul(&c->arena, sunder_i_lattice_get(c->l, p.x), sunder_i_lattice_get(c->l, q.y));
+        const sunder_i_big t =
+            sunder_i_big_mul(&c->arena, sunder_i_lattice_get(c->l, p.y), sunder_i_lattice_get(c->l, q.x));
+        sum = sunder_i_big_add(&c->arena, sum, sunder_i_big_sub(&c->arena, s, t));
+    }
+    return sum;
+}
+
+/* Convex, going round once. */
+static bool is_convex(const checker *c, const uint32_t *list, uint32_t n)
+{
+    uint32_t peaks = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t a = list[i], b = list[(i + 1) % n], d = list[(i + 2) % n];
+        if (turn(c, a, b, d) <= 0) return false;
+        peaks += sunder_i_point_cmp(c->l, c->at[a], c->at[b]) < 0 && sunder_i_point_cmp(c->l, c->at[b], c->at[d]) > 0;
+    }
+    return peaks == 1;
+}
+
+/* Two convex polygons have disjoint interiors exactly when the line of a side of one has the other on its right. */
+static bool side_separates(const checker *c, const uint32_t *p, uint32_t n, const uint32_t *q, uint32_t m)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t k = 0;
+        while (k < m && turn(c, p[i], p[(i + 1) % n], q[k]) <= 0) k++;
+        if (k == m) return true;
+    }
+    return false;
+}
+
+/* How often a -> b is a side of a piece. */
+static uint32_t count_side(const sunder_shape *s, uint32_t a, uint32_t b)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++])
+        for (uint32_t k = lo; k < s->piece_end[i]; k++)
+            count += s->piece_vertex[k] == a && s->piece_vertex[k + 1 < s->piece_end[i] ? k + 1 : lo] == b;
+    return count;
+}
+
+static const char *check_sides(const checker *c)
+{
+    const sunder_shape *s = c->s;
+    for (uint32_t v = 0; v < s->vertices; v++)
+        if (count_side(s, v, s->next[v]) != 1) return "a boundary edge is not the side of exactly one piece";
+    for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++])
+        for (uint32_t k = lo; k < s->piece_end[i]; k++) {
+            const uint32_t a = s->piece_vertex[k], b = s->piece_vertex[k + 1 < s->piece_end[i] ? k + 1 : lo];
+            if (c->polygon[a] != c->polygon[b]) return "a piece spans two polygons";
+            if (s->next[a] != b && (count_side(s, a, b) != 1 || count_side(s, b, a) != 1))
+                return "a diagonal is not the side of exactly two pieces";
+        }
+    return NULL;
+}
+
+static const char *check_pieces(checker *c)
+{
+    const sunder_shape *s = c->s;
+    for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++]) {
+        const uint32_t n = s->piece_end[i] - lo, *p = s->piece_vertex + lo;
+        if (s->piece_end[i] < lo + 3) return "a piece has under three corners";
+        if (!is_convex(c, p, n)) return "a piece is not strictly convex";
+        for (uint32_t j = i + 1; j < s->pieces; j++) {
+            const uint32_t at = s->piece_end[j - 1], m = s->piece_end[j] - at, *q = s->piece_vertex + at;
+            if (c->polygon[*p] != c->polygon[*q]) continue;
+            if (!side_separates(c, p, n, q, m) && !side_separates(c, q, m, p, n)) return "pieces overlap";
+        }
+    }
+    return check_sides(c);
+}
+
+/* Outer rings turn left, holes right, and the pieces of a polygon make up its area. */
+static const char *check_areas(checker *c)
+{
+    const sunder_shape *s = c->s;
+    for (uint32_t p = 0; p < s->polygons; p++) {
+        sunder_i_big sum = {NULL, 0};
+        const uint32_t first = p ? s->poly_end[p - 1] : 0;
+        for (uint32_t ring = first; ring < s->poly_end[p]; ring++) {
+            const uint32_t lo = ring_begin(s, ring);
+            const sunder_i_big area = twice_area(c, NULL, lo, s->ring_end[ring] - lo);
+            if (sunder_i_big_sign(area) != (ring == first ? 1 : -1)) return "a ring is turned the wrong way";
+            sum = sunder_i_big_add(&c->arena, sum, area);
+        }
+        for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++])
+            if (c->polygon[s->piece_vertex[lo]] == p)
+                sum = sunder_i_big_sub(&c->arena, sum, twice_area(c, s->piece_vertex + lo, 0, s->piece_end[i] - lo));
+        if (sunder_i_big_sign(sum) != 0) return "the pieces do not make up the polygon's area";
+    }
+    return NULL;
+}
+
+static const char *check_numbers(checker *c)
+{
+    const sunder_shape *s = c->s;
+    if (s->rational && (sunder_i_big_sign(s->den) <= 0 || sunder_i_big_twos(s->den) != 0)) return "the denominator is not odd";
+    for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) {
+        if (s->rational && sunder_i_big_ratio(&c->arena, s->num[i], s->den, s->exponent) != s->xy[i])
+            return "a coordinate is not the nearest double";
+        if (s->xy[i] < s->box[i & 1] || s->xy[i] > s->box[2 + (i & 1)]) return "the box is too small";
+    }
+    return NULL;
+}
+
+const char *sunder_i_shape_check(const sunder_shape *shape)
+{
+    sunder_i_placed placed;
+    if (shape->polygons == 0) return shape->vertices || shape->pieces ? "an empty shape has vertices" : NULL;
+    if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return "out of memory";
+    checker c = {.s = shape, .l = &placed.lattice, .at = placed.p};
+    c.polygon = sunder_i_alloc(shape->vertices, sizeof *c.polygon);
+    const char *fault = c.polygon ? check_links(&c) : "out of memory";
+    if (!fault) fault = check_numbers(&c);
+    if (!fault) fault = check_edges(&c);
+    if (!fault) fault = check_shared(&c);
+    if (!fault) fault = check_pieces(&c);
+    if (!fault) fault = check_areas(&c);
+    sunder_i_free(c.polygon);
+    sunder_i_arena_free(&c.arena);
+    sunder_i_placed_free(&placed);
+    return fault;
+}

@@ -1,0 +1,184 @@
+/* The even-odd set of a polygon's rings.
+ *
+ * arcs.c turns the edges into arcs that meet in their ends only, each with odd multiplicity: so exactly one side of each is
+ * inside. A sweep over the points, lexicographically, keeps the arcs that it crosses in order from bottom to top; the
+ * number below an arc tells its inner side. Arcs are then directed with the inside on the left. Around a point
+ * inside and outside alternate,
+ *
+ *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc clockwise goes
+ *      o  \   i   /  o          out: the two bound one sector of the interior, and the boundary goes on from one to
+ *           \   /               the other. So rings touch in points only, and a vertex stands for one sector.
+ *             p
+ *
+ * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point; the ring is an outer one if
+ * the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */
+#include "shape/even_odd.h"
+
+#include <string.h>
+
+typedef struct sweep {
+    const sunder_i_rings *r;
+    const sunder_i_arcs *in;
+    uint32_t *status, active; /* arcs that cross the sweep line, bottom to top */
+    uint32_t *under;          /* of each arc: the one just below where it starts, or NONE */
+    uint32_t *follow;         /* of each directed arc: the next on its ring */
+    uint32_t *around;         /* scratch: the arcs at a point, counter-clockwise */
+    bool *up;                 /* the inside is above: directed from lo to hi */
+} sweep;
+
+/* Is point p above the line of the arc (+1), below (-1), or its right end (0)? */
+static int side(const sweep *s, uint32_t arc, uint32_t p)
+{
+    const sunder_i_arc *a = &s->in->arc[arc];
+    if (a->hi == p) return 0;
+    const sunder_i_rings *r = s->r;
+    uint32_t left = a->parent, right = r->next[left];
+    if (sunder_i_rings_cmp(r, left, right) > 0) {
+        left = right;
+        right = a->parent;
+    }
+    const uint32_t node = s->in->node[p];
+    if (node & SUNDER_I_MADE)
+        return sunder_i_orient_hpoint(r->lattice, r->at[left], r->at[right], &s->in->made[node & ~SUNDER_I_MADE]);
+    return sunder_i_rings_orient(r, left, right, node);
+}
+
+/* How many active arcs are below p. */
+static uint32_t rank(const sweep *s, uint32_t p)
+{
+    uint32_t lo = 0, hi = s->active;
+    while (lo < hi) {
+        const uint32_t mid = lo + (hi - lo) / 2;
+        if (side(s, s->status[mid], p) > 0)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* Point p: the arcs that end there leave, those first .. last that start there enter. */
+static void pass(sweep *s, uint32_t p, uint32_t first, uint32_t last)
+{
+    const uint32_t at = rank(s, p), starts = last - first;
+    uint32_t ends = 0;
+    while (at + ends < s->active && s->in->arc[s->status[at + ends]].hi == p) ends++;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < starts; i++) s->around[n++] = first + i;
+    for (uint32_t i = ends; i-- > 0;) s->around[n++] = s->status[at + i];
+    memmove(s->status + at + starts, s->status + at + ends, (s->active - at - ends) * sizeof *s->status);
+    s->active += starts - ends;
+    for (uint32_t i = 0; i < starts; i++) {
+        s->status[at + i] = first + i;
+        s->up[first + i] = !((at + i) & 1);
+        s->under[first + i] = at + i ? s->status[at + i - 1] : SUNDER_I_NONE;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t arc = s->around[i];
+        const bool comes_in = (s->in->arc[arc].hi == p) == s->up[arc];
+        if (comes_in) s->follow[arc] = s->around[i ? i - 1 : n - 1];
+    }
+}
+
+/* Points in order; only those where arcs of odd multiplicity meet matter. */
+static bool run(sweep *s, sunder_i_arena *arena)
+{
+    const uint32_t n = s->in->arcs;
+    uint32_t *block = sunder_i_arena_alloc(arena, 4 * (size_t)n, sizeof *block);
+    s->up = sunder_i_arena_alloc(arena, n, sizeof *s->up);
+    bool *meets = sunder_i_arena_alloc(arena, s->in->points, sizeof *meets);
+    if (arena->failed) return false;
+    s->status = block;
+    s->under = block + n;
+    s->follow = s->under + n;
+    s->around = s->follow + n;
+    memset(meets, 0, s->in->points * sizeof *meets);
+    for (uint32_t i = 0; i < n; i++) meets[s->in->arc[i].lo] = meets[s->in->arc[i].hi] = true;
+    for (uint32_t p = 0, first = 0, last = 0; p < s->in->points; p++, first = last) {
+        while (last < n && s->in->arc[last].lo == p) last++;
+        if (meets[p]) pass(s, p, first, last);
+    }
+    return !s->r->lattice->arena.failed;
+}
+
+/* ---- Rings from the directed arcs ---- */
+
+typedef struct ring {
+    uint32_t first, owner; /* the first arc; the ring of the polygon's outer boundary, itself if it is that */
+    uint32_t next_hole;
+} ring;
+
+/* Do two arcs that follow each other lie on one line? Then there is no corner between them: they do not run back along each
+ * other, for no two arcs coincide. */
+static bool is_straight(const sweep *s, uint32_t arc, uint32_t then)
+{
+    const sunder_i_rings *r = s->r;
+    const uint32_t e = s->in->arc[arc].parent, f = s->in->arc[then].parent;
+    if (e == f) return true;
+    return sunder_i_cross_sign(r->lattice, sunder_i_point_sub(r->lattice, r->at[r->next[e]], r->at[e]),
+                               sunder_i_point_sub(r->lattice, r->at[r->next[f]], r->at[f])) == 0;
+}
+
+/* Corners of the ring through an arc: the tails of arcs, but for straight ones. */
+static void write_ring(const sweep *s, uint32_t first, sunder_i_even_odd *out)
+{
+    uint32_t arc = first;
+    do {
+        const uint32_t then = s->follow[arc];
+        if (!is_straight(s, arc, then))
+            out->point[out->points++] = s->in->node[s->up[then] ? s->in->arc[then].lo : s->in->arc[then].hi];
+        arc = then;
+    } while (arc != first);
+    out->ring_end[out->rings++] = out->points;
+}
+
+static bool collect(const sweep *s, sunder_i_arena *arena, sunder_i_even_odd *out)
+{
+    const uint32_t n = s->in->arcs;
+    uint32_t *of = sunder_i_arena_alloc(arena, n, sizeof *of); /* the ring of each arc */
+    ring *rings = sunder_i_arena_alloc(arena, n, sizeof *rings);
+    uint32_t *last_hole = sunder_i_arena_alloc(arena, n, sizeof *last_hole);
+    out->point = sunder_i_arena_alloc(arena, n, sizeof *out->point);
+    out->ring_end = sunder_i_arena_alloc(arena, n, sizeof *out->ring_end);
+    out->poly_end = sunder_i_arena_alloc(arena, n, sizeof *out->poly_end);
+    if (arena->failed) return false;
+    memset(of, 0xff, n * sizeof *of);
+    uint32_t count = 0;
+    for (uint32_t first = 0; first < n; first++) {
+        if (of[first] != SUNDER_I_NONE) continue;
+        uint32_t arc = first;
+        do {
+            of[arc] = count;
+            arc = s->follow[arc];
+        } while (arc != first);
+        ring *g = &rings[count];
+        *g = (ring){first, count, SUNDER_I_NONE};
+        last_hole[count] = count;
+        if (!s->up[first]) {
+            /* The arc below starts farther left, so its ring is known. */
+            g->owner = rings[of[s->under[first]]].owner;
+            rings[last_hole[g->owner]].next_hole = count;
+            last_hole[g->owner] = count;
+        }
+        count++;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (rings[i].owner != i) continue;
+        for (uint32_t h = i; h != SUNDER_I_NONE; h = rings[h].next_hole) write_ring(s, rings[h].first, out);
+        out->poly_end[out->polygons++] = out->rings;
+    }
+    return true;
+}
+
+bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out)
+{
+    memset(out, 0, sizeof *out);
+    if (r->rings == 0) return true;
+    sunder_i_arcs arcs;
+    if (!sunder_i_arcs_find(r, arena, &arcs)) return false;
+    sweep s = {.r = r, .in = &arcs};
+    if (!run(&s, arena) || !collect(&s, arena, out)) return false;
+    out->made = arcs.made;
+    out->makes = arcs.makes;
+    return !r->lattice->arena.failed;
+}

@@ -1,0 +1,143 @@
+/* Reflected and translated copies. Both keep the cleaned form and the pieces where every coordinate stays exact: nothing is
+ * validated or decomposed again. */
+#include "shape/build.h"
+
+#include "shape/rational.h"
+
+#include <math.h>
+#include <string.h>
+
+/* An exact copy, but for the rational numbers. */
+static sunder_shape *copy_shape(const sunder_shape *s)
+{
+    const sunder_i_rings r = {.vertices = s->vertices, .rings = s->rings, .polygons = s->polygons, .xy = s->xy,
+                              .ring_end = s->ring_end, .poly_end = s->poly_end, .next = s->next, .prev = s->prev};
+    const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, s->piece_end, s->piece_vertex};
+    sunder_shape *c = sunder_i_shape_assemble(s->raw_xy, s->raw_ring_end, s->raw_poly_end, s->raw_polygons, &r, &pieces);
+    if (!c) return NULL;
+    if (s->vertices) memcpy(c->shared, s->shared, s->vertices * sizeof *s->shared);
+    c->repaired = s->repaired;
+    return c;
+}
+
+static size_t raw_vertices(const sunder_shape *s)
+{
+    const size_t rings = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
+    return rings ? s->raw_ring_end[rings - 1] : 0;
+}
+
+sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
+{
+    sunder_shape *c = copy_shape(shape);
+    if (!c) return sunder_i_no_memory(err);
+    /* Half a turn: orientations stay. 0 - v has no negative zero. */
+    for (size_t i = 0; i < 2 * raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
+    bool good = true;
+    if (shape->rational) {
+        good = sunder_i_shape_set_rational(c, shape->num, shape->den, shape->exponent);
+        for (size_t i = 0; good && i < 2 * (size_t)c->vertices; i++) c->num[i] = sunder_i_big_neg(c->num[i]);
+        good = good && sunder_i_shape_measure_rational(c);
+    } else {
+        for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
+        sunder_i_shape_measure(c);
+    }
+    if (!good) {
+        sunder_shape_free(c);
+        return sunder_i_no_memory(err);
+    }
+    *out = c;
+    return SUNDER_OK;
+}
+
+/* Is x + d a double? The rounding error of the sum is a double itself [Knu97, 4.2.2] and found exactly. */
+static bool sum_is_exact(double x, double d)
+{
+    const double s = x + d, back = s - x;
+    return isfinite(s) && (x - (s - back)) + (d - back) == 0;
+}
+
+/* A rational shape's numbers moved by d into the copy c. */
+static bool move_rational(const sunder_shape *shape, const double d[2], sunder_shape *c)
+{
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    const size_t n = 2 * (size_t)shape->vertices;
+    long unit = shape->exponent;
+    for (int k = 0; k < 2; k++)
+        if (d[k] != 0 && sunder_i_low_bit(d[k]) < unit) unit = sunder_i_low_bit(d[k]);
+    sunder_i_big add[2], *num = sunder_i_arena_alloc(&arena, n, sizeof *num);
+    for (int k = 0; k < 2; k++) {
+        int e;
+        add[k] = sunder_i_big_double(&arena, d[k], &e);
+        if (add[k].size == 0) continue;
+        add[k] = sunder_i_big_mul(&arena, sunder_i_big_shl(&arena, add[k], (unsigned long)(e - unit)), shape->den);
+    }
+    for (size_t i = 0; num && i < n; i++) {
+        num[i] = shape->num[i];
+        if (num[i].size) num[i] = sunder_i_big_shl(&arena, num[i], (unsigned long)(shape->exponent - unit));
+        num[i] = sunder_i_big_add(&arena, num[i], add[i & 1]);
+    }
+    const bool good = !arena.failed && sunder_i_shape_set_rational(c, num, shape->den, unit) &&
+                      sunder_i_shape_measure_rational(c);
+    sunder_i_arena_free(&arena);
+    return good;
+}
+
+/* All raw coordinates stay exact: the copy is moved as it is. */
+static sunder_status move_exactly(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
+{
+    sunder_shape *c = copy_shape(shape);
+    if (!c) return sunder_i_no_memory(err);
+    for (size_t i = 0; i < 2 * raw_vertices(c); i++) c->raw_xy[i] += d[i & 1];
+    if (shape->rational) {
+        if (!move_rational(shape, d, c)) {
+            sunder_shape_free(c);
+            return sunder_i_no_memory(err);
+        }
+    } else {
+        for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] += d[i & 1];
+        sunder_i_shape_measure(c);
+    }
+    *out = c;
+    return SUNDER_OK;
+}
+
+/* Some coordinate is rounded, so the set changes a little, and its rings may no longer be sound. */
+static sunder_status move_rounded(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
+{
+    const size_t n = raw_vertices(shape);
+    double *xy = sunder_i_alloc(2 * n, sizeof *xy);
+    if (!xy) return sunder_i_no_memory(err);
+    sunder_status status = SUNDER_OK;
+    for (size_t i = 0; i < 2 * n && !status; i++) {
+        xy[i] = shape->raw_xy[i] + d[i & 1];
+        if (!isfinite(xy[i]))
+            status = sunder_i_fail(err, SUNDER_ERANGE, "moved by (%.17g %.17g) the shape leaves the range of doubles", d[0],
+                                   d[1]);
+    }
+    if (!status)
+        status = sunder_shape_from_rings(xy, shape->raw_ring_end, shape->raw_poly_end, shape->raw_polygons, SUNDER_EVEN_ODD,
+                                         out, err);
+    sunder_i_free(xy);
+    return status;
+}
+
+sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, double dy, sunder_shape **out, bool *exact,
+                                     sunder_error *err)
+{
+    const double d[2] = {dx, dy};
+    if (!isfinite(dx) || !isfinite(dy))
+        return sunder_i_fail(err, SUNDER_EARG, "a translation must be finite, not (%.17g %.17g)", dx, dy);
+    bool all = true;
+    for (size_t i = 0; i < 2 * raw_vertices(shape) && all; i++) all = sum_is_exact(shape->raw_xy[i], d[i & 1]);
+    /* A corner made by a repair may be a double and its translate none, though all raw coordinates stay exact. */
+    for (size_t i = 0; i < 2 * (size_t)shape->vertices && all && !shape->rational; i++)
+        if (!sum_is_exact(shape->xy[i], d[i & 1])) {
+            const sunder_status status = move_rounded(shape, d, out, err);
+            if (!status && exact) *exact = true;
+            return status;
+        }
+    const sunder_status status = all ? move_exactly(shape, d, out, err) : move_rounded(shape, d, out, err);
+    if (!status && exact) *exact = all;
+    return status;
+}

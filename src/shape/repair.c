@@ -1,0 +1,246 @@
+/* An invalid polygon gives way to the even-odd set of its rings; so does a valid one whose rings touch, which changes its
+ * rings but not the set: they are traced anew so that each vertex stands for one sector of the interior, and an edge that a
+ * vertex touches from inside is split there. */
+#include "shape/repair.h"
+
+#include "shape/even_odd.h"
+
+#include <string.h>
+
+bool sunder_i_rings_grow(sunder_i_rings *r, sunder_i_arena *arena, size_t vertices, size_t rings, size_t polygons)
+{
+    const size_t have[3] = {r->vertices, r->rings, r->polygons}, more[3] = {vertices, rings, polygons};
+    bool enough = true;
+    for (int k = 0; k < 3; k++) enough &= have[k] + more[k] <= r->room[k];
+    if (enough) return true;
+    size_t room[3];
+    for (int k = 0; k < 3; k++) room[k] = have[k] + more[k] + r->room[k];
+    sunder_i_rings grown = *r;
+    grown.at = sunder_i_arena_alloc(arena, room[0], sizeof *r->at);
+    grown.xy = sunder_i_arena_alloc(arena, 2 * room[0], sizeof *r->xy);
+    grown.source = sunder_i_arena_alloc(arena, 3 * room[0] + room[1] + room[2], sizeof *r->source);
+    if (arena->failed) return false;
+    grown.next = grown.source + room[0];
+    grown.prev = grown.next + room[0];
+    grown.ring_end = grown.prev + room[0];
+    grown.poly_end = grown.ring_end + room[1];
+    memcpy(grown.room, room, sizeof room);
+    if (r->vertices) {
+        memcpy(grown.at, r->at, r->vertices * sizeof *r->at);
+        memcpy(grown.xy, r->xy, 2 * (size_t)r->vertices * sizeof *r->xy);
+        memcpy(grown.source, r->source, r->vertices * sizeof *r->source);
+        memcpy(grown.next, r->next, r->vertices * sizeof *r->next);
+        memcpy(grown.prev, r->prev, r->vertices * sizeof *r->prev);
+    }
+    if (r->rings) memcpy(grown.ring_end, r->ring_end, r->rings * sizeof *r->ring_end);
+    if (r->polygons) memcpy(grown.poly_end, r->poly_end, r->polygons * sizeof *r->poly_end);
+    *r = grown;
+    return true;
+}
+
+/* The raw rings of one polygon without repeated vertices; rings of one place vanish. */
+static bool raw_rings(const sunder_i_input *in, const sunder_i_point *at, size_t p, sunder_i_rings *raw,
+                      sunder_i_arena *arena)
+{
+    const size_t ring_lo = p ? in->poly_end[p - 1] : 0, ring_hi = in->poly_end[p];
+    const size_t lo = ring_lo ? in->ring_end[ring_lo - 1] : 0;
+    if (!sunder_i_rings_grow(raw, arena, in->ring_end[ring_hi - 1] - lo, ring_hi - ring_lo, 1)) return false;
+    for (size_t ring = ring_lo; ring < ring_hi; ring++) {
+        const uint32_t begin = raw->vertices;
+        for (size_t i = ring ? in->ring_end[ring - 1] : 0; i < in->ring_end[ring]; i++) {
+            const double *xy = in->xy + 2 * i;
+            const uint32_t v = raw->vertices;
+            if (v > begin && raw->xy[2 * (size_t)v - 2] == xy[0] && raw->xy[2 * (size_t)v - 1] == xy[1]) continue;
+            raw->xy[2 * (size_t)v] = xy[0];
+            raw->xy[2 * (size_t)v + 1] = xy[1];
+            raw->at[v] = at[i];
+            raw->source[v] = (uint32_t)i;
+            raw->vertices++;
+        }
+        while (raw->vertices > begin + 1 && sunder_i_rings_cmp(raw, raw->vertices - 1, begin) == 0) raw->vertices--;
+        if (raw->vertices < begin + 2) {
+            raw->vertices = begin;
+            continue;
+        }
+        for (uint32_t i = begin; i < raw->vertices; i++) {
+            raw->next[i] = i + 1 < raw->vertices ? i + 1 : begin;
+            raw->prev[i] = i > begin ? i - 1 : raw->vertices - 1;
+        }
+        raw->ring_end[raw->rings++] = raw->vertices;
+    }
+    if (raw->rings) raw->poly_end[raw->polygons++] = raw->rings;
+    return true;
+}
+
+/* num / den * 2^exponent + origin in lowest terms, the denominator odd. */
+static void reduce(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, double origin,
+                   sunder_i_made *out, int k)
+{
+    int e;
+    const sunder_i_big o = sunder_i_big_double(arena, origin, &e);
+    if (o.size) {
+        const long unit = exponent < e ? exponent : e;
+        const sunder_i_big shift = sunder_i_big_mul(arena, sunder_i_big_shl(arena, o, (unsigned long)(e - unit)), den);
+        num = sunder_i_big_add(arena, sunder_i_big_shl(arena, num, (unsigned long)(exponent - unit)), shift);
+        exponent = unit;
+    }
+    if (num.size == 0 || arena->failed) {
+        out->num[k] = (sunder_i_big){NULL, 0};
+        out->den[k] = sunder_i_big_i64(arena, 1);
+        out->exponent[k] = 0;
+        return;
+    }
+    const sunder_i_big g = sunder_i_big_gcd(arena, num, den);
+    num = sunder_i_big_div_floor(arena, num, g);
+    den = sunder_i_big_div_floor(arena, den, g);
+    if (arena->failed) return;
+    const unsigned long up = sunder_i_big_twos(num), down = sunder_i_big_twos(den);
+    out->num[k] = sunder_i_big_shr(arena, num, up);
+    out->den[k] = sunder_i_big_shr(arena, den, down);
+    out->exponent[k] = exponent + (long)up - (long)down;
+}
+
+/* A crossing point of the arrangement as a made point; its nearest doubles into xy. */
+static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const double origin[2], sunder_i_made_points *made,
+                       double xy[2], sunder_i_arena *arena)
+{
+    if (!sunder_i_reserve(&made->point, &made->capacity, made->n + 1, sizeof *made->point)) return false;
+    sunder_i_made *m = &made->point[made->n++];
+    sunder_i_big x[2], w;
+    sunder_i_hpoint_big(l, h, &x[0], &x[1], &w);
+    for (int k = 0; k < 2; k++) {
+        reduce(arena, x[k], w, l->exponent, origin[k], m, k);
+        if (arena->failed || l->arena.failed) return false;
+        xy[k] = sunder_i_big_ratio(arena, m->num[k], m->den[k], m->exponent[k]);
+        made->rational |= sunder_i_big_ratio_down(arena, m->num[k], m->den[k], m->exponent[k]) !=
+                          sunder_i_big_ratio_up(arena, m->num[k], m->den[k], m->exponent[k]);
+    }
+    return !arena->failed;
+}
+
+bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at, const double origin[2],
+                             size_t p, sunder_i_made_points *made, sunder_i_arena *arena)
+{
+    sunder_i_rings raw = {.lattice = r->lattice};
+    sunder_i_even_odd set;
+    if (!raw_rings(in, at, p, &raw, arena) || !sunder_i_even_odd_find(&raw, arena, &set)) return false;
+    if (!sunder_i_rings_grow(r, arena, set.points, set.rings, set.polygons)) return false;
+    /* Numbers of the made points that are corners; the others were passed straight through. */
+    uint32_t *number = sunder_i_arena_alloc(arena, set.makes, sizeof *number);
+    if (!number) return false;
+    memset(number, 0xff, set.makes * sizeof *number);
+    const uint32_t first = r->vertices, rings = r->rings;
+    for (uint32_t i = 0; i < set.points; i++) {
+        const uint32_t v = first + i, point = set.point[i];
+        double *xy = r->xy + 2 * (size_t)v;
+        if (!(point & SUNDER_I_MADE)) {
+            r->source[v] = raw.source[point];
+            r->at[v] = raw.at[point];
+            memcpy(xy, raw.xy + 2 * (size_t)point, 2 * sizeof *xy);
+            continue;
+        }
+        const uint32_t k = point & ~SUNDER_I_MADE;
+        if (number[k] == SUNDER_I_NONE) {
+            number[k] = (uint32_t)made->n;
+            if (!make_point(r->lattice, &set.made[k], origin, made, xy, arena)) return false;
+        } else {
+            const sunder_i_made *m = &made->point[number[k]];
+            for (int c = 0; c < 2; c++) xy[c] = sunder_i_big_ratio(arena, m->num[c], m->den[c], m->exponent[c]);
+        }
+        r->source[v] = SUNDER_I_MADE | number[k];
+        r->at[v] = (sunder_i_point){0, 0};
+    }
+    r->vertices += set.points;
+    for (uint32_t i = 0, v = first; i < set.rings; i++) {
+        const uint32_t begin = v, end = first + set.ring_end[i];
+        for (; v < end; v++) {
+            r->next[v] = v + 1 < end ? v + 1 : begin;
+            r->prev[v] = v > begin ? v - 1 : end - 1;
+        }
+        r->ring_end[r->rings++] = end;
+    }
+    for (uint32_t i = 0; i < set.polygons; i++) r->poly_end[r->polygons++] = rings + set.poly_end[i];
+    return !arena->failed;
+}
+
+/* ---- A lattice for made points ---- */
+
+static sunder_i_big lcm(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
+{
+    return sunder_i_big_mul(arena, sunder_i_big_div_floor(arena, a, sunder_i_big_gcd(arena, a, b)), b);
+}
+
+static void choose_unit(const sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_rationals *out,
+                        sunder_i_arena *arena)
+{
+    out->den = sunder_i_big_i64(arena, 1);
+    bool any = false;
+    for (size_t i = 0; i < 2 * (size_t)r->vertices; i++) {
+        const uint32_t source = r->source[i / 2];
+        long e;
+        if (source & SUNDER_I_MADE) {
+            const sunder_i_made *m = &made->point[source & ~SUNDER_I_MADE];
+            if (m->num[i & 1].size == 0) continue;
+            e = m->exponent[i & 1];
+            out->den = lcm(arena, out->den, m->den[i & 1]);
+            if (arena->failed) return;
+        } else {
+            if (r->xy[i] == 0) continue;
+            e = sunder_i_low_bit(r->xy[i]);
+        }
+        if (!any || e < out->exponent) out->exponent = e;
+        any = true;
+    }
+}
+
+static void over_one_denominator(const sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_rationals *out,
+                                 sunder_i_arena *arena)
+{
+    for (size_t i = 0; i < 2 * (size_t)r->vertices && !arena->failed; i++) {
+        const uint32_t source = r->source[i / 2];
+        sunder_i_big v, factor = out->den;
+        long e;
+        if (source & SUNDER_I_MADE) {
+            const sunder_i_made *m = &made->point[source & ~SUNDER_I_MADE];
+            v = m->num[i & 1];
+            factor = sunder_i_big_div_floor(arena, out->den, m->den[i & 1]);
+            e = m->exponent[i & 1];
+        } else {
+            int low;
+            v = sunder_i_big_double(arena, r->xy[i], &low);
+            e = low;
+        }
+        if (v.size) v = sunder_i_big_mul(arena, sunder_i_big_shl(arena, v, (unsigned long)(e - out->exponent)), factor);
+        out->num[i] = v;
+    }
+}
+
+bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_lattice *lattice,
+                           sunder_i_rationals *rationals, sunder_i_arena *arena)
+{
+    sunder_i_extent extent = {0};
+    double origin[1][2];
+    sunder_i_extent_add(&extent, r->xy, r->vertices);
+    sunder_i_lattice_init(lattice, &extent, 1, !made->rational, origin, made->rational);
+    r->lattice = lattice;
+    r->rounded = made->rational;
+    if (made->rational) {
+        *rationals = (sunder_i_rationals){.num = sunder_i_arena_alloc(arena, 2 * (size_t)r->vertices, sizeof(sunder_i_big))};
+        if (!rationals->num) return false;
+        choose_unit(r, made, rationals, arena);
+        over_one_denominator(r, made, rationals, arena);
+        lattice->exponent = rationals->exponent;
+        lattice->denominator = rationals->den;
+        lattice->approx_shift = 0; /* doubles are in r->xy */
+    }
+    for (uint32_t i = 0; i < r->vertices && !arena->failed; i++) {
+        const size_t k = 2 * (size_t)i;
+        if (made->rational)
+            r->at[i] = (sunder_i_point){sunder_i_lattice_big(lattice, rationals->num[k]),
+                                        sunder_i_lattice_big(lattice, rationals->num[k + 1])};
+        else
+            r->at[i] = (sunder_i_point){sunder_i_lattice_int(lattice, r->xy[k], origin[0][0]),
+                                        sunder_i_lattice_int(lattice, r->xy[k + 1], origin[0][1])};
+    }
+    return !arena->failed && !lattice->arena.failed;
+}

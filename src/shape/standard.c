@@ -1,0 +1,146 @@
+/* Standard shapes: discs and rectangles about the origin.
+ *
+ * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational directions: the
+ * corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least the radius away
+ * from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps. Corners are
+ * mirrored from as few computed ones as the number of segments allows, so that the polygon is symmetric exactly. */
+#include "shape/shape.h"
+
+#include "predicate/predicate.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static sunder_status from_ring(const double *xy, size_t n, sunder_shape **out, sunder_error *err)
+{
+    const size_t ring_end[1] = {n}, poly_end[1] = {1};
+    return sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_STRICT, out, err);
+}
+
+/* Corner i of n on the circle of radius one, the first on the x axis. The angle i / n of a turn is reduced to the first octant
+ * in integers, so that corners that are mirror images have the same digits. */
+static void unit_corner(unsigned i, unsigned n, double xy[2])
+{
+    const uint64_t turns = 8 * (uint64_t)i; /* in 1 / (8 n) of a turn; an octant is n of them */
+    const unsigned octant = (unsigned)(turns / n);
+    uint64_t rest = turns % n;
+    if (octant & 1) rest = n - rest;
+    const double angle = PI / 4 * (double)rest / (double)n;
+    const double c = cos(angle), s = rest == n ? c : sin(angle);
+    /* Octants 0, 3, 4, 7 have the larger part along x. */
+    const bool along_x = octant == 0 || octant == 3 || octant == 4 || octant == 7;
+    xy[0] = along_x ? c : s;
+    xy[1] = along_x ? s : c;
+    if (octant >= 2 && octant < 6) xy[0] = -xy[0];
+    if (octant >= 4) xy[1] = -xy[1];
+}
+
+typedef struct disc {
+    double radius;
+    unsigned n;
+    bool inside;
+    double *xy;
+} disc;
+
+/* Corners at radius * factor. False if one leaves the range of doubles. */
+static bool make_corners(const disc *d, double factor)
+{
+    for (unsigned i = 0; i < d->n; i++) {
+        double *p = d->xy + 2 * (size_t)i;
+        unit_corner(i, d->n, p);
+        for (int k = 0; k < 2; k++) {
+            p[k] = d->radius * factor * p[k] + 0.0;
+            if (!isfinite(p[k])) return false;
+        }
+    }
+    return true;
+}
+
+/* The proof. Outside: cross(a, b)^2 >= r^2 |b - a|^2 for each edge, and cross > 0. Inside: |a|^2 <= r^2. */
+static bool is_proved(const disc *d, sunder_i_arena *arena)
+{
+    sunder_i_extent extent = {0};
+    sunder_i_extent_add(&extent, d->xy, d->n);
+    const double radius[2] = {d->radius, d->radius};
+    sunder_i_extent_add(&extent, radius, 1);
+    double origin[1][2];
+    sunder_i_lattice l;
+    sunder_i_lattice_init(&l, &extent, 1, false, origin, true);
+    sunder_i_arena *const a = arena;
+    const sunder_i_big r = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, d->radius, 0));
+    const sunder_i_big rr = sunder_i_big_mul(a, r, r);
+    bool good = true;
+    for (unsigned i = 0; i < d->n && good; i++) {
+        const double *p = d->xy + 2 * (size_t)i, *q = d->xy + 2 * (size_t)((i + 1) % d->n);
+        const sunder_i_mark mark = sunder_i_arena_mark(a);
+        const sunder_i_big px = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[0], 0));
+        const sunder_i_big py = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[1], 0));
+        if (d->inside) {
+            const sunder_i_big pp = sunder_i_big_add(a, sunder_i_big_mul(a, px, px), sunder_i_big_mul(a, py, py));
+            good = sunder_i_big_cmp(pp, rr) <= 0;
+        } else {
+            const sunder_i_big qx = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[0], 0));
+            const sunder_i_big qy = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[1], 0));
+            const sunder_i_big cross = sunder_i_big_sub(a, sunder_i_big_mul(a, px, qy), sunder_i_big_mul(a, py, qx));
+            const sunder_i_big dx = sunder_i_big_sub(a, qx, px), dy = sunder_i_big_sub(a, qy, py);
+            const sunder_i_big length = sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy));
+            good = sunder_i_big_sign(cross) > 0 &&
+                   sunder_i_big_cmp(sunder_i_big_mul(a, cross, cross), sunder_i_big_mul(a, rr, length)) >= 0;
+        }
+        sunder_i_arena_release(a, mark);
+    }
+    if (l.arena.failed) a->failed = true;
+    sunder_i_lattice_free(&l);
+    return good;
+}
+
+/* Corners that are proved: each try gives way by twice as many ulps. */
+static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_error *err)
+{
+    const double ideal = d->inside ? 1 : 1 / cos(PI / d->n);
+    for (double ulps = 0; ulps < 0x1p40; ulps = ulps ? 2 * ulps : 1) {
+        const double give = ulps * DBL_EPSILON;
+        if (!make_corners(d, d->inside ? ideal * (1 - give) : ideal * (1 + give)))
+            return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g leaves the range of doubles", d->radius);
+        const bool good = is_proved(d, arena);
+        if (arena->failed) return sunder_i_no_memory(err);
+        if (good) return SUNDER_OK;
+    }
+    /* Only where doubles are too coarse, at the very bottom of their range. */
+    return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", d->radius,
+                         d->n);
+}
+
+sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, sunder_shape **out, sunder_error *err)
+{
+    if (!(radius > 0) || !isfinite(radius))
+        return sunder_i_fail(err, SUNDER_EARG, "the radius of a disc must be positive and finite, not %.17g", radius);
+    if (segments < 3) return sunder_i_fail(err, SUNDER_EARG, "a disc needs at least 3 segments, not %u", segments);
+    if (segments > 1u << 24) return sunder_i_fail(err, SUNDER_EARG, "a disc of %u segments is too large", segments);
+    disc d = {radius, segments, inside, sunder_i_alloc(2 * (size_t)segments, sizeof(double))};
+    if (!d.xy) return sunder_i_no_memory(err);
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    sunder_status status = prove_corners(&d, &arena, err);
+    sunder_i_arena_free(&arena);
+    if (!status) status = from_ring(d.xy, segments, out, err);
+    sunder_i_free(d.xy);
+    return status == SUNDER_EINVALID ? sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too "
+                                                     "small for doubles", radius, segments) : status;
+}
+
+sunder_status sunder_shape_rectangle(double width, double height, sunder_shape **out, sunder_error *err)
+{
+    if (!(width > 0) || !isfinite(width) || !(height > 0) || !isfinite(height))
+        return sunder_i_fail(err, SUNDER_EARG, "the sides of a rectangle must be positive and finite, not %.17g x %.17g",
+                             width, height);
+    const double x = width / 2, y = height / 2;
+    /* Halves of the least doubles are not doubles. */
+    if (x + x != width || y + y != height)
+        return sunder_i_fail(err, SUNDER_ERANGE, "a rectangle of %.17g x %.17g is too small for doubles", width, height);
+    const double xy[8] = {-x, -y, x, -y, x, y, -x, y};
+    return from_ring(xy, 4, out, err);
+}
