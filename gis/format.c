@@ -30,7 +30,7 @@ static const facts known[] = {
     {"MBTiles",         false, false, false, true,  false},
     {"CSV",             false, false, true,  false, true},
     {"MapInfo File",    false, false, true,  false, true},
-    {"DXF",             false, false, true,  false, false},
+    {"DXF",             false, false, true,  false, true},
     {"GML",             false, false, true,  false, false},
 };
 

@@ -221,40 +221,40 @@ void gis_rings_clear(gis_rings *rings)
     *rings = (gis_rings){0};
 }
 
-static size_t count_points(OGRGeometryH geometry)
+static size_t count_vertices(OGRGeometryH geometry)
 {
     if (OGR_G_IsEmpty(geometry))
         return 0;
-    if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPoint)
-        return 1;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry))))
+        return (size_t)OGR_G_GetPointCount(geometry);
     size_t n = 0;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        n += count_points(OGR_G_GetGeometryRef(geometry, i));
+        n += count_vertices(OGR_G_GetGeometryRef(geometry, i));
     return n;
 }
 
-static double *copy_points(OGRGeometryH geometry, double *to)
+static double *copy_vertices(OGRGeometryH geometry, double *to)
 {
     if (OGR_G_IsEmpty(geometry))
         return to;
-    if (wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPoint) {
-        to[0] = OGR_G_GetX(geometry, 0);
-        to[1] = OGR_G_GetY(geometry, 0);
-        return to + 2;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
+        int n = OGR_G_GetPointCount(geometry);
+        OGR_G_GetPoints(geometry, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
+        return to + 2 * n;
     }
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        to = copy_points(OGR_G_GetGeometryRef(geometry, i), to);
+        to = copy_vertices(OGR_G_GetGeometryRef(geometry, i), to);
     return to;
 }
 
 bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_error *error)
 {
-    size_t count = geometry ? count_points(geometry) : 0;
+    size_t count = geometry ? count_vertices(geometry) : 0;
     double *made = VSIMalloc2(count + 1, 2 * sizeof *made);
     if (!made)
         return gis_no_memory(error);
     if (count)
-        copy_points(geometry, made);
+        copy_vertices(geometry, made);
     *xy = made;
     *n = count;
     return true;
@@ -297,6 +297,89 @@ bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_err
     (void)error;
     if (geometry && (dx != 0 || dy != 0))
         translate(geometry, dx, dy);
+    return true;
+}
+
+/* ---- Winding ---------------------------------------------------------------------------------------------- */
+
+static sunder_point point_at(OGRGeometryH ring, int i)
+{
+    return (sunder_point){OGR_G_GetX(ring, i), OGR_G_GetY(ring, i)};
+}
+
+static bool same_point(sunder_point p, sunder_point q)
+{
+    return p.x == q.x && p.y == q.y;
+}
+
+/* +1 counter-clockwise, -1 clockwise, 0 where the smallest vertex is a spike or all is one point. The smallest vertex lies
+ * on the hull, so the turn there is the turn of the ring, if the ring is simple. n vertices, the closing one left out. */
+static int ring_turn(OGRGeometryH ring, int n)
+{
+    int smallest = 0;
+    for (int i = 1; i < n; i++) {
+        sunder_point p = point_at(ring, i), q = point_at(ring, smallest);
+        if (p.x < q.x || (p.x == q.x && p.y < q.y))
+            smallest = i;
+    }
+    sunder_point at = point_at(ring, smallest), before = at, after = at;
+    for (int i = 1; i < n && same_point(before, at); i++) /* repeated vertices are no neighbours */
+        before = point_at(ring, (smallest + n - i) % n);
+    for (int i = 1; i < n && same_point(after, at); i++)
+        after = point_at(ring, (smallest + i) % n);
+    return sunder_orient(&before, &at, &after);
+}
+
+static bool reverse_ring(OGRGeometryH ring, gis_error *error)
+{
+    int n = OGR_G_GetPointCount(ring);
+    bool z = OGR_G_Is3D(ring), m = OGR_G_IsMeasured(ring);
+    enum { STRIDE = 4 * sizeof(double) };
+    double *all = VSIMalloc2((size_t)n, STRIDE);
+    if (!all)
+        return gis_no_memory(error);
+    OGR_G_GetPointsZM(ring, all, STRIDE, all + 1, STRIDE, all + 2, STRIDE, all + 3, STRIDE);
+    for (int i = 0; i < n; i++) {
+        const double *p = all + 4 * (n - 1 - i);
+        if (z && m)
+            OGR_G_SetPointZM(ring, i, p[0], p[1], p[2], p[3]);
+        else if (m)
+            OGR_G_SetPointM(ring, i, p[0], p[1], p[3]);
+        else if (z)
+            OGR_G_SetPoint(ring, i, p[0], p[1], p[2]);
+        else
+            OGR_G_SetPoint_2D(ring, i, p[0], p[1]);
+    }
+    VSIFree(all);
+    return true;
+}
+
+static bool wind_polygon(OGRGeometryH polygon, gis_error *error)
+{
+    for (int r = 0; r < OGR_G_GetGeometryCount(polygon); r++) {
+        OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
+        int n = OGR_G_GetPointCount(ring);
+        if (n > 1 && same_point(point_at(ring, 0), point_at(ring, n - 1)))
+            n--;
+        int turn = n >= 3 ? ring_turn(ring, n) : 0;
+        if (turn == (r == 0 ? 1 : -1) && !reverse_ring(ring, error))
+            return false;
+    }
+    return true;
+}
+
+bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error)
+{
+    if (!geometry || OGR_G_IsEmpty(geometry))
+        return true;
+    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (flat == wkbPolygon || flat == wkbTriangle)
+        return wind_polygon(geometry, error);
+    if (is_leaf(flat) || flat == wkbCompoundCurve || flat == wkbCurvePolygon)
+        return true;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        if (!gis_geometry_wind_clockwise(OGR_G_GetGeometryRef(geometry, i), error))
+            return false;
     return true;
 }
 

@@ -37,7 +37,8 @@ gis_content gis_geometry_content(OGRGeometryH geometry);
 bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *error);
 void gis_rings_clear(gis_rings *rings);
 
-/* Points of a Point, MultiPoint or a collection of them: *n pairs in *xy, freed with CPLFree(). */
+/* All vertices of a geometry of any kind (of arcs the control points; of a MultiPoint its points) in the order in which
+ * it holds them: *n pairs in *xy, freed with CPLFree(). */
 bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_error *error);
 
 /* Is every X and Y of the geometry (control points of arcs included) a finite number? NULL and empty: yes. */
@@ -47,6 +48,10 @@ bool gis_geometry_is_finite(OGRGeometryH geometry);
  * orientation and start, arcs (their control points move) and the kind of geometry. dx == dy == 0 changes nothing at
  * all. False only where memory is out. */
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error);
+
+/* Turns the rings of all polygons (not curved ones) so that outer rings run clockwise and holes counter-clockwise, as
+ * Shapefiles want them; the direction is taken at the lexicographically smallest vertex, exactly. Z and M go along. */
+bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error);
 
 /* New geometries for layers that the program makes; the caller owns them (gis_sink_write takes them over). NULL if
  * memory is out. A polygon set is a Polygon if it has one member and `multi` is false, else a MultiPolygon; rings may

@@ -258,7 +258,9 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
         if (sink->updating)
             return gis_fail(error, "%s: --update works on plain files and databases only", sink->request.path);
         sink->memory = CPLStrdup(CPLSPrintf("/vsimem/sunder-%p", (void *)sink));
-        sink->main_file = CPLStrdup(sink->to_stdout ? "output" : CPLGetFilename(sink->request.path));
+        const char *ending = GDALGetMetadataItem(sink->format.driver, GDAL_DMD_EXTENSION, NULL);
+        sink->main_file = CPLStrdup(sink->to_stdout ? CPLResetExtension("output", ending ? ending : "")
+                                                    : CPLGetFilename(sink->request.path));
         VSIMkdir(sink->memory, 0700);
     }
     return true;
@@ -365,6 +367,8 @@ void gis_sink_free(gis_sink *sink)
         VSIRmdirRecursive(sink->memory);
     CPLFree(sink->memory);
     CPLFree(sink->main_file);
+    if (sink->set_rewind)
+        CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", NULL);
     if (sink->set_date)
         CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", NULL);
     gis_list_clear(&sink->losses);

@@ -7,7 +7,6 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <errno.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,6 +17,16 @@ static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
     if (layer->file || GDALDatasetGetLayerCount(dataset) == 1)
         return GDALDatasetGetLayer(dataset, 0); /* some formats name the layer after the file */
     return GDALDatasetGetLayerByName(dataset, layer->name);
+}
+
+bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error)
+{
+    const gis_sink *sink = layer->sink;
+    bool some_empty = layer->request.like_source && sink->source &&
+                      gis_source_content_count(sink->source, GIS_NOTHING) > 0;
+    return gis_fail(error, "%s, layer %s: %zu features were written, but %zu read back%s", sink->request.path,
+                    layer->name, layer->written, read_back,
+                    some_empty ? "; the format may have no place for features without geometry" : "");
 }
 
 static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_result *result, gis_error *error)
@@ -36,8 +45,7 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
         return gis_sink_compare(layer, as_written, result, error);
     GIntBig count = OGR_L_GetFeatureCount(as_written, TRUE);
     if (count != (GIntBig)layer->written)
-        return gis_fail(error, "%s, layer %s: %zu features were written, but %" PRId64 " read back",
-                        sink->request.path, layer->name, layer->written, (int64_t)count);
+        return gis_sink_fail_count(layer, (size_t)count, error);
     return true;
 }
 

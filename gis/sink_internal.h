@@ -30,6 +30,7 @@ struct gis_sink_layer {
     OGRLayerH layer;           /* NULL when closed */
     OGRwkbGeometryType type;   /* as asked for */
     bool promote;              /* Polygons become MultiPolygons: the source said Polygon and meant both */
+    bool wind;                 /* rings are turned as Shapefiles want them before they are written */
     int *field_map;            /* field of the source -> field of the layer, -1: not written */
     int *own;                  /* the program's own fields -> field of the layer */
     int fid_field;             /* where sunder_fid is, or -1 */
@@ -59,7 +60,7 @@ struct gis_sink {
     char *memory;      /* directory of GIS_PLACE_MEMORY */
     char *main_file;   /* base name of the main file in the stage */
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
-    bool in_transaction, set_date, committed;
+    bool in_transaction, set_date, set_rewind, committed;
     gis_sink_layer **layers;
     size_t n_layers;
     gis_list losses, warnings;
@@ -80,6 +81,8 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
 /* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
 
+/* Fails with the sentence that says how many features came back of those written. */
+bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);
 void gis_sink_forget_sent(gis_sink_layer *layer);
 /* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation. */
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);

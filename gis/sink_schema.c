@@ -122,7 +122,8 @@ static char **layer_options(const gis_sink_layer *layer)
         options = offer(layer, options, "FID", free_name(layer, NULL, "fid", "ogc_fid"));
     options = offer(layer, options, "LAUNDER", "NO");
     options = offer(layer, options, "GEOMETRY", "AS_WKT");
-    options = offer(layer, options, "CREATE_CSVT", "YES");
+    if (!sink->to_stdout)
+        options = offer(layer, options, "CREATE_CSVT", "YES");
     if (sink->format.shapefile)
         options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
     if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double */
@@ -207,7 +208,7 @@ static void create_source_fields(gis_sink_layer *layer)
     }
 }
 
-static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
+static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
 {
     OGRFieldDefnH field = OGR_Fld_Create(name, type);
     if (!field)
@@ -218,22 +219,29 @@ static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldTyp
     return index;
 }
 
-static bool create_own_fields(gis_sink_layer *layer, gis_error *error)
+/* A format without 64-bit integers gets them as reals (FIDs and block numbers beyond 2^53 are not met), one without
+ * attributes loses the field. */
+static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
+{
+    int index = create_field_of(layer, name, type, width);
+    if (index < 0 && type == OFTInteger64)
+        index = create_field_of(layer, name, OFTReal, 0);
+    if (index < 0)
+        gis_list_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name, name,
+                     layer->sink->format.name);
+    return index;
+}
+
+static void create_own_fields(gis_sink_layer *layer)
 {
     size_t n = layer->request.n_fields;
     layer->own = CPLMalloc((n + 1) * sizeof *layer->own);
     for (size_t i = 0; i < n; i++) {
         const gis_field *field = &layer->request.fields[i];
         layer->own[i] = create_own_field(layer, field->name, field->type, field->width);
-        if (layer->own[i] < 0)
-            return gis_fail(error, "layer %s: field %s cannot be made in %s", layer->name, field->name,
-                            layer->sink->format.name);
     }
-    if (!source_definition(layer) || layer->sink->fids_kept)
-        return true;
-    layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
-    return layer->fid_field >= 0 || gis_fail(error, "layer %s: field " FID_FIELD " cannot be made in %s", layer->name,
-                                             layer->sink->format.name);
+    if (source_definition(layer) && !layer->sink->fids_kept)
+        layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }
 
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
@@ -243,6 +251,13 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     layer->promote = must_promote(layer, layer->type);
     if (layer->promote)
         layer->type = OGR_GT_SetModifier(wkbMultiPolygon, OGR_GT_HasZ(layer->type), OGR_GT_HasM(layer->type));
+    /* shapelib, asked to turn the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it comes
+     * back filled): so with Z the rings are turned here, and shapelib is told to keep them. */
+    layer->wind = sink->format.shapefile && OGR_GT_HasZ(layer->type);
+    if (layer->wind && !CPLGetConfigOption("SHAPE_REWIND_ON_WRITE", NULL)) {
+        CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");
+        sink->set_rewind = true;
+    }
     OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : layer->request.crs;
     char **options = layer_options(layer);
     gis_listener listener = {0};
@@ -253,7 +268,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         if (layer->request.as_source)
             copy_metadata(layer);
         create_source_fields(layer);
-        done = create_own_fields(layer, error);
+        create_own_fields(layer);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
     } else {
@@ -263,6 +278,8 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     gis_listen_end();
     gis_listener_clear(&listener);
     CSLDestroy(options);
-    layer->keep_sent = !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+    /* What is promised is promised of the features; arrows and links may be rounded. */
+    bool promised = layer->request.like_source || !layer->request.suffix[0];
+    layer->keep_sent = promised && !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
     return done;
 }

@@ -46,6 +46,8 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
     }
     for (size_t i = 0; i < layer->request.n_fields; i++) {
         int field = layer->own[i];
+        if (field < 0)
+            continue;
         switch (values[i].kind) {
         case GIS_NULL: OGR_F_SetFieldNull(to, field); break;
         case GIS_INTEGER: OGR_F_SetFieldInteger64(to, field, values[i].as.integer); break;
@@ -122,6 +124,8 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
         promote(to);
     if (done)
         note_losses(layer, to);
+    if (done && layer->wind)
+        done = gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error);
     done = done && create_feature(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;
@@ -142,6 +146,8 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
             promote(to);
         note_losses(layer, to);
     }
+    if (done && layer->wind)
+        done = gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error);
     done = done && create_feature(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;
