@@ -81,16 +81,19 @@ static sunder_status read_input(sunder_i_input *in, sunder_error *err)
     return finite_all(in, err) ? SUNDER_OK : SUNDER_EINVALID;
 }
 
-/* Cleaned rings of polygon p appended to r. */
-static void append_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at, size_t p,
-                           sunder_i_problem *problem)
+/* Cleaned rings of polygon p appended to r. False if memory is out. */
+static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at, size_t p,
+                           sunder_i_problem *problem, sunder_i_arena *arena)
 {
     const uint32_t first = r->vertices;
-    for (size_t ring = p ? in->poly_end[p - 1] : 0; ring < in->poly_end[p]; ring++) {
+    const size_t ring_lo = p ? in->poly_end[p - 1] : 0, ring_hi = in->poly_end[p];
+    const size_t raw = in->ring_end[ring_hi - 1] - (ring_lo ? in->ring_end[ring_lo - 1] : 0);
+    if (!sunder_i_rings_grow(r, arena, raw, ring_hi - ring_lo, 1)) return false;
+    for (size_t ring = ring_lo; ring < ring_hi; ring++) {
         const uint32_t lo = ring ? (uint32_t)in->ring_end[ring - 1] : 0, hi = (uint32_t)in->ring_end[ring];
         const uint32_t begin = r->vertices;
         const uint32_t n = sunder_i_clean_ring(r->lattice, in->xy, at, lo, hi, r->source + begin, problem);
-        if (problem->fault) return;
+        if (problem->fault) return true;
         r->vertices = begin + n;
         r->ring_end[r->rings++] = r->vertices;
         for (uint32_t i = begin; i < r->vertices; i++) {
@@ -103,6 +106,7 @@ static void append_polygon(sunder_i_rings *r, const sunder_i_input *in, const su
         r->xy[2 * (size_t)i] = in->xy[2 * (size_t)r->source[i]];
         r->xy[2 * (size_t)i + 1] = in->xy[2 * (size_t)r->source[i] + 1];
     }
+    return true;
 }
 
 /* Is the polygon of the last rings, from ring_lo on, as it should be? */
@@ -166,7 +170,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     sunder_i_problem problem = {SUNDER_I_SOUND, 0, SUNDER_I_NONE};
     bool touches = false;
     if (b->in->poly_end[p] == (p ? b->in->poly_end[p - 1] : 0)) return SUNDER_OK;
-    append_polygon(r, b->in, b->at, p, &problem);
+    if (!append_polygon(r, b->in, b->at, p, &problem, &b->arena)) return sunder_i_no_memory(err);
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
     if (problem.fault && b->validity == SUNDER_STRICT) return sunder_i_fail_problem(b->in, &problem, err);

@@ -1,0 +1,207 @@
+/* shape: nasty rings on a small grid (bow-ties, rings that run back along themselves, pinches, touching and coincident
+ * holes). Every invariant of the shape is checked, and membership of random points against a count of crossings of the
+ * raw rings. */
+#include "gmp_numbers.h"
+#include "polyset.h"
+#include "random.h"
+#include "shape/shape.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define CASES 3000
+#define POINTS 24
+#define DEN 101 /* of the sample points; odd and larger than the grid, so that few lie on edges */
+
+/* A ring that keeps coming back to places and edges already used. */
+static void nasty_ring(polyset *set, rng *g, int64_t span, size_t most)
+{
+    double xy[64];
+    const size_t n = (size_t)rng_int(g, 3, (int64_t)most);
+    for (size_t i = 0; i < n; i++) {
+        const int kind = (int)rng_int(g, 0, 9);
+        double *p = xy + 2 * i;
+        if (kind == 0 && i > 0) {
+            memcpy(p, xy + 2 * (i - 1), 2 * sizeof *p); /* repeated */
+        } else if (kind == 1 && i > 1) {
+            memcpy(p, xy + 2 * (size_t)rng_int(g, 0, (int64_t)i - 2), 2 * sizeof *p); /* a place used before */
+        } else if (kind <= 3 && i > 0) {
+            p[0] = kind == 2 ? p[-2] : (double)rng_int(g, 0, span); /* along an axis */
+            p[1] = kind == 2 ? (double)rng_int(g, 0, span) : p[-1];
+        } else {
+            p[0] = (double)rng_int(g, 0, span);
+            p[1] = (double)rng_int(g, 0, span);
+        }
+    }
+    polyset_ring(set, xy, n);
+}
+
+static void nasty_set(polyset *set, rng *g)
+{
+    const int64_t span = rng_int(g, 2, 9), polygons = rng_once_in(g, 4) ? 2 : 1;
+    for (int64_t p = 0; p < polygons; p++) {
+        const int64_t rings = rng_once_in(g, 2) ? 1 : rng_int(g, 2, 4);
+        for (int64_t r = 0; r < rings; r++) nasty_ring(set, g, span, rng_once_in(g, 5) ? 20 : 7);
+        polyset_end_polygon(set);
+    }
+}
+
+/* Is the point (x, y) / DEN inside by the even-odd rule (1), outside (0), or on an edge (-1)? All numbers are small. */
+static int even_odd(const polyset *set, size_t ring_lo, size_t ring_hi, int64_t x, int64_t y)
+{
+    int inside = 0;
+    for (size_t ring = ring_lo; ring < ring_hi; ring++) {
+        const size_t lo = ring ? set->ring_end[ring - 1] : 0, hi = set->ring_end[ring];
+        for (size_t i = lo, j = hi - 1; i < hi; j = i++) {
+            const int64_t ax = (int64_t)set->xy[2 * j] * DEN, ay = (int64_t)set->xy[2 * j + 1] * DEN;
+            const int64_t bx = (int64_t)set->xy[2 * i] * DEN, by = (int64_t)set->xy[2 * i + 1] * DEN;
+            const int64_t cross = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+            if (cross == 0 && (x - ax) * (x - bx) + (y - ay) * (y - by) <= 0) return -1;
+            if ((ay > y) != (by > y) && (cross > 0) == (by > ay)) inside ^= 1;
+        }
+    }
+    return inside;
+}
+
+/* The polygon of even-odd sets: inside any of them. */
+static int in_set(const polyset *set, int64_t x, int64_t y)
+{
+    int inside = 0;
+    for (size_t p = 0, ring = 0; p < set->polygons; ring = set->poly_end[p++]) {
+        const int in = even_odd(set, ring, set->poly_end[p], x, y);
+        if (in < 0) return -1;
+        inside |= in;
+    }
+    return inside;
+}
+
+/* Coordinate i of the cleaned form, exactly. */
+static void coordinate(mpq_t r, const sunder_shape *s, size_t i)
+{
+    if (!s->rational) {
+        mpq_set_d(r, s->xy[i]);
+        return;
+    }
+    mpz_from_big(mpq_numref(r), s->num[i]);
+    mpz_from_big(mpq_denref(r), s->den);
+    mpq_canonicalize(r);
+    if (s->exponent >= 0)
+        mpq_mul_2exp(r, r, (mp_bitcnt_t)s->exponent);
+    else
+        mpq_div_2exp(r, r, (mp_bitcnt_t)-s->exponent);
+}
+
+/* All corners as rationals, so that each is converted once. */
+static mpq_t *coordinates(const sunder_shape *s)
+{
+    mpq_t *at = test_alloc(2 * (size_t)s->vertices + 1, sizeof *at);
+    for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) {
+        mpq_init(at[i]);
+        coordinate(at[i], s, i);
+    }
+    return at;
+}
+
+static void free_coordinates(mpq_t *at, const sunder_shape *s)
+{
+    for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) mpq_clear(at[i]);
+    free(at);
+}
+
+/* Is (x, y) / DEN in some closed piece? */
+static bool in_pieces(const sunder_shape *s, mpq_t *at, int64_t x, int64_t y)
+{
+    bool found = false;
+    mpq_t p[2], u, v, w, z;
+    mpq_inits(p[0], p[1], u, v, w, z, NULL);
+    mpq_set_si(p[0], x, DEN);
+    mpq_set_si(p[1], y, DEN);
+    mpq_canonicalize(p[0]);
+    mpq_canonicalize(p[1]);
+    for (uint32_t i = 0, lo = 0; i < s->pieces && !found; lo = s->piece_end[i++]) {
+        bool in = true;
+        for (uint32_t k = lo; k < s->piece_end[i] && in; k++) {
+            mpq_t *a = at + 2 * (size_t)s->piece_vertex[k];
+            mpq_t *b = at + 2 * (size_t)s->piece_vertex[k + 1 < s->piece_end[i] ? k + 1 : lo];
+            mpq_sub(u, b[0], a[0]);
+            mpq_sub(v, p[1], a[1]);
+            mpq_mul(w, u, v);
+            mpq_sub(u, b[1], a[1]);
+            mpq_sub(v, p[0], a[0]);
+            mpq_mul(z, u, v);
+            in = mpq_cmp(w, z) >= 0;
+        }
+        found = in;
+    }
+    mpq_clears(p[0], p[1], u, v, w, z, NULL);
+    return found;
+}
+
+static void explain(const polyset *set, uint64_t i, const char *what)
+{
+    char *text = polyset_wkt(set);
+    fail_msg("SUNDER_SEED=%llu, case %llu: %s: %s", (unsigned long long)test_seed(), (unsigned long long)i, what, text);
+}
+
+static void check_members(const polyset *set, const sunder_shape *s, rng *g, uint64_t i)
+{
+    mpq_t *at = coordinates(s);
+    for (int k = 0; k < POINTS; k++) {
+        const int64_t x = rng_int(g, -DEN, 10 * DEN), y = rng_int(g, -DEN, 10 * DEN);
+        const int in = in_set(set, x, y);
+        if (in >= 0 && in_pieces(s, at, x, y) != (in == 1)) explain(set, i, "a point is on the wrong side");
+    }
+    free_coordinates(at, s);
+}
+
+/* Twice the area of a polygon's even-odd set is not easily had otherwise; the area of the shape must be that of its doubles. */
+static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
+{
+    sunder_shape *s = NULL, *t = NULL;
+    sunder_error err;
+    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_EVEN_ODD, &s, &err))
+        explain(set, i, err.message);
+    const char *fault = sunder_i_shape_check(s);
+    if (fault) explain(set, i, fault);
+    check_members(set, s, g, i);
+    const sunder_status status =
+        sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_STRICT, &t, &err);
+    if (status != (sunder_shape_repaired(s) ? SUNDER_EINVALID : SUNDER_OK))
+        explain(set, i, "strict and even-odd do not agree on validity");
+    if (status == SUNDER_OK) {
+        ++*strict;
+        fault = sunder_i_shape_check(t);
+        if (fault) explain(set, i, fault);
+        if (sunder_shape_area(s) != sunder_shape_area(t)) explain(set, i, "strict and even-odd differ in area");
+        sunder_shape_free(t);
+    }
+    sunder_shape_free(s);
+}
+
+static void test_nasty_rings(void **state)
+{
+    (void)state;
+    const size_t n = test_count(CASES);
+    size_t strict = 0;
+    for (uint64_t i = 0; i < n; i++) {
+        rng g = rng_start(test_seed(), i);
+        polyset set;
+        polyset_init(&set);
+        nasty_set(&set, &g);
+        check_case(&set, &g, i, &strict);
+        polyset_free(&set);
+    }
+    /* Both kinds must have come up. */
+    assert_true(strict > n / 100);
+    assert_true(strict < n);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nasty_rings)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
