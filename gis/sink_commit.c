@@ -35,7 +35,8 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
     OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
     if (!as_written) {
         if (sink->format.keeps_doubles || !sink->request.allow_inexact)
-            return gis_fail(error, "%s: layer %s cannot be read back", sink->request.path, layer->name);
+            return gis_fail(error, "%s: layer %s cannot be read back after writing; the disk may be full", sink->request.path,
+                            layer->name);
         result->exact = false; /* a format that is only written, and the user knows */
         result->deviation = INFINITY;
         return true;
