@@ -1,7 +1,7 @@
 /* Buildings: rings of whole millimetres, drawn on a piece of ground.
  *
- * Walls that two houses share are shared exactly: corners are rounded to the millimetre first, and where a corner of one
- * house stands on the wall of its neighbour, the neighbour has a vertex there too. */
+ * Walls that two houses share are shared exactly: corners are rounded to the millimetre first, and where a corner of
+ * one house stands on the wall of its neighbour, the neighbour has a vertex there too. */
 #ifndef TOWN_BUILDING_H
 #define TOWN_BUILDING_H
 
@@ -14,16 +14,17 @@ enum { TOWN_MAX_VERTICES = 48, TOWN_MAX_RINGS = 3 };
 
 typedef struct town_building {
     int64_t xy[2 * TOWN_MAX_VERTICES]; /* millimetres from the market place */
-    size_t ring_end[TOWN_MAX_RINGS];   /* index past the last vertex of each ring; outer ring first, counter-clockwise */
+    size_t ring_end[TOWN_MAX_RINGS]; /* index past the last vertex of each ring; outer ring first, counter-clockwise */
     size_t rings;
-    const char *kind, *name;           /* name: UTF-8, NULL for none */
-    double height;                     /* metres, in steps of 0.1 */
+    const char *kind, *name; /* name: UTF-8, NULL for none */
+    double height;           /* metres, in steps of 0.1 */
 } town_building;
 
 void town_building_begin(town_building *building, const char *kind, double height);
 /* Appends the ground's point (s, b) to the last ring. */
 void town_building_corner(town_building *building, const town_ground *ground, double s, double b);
-/* Appends corners at the heights b of a wall along s that lie strictly between two others, from the first to the second. */
+/* Appends corners at the heights b of a wall along s that lie strictly between two others, from the first to the
+ * second. */
 void town_building_wall(town_building *building, const town_ground *ground, double s, double from, double to,
                         const double *heights, size_t n);
 void town_building_next_ring(town_building *building);

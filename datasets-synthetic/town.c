@@ -37,26 +37,24 @@ typedef struct town_writer {
     uint64_t n_buildings, n_roads;
 } town_writer;
 
-static const char usage[] =
-    "usage: sunder-town [options] OUTPUT\n"
-    "Writes a synthetic town: layers \"buildings\" and \"roads\" in EPSG:25832.\n\n"
-    "  --buildings N   how many buildings (250)\n"
-    "  --seed N        which town (1)\n"
-    "  --trouble X     how often houses are pushed together, 0 to 1 (0.2)\n"
-    "  --of FORMAT     GDAL driver (GPKG)\n"
-    "  --overwrite     replace OUTPUT\n";
+static const char usage[] = "usage: sunder-town [options] OUTPUT\n"
+                            "Writes a synthetic town: layers \"buildings\" and \"roads\" in EPSG:25832.\n\n"
+                            "  --buildings N   how many buildings (250)\n"
+                            "  --seed N        which town (1)\n"
+                            "  --trouble X     how often houses are pushed together, 0 to 1 (0.2)\n"
+                            "  --of FORMAT     GDAL driver (GPKG)\n"
+                            "  --overwrite     replace OUTPUT\n";
 
-static double metres(int64_t millimetres) {
-    return (double)millimetres / 1000;
-}
+static double metres(int64_t millimetres) { return (double)millimetres / 1000; }
 
-static void set_ring(OGRGeometryH ring, const int64_t *xy, size_t n) {
-    for (size_t i = 0; i <= n; ++i) {
+static void set_ring(OGRGeometryH ring, const int64_t *xy, size_t n)
+{
+    for (size_t i = 0; i <= n; ++i)
         OGR_G_AddPoint_2D(ring, metres(MARKET_X + xy[2 * (i % n)]), metres(MARKET_Y + xy[2 * (i % n) + 1]));
-    }
 }
 
-static OGRGeometryH building_geometry(const town_building *building) {
+static OGRGeometryH building_geometry(const town_building *building)
+{
     OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon);
     size_t start = 0;
     for (size_t r = 0; r < building->rings; ++r) {
@@ -69,7 +67,8 @@ static OGRGeometryH building_geometry(const town_building *building) {
 }
 
 /* Commits now and then: one transaction for millions of rows would need a journal as large as the file. */
-static bool add_feature(town_writer *writer, OGRLayerH layer, OGRFeatureH feature, OGRGeometryH geometry) {
+static bool add_feature(town_writer *writer, OGRLayerH layer, OGRFeatureH feature, OGRGeometryH geometry)
+{
     bool done = OGR_F_SetGeometryDirectly(feature, geometry) == OGRERR_NONE &&
                 OGR_L_CreateFeature(layer, feature) == OGRERR_NONE;
     OGR_F_Destroy(feature);
@@ -80,21 +79,21 @@ static bool add_feature(town_writer *writer, OGRLayerH layer, OGRFeatureH featur
     return done;
 }
 
-static bool write_building(town_writer *writer, const town_building *building) {
+static bool write_building(town_writer *writer, const town_building *building)
+{
     OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(writer->buildings));
     char id[24];
     snprintf(id, sizeof id, "B%07" PRIu64, writer->n_buildings + 1);
     OGR_F_SetFieldString(feature, 0, id);
     OGR_F_SetFieldString(feature, 1, building->kind);
     OGR_F_SetFieldDouble(feature, 2, building->height);
-    if (building->name) {
-        OGR_F_SetFieldString(feature, 3, building->name);
-    }
+    if (building->name) OGR_F_SetFieldString(feature, 3, building->name);
     ++writer->n_buildings;
     return add_feature(writer, writer->buildings, feature, building_geometry(building));
 }
 
-static bool write_road(town_writer *writer, const town_street *street) {
+static bool write_road(town_writer *writer, const town_street *street)
+{
     enum { PIECES = 8 };
     int pieces = street->ground.bow == 0 ? 1 : PIECES;
     OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(writer->roads));
@@ -115,7 +114,8 @@ static bool write_road(town_writer *writer, const town_street *street) {
     return add_feature(writer, writer->roads, feature, line);
 }
 
-static bool create_fields(OGRLayerH layer, const char *number) {
+static bool create_fields(OGRLayerH layer, const char *number)
+{
     static const int width[4] = {12, 16, 0, 80};
     const char *names[4] = {"id", "kind", number, "name"};
     for (int i = 0; i < 4; ++i) {
@@ -124,14 +124,13 @@ static bool create_fields(OGRLayerH layer, const char *number) {
         OGR_Fld_SetNullable(field, i > 1);
         bool done = OGR_L_CreateField(layer, field, TRUE) == OGRERR_NONE;
         OGR_Fld_Destroy(field);
-        if (!done) {
-            return false;
-        }
+        if (!done) return false;
     }
     return true;
 }
 
-static bool open_output(const town_settings *settings, town_writer *writer) {
+static bool open_output(const town_settings *settings, town_writer *writer)
+{
     GDALDriverH driver = GDALGetDriverByName(settings->format);
     VSILFILE *there;
     if (!driver) {
@@ -156,54 +155,46 @@ static bool open_output(const town_settings *settings, town_writer *writer) {
     }
     OSRRelease(crs);
     if (!writer->buildings || !writer->roads || !create_fields(writer->buildings, "height") ||
-        !create_fields(writer->roads, "width")) {
+        !create_fields(writer->roads, "width"))
         return false;
-    }
     writer->transactions = GDALDatasetTestCapability(writer->dataset, ODsCTransactions) &&
                            GDALDatasetStartTransaction(writer->dataset, FALSE) == OGRERR_NONE;
     return true;
 }
 
 /* A street between two blocks is drawn with the one that comes first. */
-static bool write_block_roads(town_writer *writer, const town_block *block, uint64_t number, uint64_t blocks) {
+static bool write_block_roads(town_writer *writer, const town_block *block, uint64_t number, uint64_t blocks)
+{
     static const int64_t across[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
     for (size_t side = 0; side < 4; ++side) {
         uint64_t other = town_block_number(block->column + across[side][0], block->row + across[side][1]);
-        if ((other > number || other >= blocks) && !write_road(writer, &block->streets[side])) {
-            return false;
-        }
+        if ((other > number || other >= blocks) && !write_road(writer, &block->streets[side])) return false;
     }
-    for (size_t i = 0; i < block->n_lanes; ++i) {
-        if (!write_road(writer, &block->lanes[i])) {
-            return false;
-        }
-    }
+    for (size_t i = 0; i < block->n_lanes; ++i)
+        if (!write_road(writer, &block->lanes[i])) return false;
     return true;
 }
 
-static bool write_town(const town_settings *settings, town_writer *writer, town_block *block) {
+static bool write_town(const town_settings *settings, town_writer *writer, town_block *block)
+{
     uint64_t blocks = 0;
     int64_t column, row;
     while (writer->n_buildings < settings->buildings) {
         town_block_place(blocks++, &column, &row);
         town_block_build(block, settings->seed, column, row, settings->trouble);
-        for (size_t i = 0; i < block->n && writer->n_buildings < settings->buildings; ++i) {
-            if (!write_building(writer, &block->buildings[i])) {
-                return false;
-            }
-        }
+        for (size_t i = 0; i < block->n && writer->n_buildings < settings->buildings; ++i)
+            if (!write_building(writer, &block->buildings[i])) return false;
     }
     for (uint64_t number = 0; number < blocks; ++number) {
         town_block_place(number, &column, &row);
         town_block_build(block, settings->seed, column, row, settings->trouble);
-        if (!write_block_roads(writer, block, number, blocks)) {
-            return false;
-        }
+        if (!write_block_roads(writer, block, number, blocks)) return false;
     }
     return !writer->transactions || GDALDatasetCommitTransaction(writer->dataset) == OGRERR_NONE;
 }
 
-static bool parse_count(const char *text, uint64_t *out) {
+static bool parse_count(const char *text, uint64_t *out)
+{
     char *end;
     errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
@@ -211,21 +202,21 @@ static bool parse_count(const char *text, uint64_t *out) {
     return text[0] >= '0' && text[0] <= '9' && *end == '\0' && errno == 0;
 }
 
-static bool parse_share(const char *text, double *out) {
+static bool parse_share(const char *text, double *out)
+{
     char *end;
     *out = strtod(text, &end);
     return end != text && *end == '\0' && *out >= 0 && *out <= 1;
 }
 
-static bool parse_arguments(int argc, char **argv, town_settings *settings) {
+static bool parse_arguments(int argc, char **argv, town_settings *settings)
+{
     for (int i = 1; i < argc; ++i) {
         const char *value = i + 1 < argc ? argv[i + 1] : NULL;
         if (strcmp(argv[i], "--overwrite") == 0) {
             settings->overwrite = true;
         } else if (strncmp(argv[i], "--", 2) != 0) {
-            if (settings->output) {
-                return false;
-            }
+            if (settings->output) return false;
             settings->output = argv[i];
         } else if (!value) {
             return false;
@@ -241,7 +232,8 @@ static bool parse_arguments(int argc, char **argv, town_settings *settings) {
     return settings->output != NULL;
 }
 
-int main(int argc, char **argv) {
+int main(int argc, char **argv)
+{
     town_settings settings = {.format = "GPKG", .buildings = 250, .seed = 1, .trouble = 0.2};
     if (argc == 2 && strcmp(argv[1], "--help") == 0) {
         fputs(usage, stdout);

@@ -11,19 +11,14 @@ enum { MAX_VERTICES = 64, MAX_RINGS = 8 };
 static _Atomic unsigned allocations_left;
 static _Atomic int failing;
 
-static int is_refused(void) {
-    return failing && (allocations_left == 0 || --allocations_left == 0);
-}
+static int is_refused(void) { return failing && (allocations_left == 0 || --allocations_left == 0); }
 
-static void *allocate(size_t size) {
-    return is_refused() ? NULL : malloc(size);
-}
+static void *allocate(size_t size) { return is_refused() ? NULL : malloc(size); }
 
-static void *reallocate(void *memory, size_t size) {
-    return is_refused() ? NULL : realloc(memory, size);
-}
+static void *reallocate(void *memory, size_t size) { return is_refused() ? NULL : realloc(memory, size); }
 
-void fuzz_fail_allocations(unsigned after) {
+void fuzz_fail_allocations(unsigned after)
+{
     static int installed;
     if (!installed) {
         sunder_set_allocator(allocate, reallocate, free);
@@ -33,42 +28,41 @@ void fuzz_fail_allocations(unsigned after) {
     allocations_left = after;
 }
 
-_Noreturn void fuzz_complain(const char *file, int line, const char *statement) {
+_Noreturn void fuzz_complain(const char *file, int line, const char *statement)
+{
     fprintf(stderr, "%s:%d: not so: %s\n", file, line, statement);
     abort();
 }
 
-unsigned fuzz_byte(fuzz_bytes *bytes) {
-    if (bytes->left == 0) {
-        return 0;
-    }
+unsigned fuzz_byte(fuzz_bytes *bytes)
+{
+    if (bytes->left == 0) return 0;
     --bytes->left;
     return *bytes->data++;
 }
 
-fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes) {
+fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes)
+{
     unsigned lot = fuzz_byte(bytes) % 8;
     return lot < 5 ? FUZZ_GRID : lot < 7 ? FUZZ_MAP : FUZZ_ANY;
 }
 
-double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale) {
-    if (scale == FUZZ_GRID) {
-        return (double)(fuzz_byte(bytes) % 12);
-    }
+double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale)
+{
+    if (scale == FUZZ_GRID) return (double)(fuzz_byte(bytes) % 12);
     if (scale == FUZZ_MAP) {
         unsigned high = fuzz_byte(bytes);
         return 451234.567 + (double)(high * 256 + fuzz_byte(bytes)) / 1000;
     }
     uint8_t raw[sizeof(double)];
     double value;
-    for (size_t i = 0; i < sizeof raw; ++i) {
-        raw[i] = (uint8_t)fuzz_byte(bytes);
-    }
+    for (size_t i = 0; i < sizeof raw; ++i) raw[i] = (uint8_t)fuzz_byte(bytes);
     memcpy(&value, raw, sizeof value);
     return value;
 }
 
-sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices) {
+sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices)
+{
     double xy[2 * MAX_VERTICES];
     size_t ring_end[MAX_RINGS], poly_end[MAX_RINGS], n = 0, rings = 0, polygons = 0;
     size_t most = max_vertices < MAX_VERTICES ? max_vertices : MAX_VERTICES;
@@ -81,9 +75,7 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
             double x0 = fuzz_coordinate(bytes, scale), y0 = fuzz_coordinate(bytes, scale);
             double x1 = fuzz_coordinate(bytes, scale), y1 = fuzz_coordinate(bytes, scale);
             const double corners[8] = {x0, y0, x1, y0, x1, y1, x0, y1};
-            if (n + 4 > most) {
-                break;
-            }
+            if (n + 4 > most) break;
             memcpy(xy + 2 * n, corners, sizeof corners);
             n += 4;
         } else {
@@ -93,13 +85,10 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
             }
         }
         ring_end[rings++] = n;
-        if (plan & 32) { /* each ring a polygon of its own, else holes of the first */
+        if (plan & 32) /* each ring a polygon of its own, else holes of the first */
             poly_end[polygons++] = rings;
-        }
     }
-    if (!(plan & 32)) {
-        poly_end[polygons++] = rings;
-    }
+    if (!(plan & 32)) poly_end[polygons++] = rings;
     sunder_shape *shape = NULL;
     sunder_error error = {0};
     sunder_status status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, validity, &shape, &error);

@@ -24,16 +24,14 @@ double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale);
 void fuzz_fail_allocations(unsigned after);
 
 /* Ends the process, so that the fuzzer keeps the input, if the statement is false. */
-#define FUZZ_DEMAND(statement) \
-    do { \
-        if (!(statement)) { \
-            fuzz_complain(__FILE__, __LINE__, #statement); \
-        } \
+#define FUZZ_DEMAND(statement)                                                                                         \
+    do {                                                                                                               \
+        if (!(statement)) fuzz_complain(__FILE__, __LINE__, #statement);                                               \
     } while (0)
 _Noreturn void fuzz_complain(const char *file, int line, const char *statement);
 
-/* A shape of at most so many vertices; NULL where the library refuses it or has no memory for it. Demands that a refusal
- * has a reason and leaves the output untouched. */
+/* A shape of at most so many vertices; NULL where the library refuses it or has no memory for it. Demands that a
+ * refusal has a reason and leaves the output untouched. */
 sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertices);
 
 #endif

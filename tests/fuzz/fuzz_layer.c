@@ -5,7 +5,8 @@
 
 enum { MOST = 6 };
 
-static size_t count_between_blocks(const sunder_report *report) {
+static size_t count_between_blocks(const sunder_report *report)
+{
     sunder_layer_summary summary;
     sunder_report_summary(report, &summary);
     const sunder_conflict_counts *after = &summary.after;
@@ -14,7 +15,8 @@ static size_t count_between_blocks(const sunder_report *report) {
 
 /* The features moved by their moves, in the blocks that the report gives them, and no others. */
 static void demand_agreement(const sunder_feature *features, size_t n, const sunder_layer_options *options,
-                             const sunder_report *report) {
+                             const sunder_report *report)
+{
     sunder_feature moved[MOST];
     sunder_shape *shapes[MOST] = {0};
     sunder_layer *layer = NULL;
@@ -32,18 +34,16 @@ static void demand_agreement(const sunder_feature *features, size_t n, const sun
         moved[i].block = sunder_report_block(report, i);
     }
     if (complete && sunder_layer_new(moved, n, &layer, NULL) == SUNDER_OK &&
-        sunder_layer_check(layer, &checked, &again, NULL) == SUNDER_OK) {
+        sunder_layer_check(layer, &checked, &again, NULL) == SUNDER_OK)
         FUZZ_DEMAND(count_between_blocks(again) == count_between_blocks(report));
-    }
     sunder_report_free(again);
     sunder_layer_free(layer);
-    for (size_t i = 0; i < n; ++i) {
-        sunder_shape_free(shapes[i]);
-    }
+    for (size_t i = 0; i < n; ++i) sunder_shape_free(shapes[i]);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
     fuzz_bytes bytes = {data, size};
     unsigned fail = fuzz_byte(&bytes), plan = fuzz_byte(&bytes);
     fuzz_scale scale = plan & 1 ? FUZZ_MAP : FUZZ_GRID;
@@ -57,9 +57,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     options.contained = (sunder_containment)(fuzz_byte(&bytes) % 3);
     while (n < wanted && bytes.left > 0) {
         sunder_shape *shape = fuzz_shape(&bytes, scale, 12);
-        if (!shape) {
-            break;
-        }
+        if (!shape) break;
         unsigned kind = fuzz_byte(&bytes);
         features[n++] = (sunder_feature){.shape = shape,
                                          .weight = 1 + (double)(kind & 3),
@@ -74,14 +72,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
         fuzz_fail_allocations(0);
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
-        if (report) {
-            demand_agreement(features, n, &options, report);
-        }
+        if (report) demand_agreement(features, n, &options, report);
     }
     sunder_report_free(report);
     sunder_layer_free(layer);
-    for (size_t i = 0; i < n; ++i) {
-        sunder_shape_free((sunder_shape *)(uintptr_t)features[i].shape);
-    }
+    for (size_t i = 0; i < n; ++i) sunder_shape_free((sunder_shape *)(uintptr_t)features[i].shape);
     return 0;
 }

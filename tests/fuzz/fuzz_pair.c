@@ -4,24 +4,22 @@
 
 #include "bytes.h"
 
-static void demand_separation(const sunder_shape *p, const sunder_shape *q, double gap, const sunder_separation *answer) {
+static void demand_separation(const sunder_shape *p, const sunder_shape *q, double gap, const sunder_separation *answer)
+{
     bool apart = false, exact = false;
     sunder_shape *moved = NULL;
-    if (sunder_pair_apart(p, q, gap, &apart, NULL) == SUNDER_OK) {
-        FUZZ_DEMAND(answer->overlap == !apart);
-    }
+    if (sunder_pair_apart(p, q, gap, &apart, NULL) == SUNDER_OK) FUZZ_DEMAND(answer->overlap == !apart);
     FUZZ_DEMAND(answer->overlap || strcmp(answer->distance_squared_text, "0") == 0);
     FUZZ_DEMAND(answer->lower_bound <= answer->distance * (1 + 0x1p-50));
     if (sunder_shape_translate(q, answer->dx, answer->dy, &moved, &exact, NULL) == SUNDER_OK && exact) {
-        if (sunder_pair_apart(p, moved, gap, &apart, NULL) == SUNDER_OK) {
-            FUZZ_DEMAND(apart == answer->rounded_is_free);
-        }
+        if (sunder_pair_apart(p, moved, gap, &apart, NULL) == SUNDER_OK) FUZZ_DEMAND(apart == answer->rounded_is_free);
     }
     sunder_shape_free(moved);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
     fuzz_bytes bytes = {data, size};
     unsigned fail = fuzz_byte(&bytes);
     fuzz_scale scale = fuzz_choose_scale(&bytes);

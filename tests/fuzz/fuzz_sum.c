@@ -4,18 +4,20 @@
 
 #include "bytes.h"
 
-static void demand_equal_text(const sunder_sum *a, uint32_t i, const sunder_sum *b, uint32_t j) {
+static void demand_equal_text(const sunder_sum *a, uint32_t i, const sunder_sum *b, uint32_t j)
+{
     char *ax = NULL, *ay = NULL, *bx = NULL, *by = NULL;
-    if (sunder_sum_vertex_text(a, i, &ax, &ay, NULL) == SUNDER_OK && sunder_sum_vertex_text(b, j, &bx, &by, NULL) == SUNDER_OK) {
+    if (sunder_sum_vertex_text(a, i, &ax, &ay, NULL) == SUNDER_OK &&
+        sunder_sum_vertex_text(b, j, &bx, &by, NULL) == SUNDER_OK)
         FUZZ_DEMAND(strcmp(ax, bx) == 0 && strcmp(ay, by) == 0);
-    }
     sunder_free(ax);
     sunder_free(ay);
     sunder_free(bx);
     sunder_free(by);
 }
 
-static void demand_equal(const sunder_sum *a, const sunder_sum *b) {
+static void demand_equal(const sunder_sum *a, const sunder_sum *b)
+{
     sunder_sum_counts m, n;
     sunder_sum_count(a, &m);
     sunder_sum_count(b, &n);
@@ -27,9 +29,7 @@ static void demand_equal(const sunder_sum *a, const sunder_sum *b) {
             size_t k, l;
             const uint32_t *first = sunder_sum_ring(a, p, r, &k), *second = sunder_sum_ring(b, p, r, &l);
             FUZZ_DEMAND(k == l && k >= 3);
-            for (size_t i = 0; i < k; ++i) {
-                demand_equal_text(a, first[i], b, second[i]);
-            }
+            for (size_t i = 0; i < k; ++i) demand_equal_text(a, first[i], b, second[i]);
         }
     }
     for (size_t i = 0; i < m.degenerate_segments; ++i) {
@@ -39,13 +39,13 @@ static void demand_equal(const sunder_sum *a, const sunder_sum *b) {
         demand_equal_text(a, first[0], b, second[0]);
         demand_equal_text(a, first[1], b, second[1]);
     }
-    for (size_t i = 0; i < m.degenerate_points; ++i) {
+    for (size_t i = 0; i < m.degenerate_points; ++i)
         demand_equal_text(a, sunder_sum_point(a, i), b, sunder_sum_point(b, i));
-    }
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
     fuzz_bytes bytes = {data, size};
     unsigned fail = fuzz_byte(&bytes);
     fuzz_scale scale = fuzz_choose_scale(&bytes);
@@ -61,9 +61,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_fail_allocations(0);
         status = sunder_minkowski_sum(q, p, NULL, &turned, &error);
         FUZZ_DEMAND(status == SUNDER_OK);
-        if (sum) {
-            demand_equal(sum, turned);
-        }
+        if (sum) demand_equal(sum, turned);
     }
     sunder_sum_free(turned);
     sunder_sum_free(sum);

@@ -2,7 +2,8 @@
 #include <stdio.h>
 #include <sunder.h>
 
-int main(void) {
+int main(void)
+{
     const double xy[] = {0, 0, 4, 0, 4, 4, 0, 4};
     const size_t ring_end[] = {4}, poly_end[] = {1};
     sunder_shape *p = NULL, *q = NULL;
