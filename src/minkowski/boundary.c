@@ -217,9 +217,10 @@ static bool gather_points(const sunder_i_coverage *c, const uint32_t *vertex_of,
     return out->point && sunder_i_sort_indices(out->point, out->points, compare_points, d);
 }
 
-sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, sunder_i_coverage *coverage,
-                                      sunder_sum *out, sunder_error *err)
+sunder_status sunder_i_boundary_build(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                      sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err)
 {
+    sunder_i_lattice *lattice = subsums->lattice;
     uint32_t *vertex_of = sunder_i_alloc(coverage->points, sizeof *vertex_of);
     if (!vertex_of) return sunder_i_no_memory(err);
     const size_t places = sunder_i_places_unify(lattice, coverage->point, coverage->points, vertex_of);
@@ -230,8 +231,8 @@ sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classe
     out->vertex = coverage->point;
     out->vertices = (uint32_t)places;
     coverage->point = NULL;
-    sunder_i_graph g = {.lattice = lattice, .coverage = coverage, .vertex = out->vertex, .classes = classes,
-                        .vertices = out->vertices};
+    sunder_i_graph g = {.lattice = lattice, .lines = lines, .vertex = out->vertex,
+                        .classes = subsums->classes, .vertices = out->vertices};
     degenerates d = {lattice, out->vertex, NULL};
     const bool ok = sunder_i_graph_build(&g, coverage, vertex_of) && trace_rings(&g, out) &&
                     gather_segments(coverage, vertex_of, &d, out) && gather_points(coverage, vertex_of, &d, out);

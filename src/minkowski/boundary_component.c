@@ -44,7 +44,7 @@ static bool left_is_inside(const sunder_i_graph *g, const outer *o, uint32_t v)
         const bool to_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->to], place) > 0;
         if (from_above != to_above) {
             /* Lines run with angles in [0, pi), so this one runs upwards: it is crossed to the left of v where v is right of it. */
-            const sunder_i_line *line = &g->coverage->line[edge->line];
+            const sunder_i_line *line = &g->lines->line[edge->line];
             if (sunder_i_orient_hpoint(g->lattice, line->a, line->b, place) < 0) inside = !inside;
         }
         e = sunder_i_graph_next_covered(g, e);

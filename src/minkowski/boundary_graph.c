@@ -10,7 +10,7 @@ static bool make_edges(sunder_i_graph *g, const sunder_i_coverage *c, const uint
     if (!g->edge) return false;
     for (size_t i = 0; i < c->pieces; i++) {
         const sunder_i_piece *p = &c->piece[i];
-        const uint32_t from = vertex_of[p->from], to = vertex_of[p->to], class = c->line[p->line].class;
+        const uint32_t from = vertex_of[p->from], to = vertex_of[p->to], class = g->lines->line[p->line].class;
         if (p->banks == SUNDER_I_LEFT) g->edge[g->edges++] = (sunder_i_edge){from, to, class, p->line};
         if (p->banks == SUNDER_I_RIGHT) g->edge[g->edges++] = (sunder_i_edge){to, from, class + g->classes, p->line};
     }

@@ -14,7 +14,7 @@ typedef uint32_t sunder_i_ray;
 
 typedef struct sunder_i_graph {
     sunder_i_lattice *lattice;
-    const sunder_i_coverage *coverage; /* of the lines that edges lie on */
+    const sunder_i_lines *lines;
     const sunder_i_hpoint *vertex;
     uint32_t classes, vertices;
     sunder_i_edge *edge;

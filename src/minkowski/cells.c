@@ -6,10 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* A leaf may hold this many (candidate, subsum) pairs; measured flat between 24 and 100 on stars, combs and forks. */
+/* A leaf may hold this many (line, subsum) pairs. */
 #define LEAF_PAIRS 48
-/* So many splits in a row that thin nothing out mean coincident or concurrent sides, which no split will part. */
-#define STUBBORN_SPLITS 5
+/* So many splits in a row that thin out less than a tenth mean coincident or concurrent sides, which no split will part. */
+#define STUBBORN_SPLITS 4
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */
 typedef struct approx_side {
@@ -32,8 +32,9 @@ typedef struct cell {
 
 typedef struct builder {
     const sunder_i_subsums *subsums;
+    const sunder_i_lines *lines;
     const sunder_sum_options *options;
-    sunder_i_pairing *out;
+    sunder_i_cell_pairs *out;
     approx_side *side;
     double error;     /* bound on the distance error of a start point, see side_error() */
     entry *entries;   /* lists of all cells on the stack, one after the other */
@@ -42,9 +43,14 @@ typedef struct builder {
     size_t sides_n, sides_capacity;
     cell *stack;
     size_t stack_n, stack_capacity;
-    double done, total; /* area of finished cells, for progress */
+    uint32_t *stamp;  /* [lines] the last cell that counted the line */
+    uint32_t cells;
     bool no_memory;
 } builder;
+
+/* fmin and fmax without their care for NaN, which cannot come up here. */
+static inline double least(double a, double b) { return a < b ? a : b; }
+static inline double most_of(double a, double b) { return a > b ? a : b; }
 
 static int64_t diff(sunder_i_lattice *l, int64_t b, int64_t a) { return l->narrow ? b - a : sunder_i_lattice_sub(l, b, a); }
 
@@ -65,11 +71,11 @@ static bool approximate(builder *b, box *all)
             const double x = sunder_i_approx(l, from.x), y = sunder_i_approx(l, from.y);
             b->side[k] = (approx_side){x, y, sunder_i_approx(l, diff(l, to.x, from.x)),
                                        sunder_i_approx(l, diff(l, to.y, from.y))};
-            all->low[0] = fmin(all->low[0], x);
-            all->high[0] = fmax(all->high[0], x);
-            all->low[1] = fmin(all->low[1], y);
-            all->high[1] = fmax(all->high[1], y);
-            most = fmax(most, fmax(fabs(x), fabs(y)));
+            all->low[0] = least(all->low[0], x);
+            all->high[0] = most_of(all->high[0], x);
+            all->low[1] = least(all->low[1], y);
+            all->high[1] = most_of(all->high[1], y);
+            most = most_of(most, most_of(fabs(x), fabs(y)));
         }
     }
     /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start point is off by
@@ -102,21 +108,21 @@ static where side_against(const builder *b, const approx_side *s, double cx, dou
 static bool clip(const builder *b, const approx_side *s, const box *c, box *part)
 {
     const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
-    part->low[0] = fmax(c->low[0], fmin(s->ax, x2) - e);
-    part->high[0] = fmin(c->high[0], fmax(s->ax, x2) + e);
-    part->low[1] = fmax(c->low[1], fmin(s->ay, y2) - e);
-    part->high[1] = fmin(c->high[1], fmax(s->ay, y2) + e);
+    part->low[0] = most_of(c->low[0], least(s->ax, x2) - e);
+    part->high[0] = least(c->high[0], most_of(s->ax, x2) + e);
+    part->low[1] = most_of(c->low[1], least(s->ay, y2) - e);
+    part->high[1] = least(c->high[1], most_of(s->ay, y2) + e);
     return part->low[0] <= part->high[0] && part->low[1] <= part->high[1];
 }
 
-static bool push_pair(builder *b, uint32_t side, uint32_t subsum)
+static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
 {
-    sunder_i_pairing *p = b->out;
+    sunder_i_cell_pairs *p = b->out;
     if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
         b->no_memory = true;
         return false;
     }
-    p->pair[p->n++] = (uint64_t)side << 32 | subsum;
+    p->pair[p->n++] = (uint64_t)line << 32 | subsum;
     return true;
 }
 
@@ -124,17 +130,20 @@ static bool push_pair(builder *b, uint32_t side, uint32_t subsum)
 static void close_cell(builder *b, const cell *parent, const box *c, uint32_t subsum)
 {
     box part;
+    b->cells++;
     for (size_t i = parent->side_from; i < parent->side_to; i++) {
-        const uint32_t k = b->sides[i];
-        if (b->subsums->candidate[k] && clip(b, &b->side[k], c, &part) && !push_pair(b, k, subsum)) return;
+        const uint32_t k = b->sides[i], line = b->lines->of[k];
+        if (line == SUNDER_I_NO_LINE || b->stamp[line] == b->cells || !clip(b, &b->side[k], c, &part)) continue;
+        b->stamp[line] = b->cells;
+        if (!push_pair(b, line, subsum)) return;
     }
 }
 
 static void grow(box *all, const box *part)
 {
     for (int k = 0; k < 2; k++) {
-        all->low[k] = fmin(all->low[k], part->low[k]);
-        all->high[k] = fmax(all->high[k], part->high[k]);
+        all->low[k] = least(all->low[k], part->low[k]);
+        all->high[k] = most_of(all->high[k], part->high[k]);
     }
 }
 
@@ -171,12 +180,15 @@ static bool reserve_child(builder *b, const cell *parent)
 static void open_leaf(builder *b, const cell *c)
 {
     box part;
+    b->cells++;
     for (size_t i = c->side_from; i < c->side_to; i++) {
-        const uint32_t k = b->sides[i];
-        if (!b->subsums->candidate[k] || !clip(b, &b->side[k], &c->b, &part)) continue;
-        b->out->live[k] = true;
+        const uint32_t k = b->sides[i], line = b->lines->of[k];
+        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[k], &c->b, &part)) continue;
+        b->out->live[k] = b->out->live_line[line] = true;
+        if (b->stamp[line] == b->cells) continue;
+        b->stamp[line] = b->cells;
         for (size_t e = c->entry_from; e < c->entry_to; e++)
-            if (!push_pair(b, k, b->entries[e].subsum)) return;
+            if (!push_pair(b, line, b->entries[e].subsum)) return;
     }
 }
 
@@ -188,7 +200,7 @@ static void make_child(builder *b, const cell *parent, const box *where_to)
     size_t from = parent->side_from;
     for (size_t e = parent->entry_from; e < parent->entry_to; e++) {
         const entry source = b->entries[e];
-        const size_t before = b->sides_n;
+        const size_t start = b->sides_n;
         const where w = filter_subsum(b, b->sides + from, source.sides, where_to);
         from += source.sides;
         if (w == HOLDS) {
@@ -197,26 +209,30 @@ static void make_child(builder *b, const cell *parent, const box *where_to)
             close_cell(b, parent, where_to, source.subsum);
             return;
         }
-        if (w == CROSSES) b->entries[b->entries_n++] = (entry){source.subsum, (uint32_t)(b->sides_n - before)};
+        if (w == CROSSES) b->entries[b->entries_n++] = (entry){source.subsum, (uint32_t)(b->sides_n - start)};
     }
     c.entry_to = b->entries_n;
     c.side_to = b->sides_n;
     /* The cell shrinks to what its candidates need. */
-    size_t candidates = 0;
+    size_t lines = 0;
     box need = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, part;
-    for (size_t i = c.side_from; i < c.side_to; i++)
-        if (b->subsums->candidate[b->sides[i]] && clip(b, &b->side[b->sides[i]], where_to, &part)) {
-            candidates++;
-            grow(&need, &part);
-        }
+    b->cells++;
+    for (size_t i = c.side_from; i < c.side_to; i++) {
+        const uint32_t line = b->lines->of[b->sides[i]];
+        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[b->sides[i]], where_to, &part)) continue;
+        grow(&need, &part);
+        lines += b->stamp[line] != b->cells;
+        b->stamp[line] = b->cells;
+    }
     c.b = need;
-    c.stubborn = c.side_to - c.side_from < parent->side_to - parent->side_from ? 0 : parent->stubborn + 1;
-    const bool leaf = candidates * (c.entry_to - c.entry_from) <= LEAF_PAIRS || c.stubborn >= STUBBORN_SPLITS;
-    if (candidates > 0 && !leaf) {
+    const size_t sides = c.side_to - c.side_from, before = parent->side_to - parent->side_from;
+    c.stubborn = 10 * sides < 9 * before ? 0 : parent->stubborn + 1;
+    const bool leaf = lines * (c.entry_to - c.entry_from) <= LEAF_PAIRS || c.stubborn >= STUBBORN_SPLITS;
+    if (lines > 0 && !leaf) {
         b->stack[b->stack_n++] = c;
         return;
     }
-    if (candidates > 0) open_leaf(b, &c);
+    if (lines > 0) open_leaf(b, &c);
     b->entries_n = c.entry_from;
     b->sides_n = c.side_from;
 }
@@ -295,25 +311,30 @@ static sunder_status descend(builder *b, sunder_error *err)
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_sum_options *options,
-                                  sunder_i_pairing *out, sunder_error *err)
+sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                  const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     if (subsums->sides == 0) return SUNDER_OK;
-    builder b = {.subsums = subsums, .options = options, .out = out};
+    builder b = {.subsums = subsums, .lines = lines, .options = options, .out = out};
     out->live = sunder_i_calloc(subsums->sides, sizeof *out->live);
-    const sunder_status status = out->live ? descend(&b, err) : sunder_i_no_memory(err);
+    out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
+    b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
+    const bool ok = out->live && out->live_line && b.stamp;
+    const sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     sunder_i_free(b.side);
     sunder_i_free(b.entries);
     sunder_i_free(b.sides);
     sunder_i_free(b.stack);
-    if (status != SUNDER_OK) sunder_i_pairing_free(out);
+    sunder_i_free(b.stamp);
+    if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
     return status;
 }
 
-void sunder_i_pairing_free(sunder_i_pairing *pairing)
+void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing)
 {
     sunder_i_free(pairing->pair);
     sunder_i_free(pairing->live);
+    sunder_i_free(pairing->live_line);
     memset(pairing, 0, sizeof *pairing);
 }

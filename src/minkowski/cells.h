@@ -7,23 +7,24 @@
  * beneath it.
  *
  * The tests are floating point with error bounds, and one-sided: a subsum is taken to hold a cell, or to miss it, only when that is
- * proved. What comes out is for each live candidate side (one that passes through an open leaf) a list of subsums that decides
- * exactly what part of it is covered: every subsum of the open leaves that it passes, and for each closed cell one subsum that
- * holds that cell. The decision itself is taken elsewhere, exactly (coverage.h). */
+ * proved. What comes out is for each line with live candidates (sides that pass through an open leaf) a list of subsums that
+ * decides exactly what part of those sides is covered: every subsum of the open leaves that they pass, and for each closed cell
+ * one subsum that holds that cell. The decision itself is taken elsewhere, exactly (coverage.h). */
 #ifndef SUNDER_I_CELLS_H
 #define SUNDER_I_CELLS_H
 
-#include "minkowski/subsums.h"
+#include "minkowski/lines.h"
 
-typedef struct sunder_i_pairing {
-    uint64_t *pair; /* candidate side << 32 | subsum; with repeats, in no order */
+typedef struct sunder_i_cell_pairs {
+    uint64_t *pair; /* line << 32 | subsum; with repeats, in no order */
     size_t n, capacity;
-    bool *live;     /* [sides] passes through an open leaf */
-} sunder_i_pairing;
+    bool *live;      /* [sides] candidates that pass through an open leaf */
+    bool *live_line; /* [lines] lines that hold such a candidate */
+} sunder_i_cell_pairs;
 
 /* Fails with SUNDER_ENOMEM, or SUNDER_ECANCEL. */
-sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_sum_options *options,
-                                  sunder_i_pairing *out, sunder_error *err);
-void sunder_i_pairing_free(sunder_i_pairing *pairing);
+sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                  const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err);
+void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing);
 
 #endif

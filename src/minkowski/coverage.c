@@ -1,6 +1,5 @@
 #include "minkowski/coverage.h"
 
-#include "minkowski/lines.h"
 #include "number/sort.h"
 #include "predicate/kernel.h"
 
@@ -26,6 +25,7 @@ typedef struct event {
 
 typedef struct finder {
     const sunder_i_subsums *subsums;
+    const sunder_i_lines *lines;
     const bool *live;
     sunder_i_coverage *out;
     event *events; /* of the line at hand */
@@ -196,7 +196,7 @@ static void add_piece(finder *f, sunder_i_piece piece)
 /* Sweeps the events of one line, place by place. */
 static void sweep(finder *f, uint32_t number)
 {
-    const sunder_i_line *line = &f->out->line[number];
+    const sunder_i_line *line = &f->lines->line[number];
     state s = {0, 0, 0, 0};
     uint32_t last = 0; /* the point where the open piece starts, while uncovered(&s) */
     for (size_t i = 0; i < f->events_n;) {
@@ -227,7 +227,7 @@ static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t 
 {
     f->events_n = 0;
     for (size_t i = 0; i < n && !f->no_memory; i++)
-        if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->out->line[number], (uint32_t)pair[i]);
+        if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
     if (!sunder_i_reserve(&f->order, &f->order_capacity, f->events_n, sizeof *f->order)) f->no_memory = true;
     if (f->no_memory) return;
     for (uint32_t i = 0; i < f->events_n; i++) f->order[i] = i;
@@ -238,24 +238,19 @@ static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t 
     sweep(f, number);
 }
 
-/* Rewrites the pairs as line << 32 | subsum, those of dead candidates dropped. */
-static void pairs_by_line(sunder_i_pairing *pairing, const uint32_t *line_of)
+/* Lines that no open leaf holds are covered throughout. */
+static void drop_dead_lines(sunder_i_cell_pairs *pairing)
 {
     size_t n = 0;
-    for (size_t i = 0; i < pairing->n; i++) {
-        const uint32_t side = (uint32_t)(pairing->pair[i] >> 32);
-        if (pairing->live[side]) pairing->pair[n++] = (uint64_t)line_of[side] << 32 | (uint32_t)pairing->pair[i];
-    }
+    for (size_t i = 0; i < pairing->n; i++)
+        if (pairing->live_line[pairing->pair[i] >> 32]) pairing->pair[n++] = pairing->pair[i];
     pairing->n = n;
 }
 
-static bool find_all(finder *f, sunder_i_pairing *pairing)
+static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
 {
-    uint32_t *line_of = sunder_i_alloc(f->subsums->sides, sizeof *line_of);
-    bool ok = line_of && sunder_i_lines_group(f->subsums, pairing->live, line_of, f->out);
-    if (ok) pairs_by_line(pairing, line_of);
-    sunder_i_free(line_of);
-    ok = ok && sunder_i_sort_keys(pairing->pair, pairing->n);
+    drop_dead_lines(pairing);
+    bool ok = sunder_i_sort_keys(pairing->pair, pairing->n);
     for (size_t i = 0; ok && i < pairing->n;) {
         const uint32_t number = (uint32_t)(pairing->pair[i] >> 32);
         size_t j = i;
@@ -267,11 +262,11 @@ static bool find_all(finder *f, sunder_i_pairing *pairing)
     return ok && !f->subsums->lattice->arena.failed;
 }
 
-sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, sunder_i_pairing *pairing,
-                                     sunder_i_coverage *out, sunder_error *err)
+sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                     sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    finder f = {.subsums = subsums, .live = pairing->live, .out = out};
+    finder f = {.subsums = subsums, .lines = lines, .live = pairing->live, .out = out};
     const bool ok = find_all(&f, pairing);
     sunder_i_free(f.events);
     sunder_i_free(f.order);
@@ -282,7 +277,6 @@ sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, sunder_i_p
 
 void sunder_i_coverage_free(sunder_i_coverage *coverage)
 {
-    sunder_i_free(coverage->line);
     sunder_i_free(coverage->point);
     sunder_i_free(coverage->piece);
     memset(coverage, 0, sizeof *coverage);

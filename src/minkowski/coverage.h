@@ -25,14 +25,7 @@ typedef struct sunder_i_piece {
     uint8_t banks;
 } sunder_i_piece;
 
-typedef struct sunder_i_line {
-    sunder_i_point a, b; /* b - a is the direction of the class */
-    uint32_t class;
-} sunder_i_line;
-
 typedef struct sunder_i_coverage {
-    sunder_i_line *line;
-    size_t lines;
     sunder_i_hpoint *point; /* as met along the lines: the same place may be there several times */
     size_t points, points_capacity;
     sunder_i_piece *piece;  /* consecutive along each line */
@@ -40,8 +33,8 @@ typedef struct sunder_i_coverage {
 } sunder_i_coverage;
 
 /* Consumes the order of pairing->pair. Fails with SUNDER_ENOMEM. */
-sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, sunder_i_pairing *pairing,
-                                     sunder_i_coverage *out, sunder_error *err);
+sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                     sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err);
 void sunder_i_coverage_free(sunder_i_coverage *coverage);
 
 #endif

@@ -3,6 +3,8 @@
 #include "predicate/kernel.h"
 #include "predicate/wide_vector.h"
 
+#include <string.h>
+
 /* A line is its class and the cross product of the class's direction with any of its points: equal exactly for points of one
  * line. */
 typedef struct key {
@@ -16,7 +18,6 @@ typedef struct table {
     uint32_t *slot; /* line number + 1, or 0 */
     size_t mask;
     key *keys; /* [lines] */
-    size_t keys_capacity;
 } table;
 
 static uint64_t mix(uint64_t h, uint64_t v)
@@ -50,14 +51,14 @@ static bool same_line(const sunder_i_subsums *s, const key *a, const key *b)
 }
 
 /* The number of the line of a side, made if it is new. */
-static uint32_t find_or_add(table *t, uint32_t side, sunder_i_coverage *out)
+static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
 {
     const sunder_i_subsums *s = t->subsums;
     const key k = make_key(s, side);
     size_t at = k.hash & t->mask;
     for (; t->slot[at]; at = (at + 1) & t->mask)
         if (same_line(s, &t->keys[t->slot[at] - 1], &k)) return t->slot[at] - 1;
-    const uint32_t n = (uint32_t)out->lines++;
+    const uint32_t n = out->n++;
     t->slot[at] = n + 1;
     t->keys[n] = k;
     const sunder_i_point a = s->corner[side];
@@ -65,19 +66,28 @@ static uint32_t find_or_add(table *t, uint32_t side, sunder_i_coverage *out)
     return n;
 }
 
-bool sunder_i_lines_group(const sunder_i_subsums *subsums, const bool *live, uint32_t *line_of,
-                          sunder_i_coverage *out)
+sunder_status sunder_i_lines_group(const sunder_i_subsums *subsums, sunder_i_lines *out, sunder_error *err)
 {
     size_t n = 0, size = 16;
-    for (size_t k = 0; k < subsums->sides; k++) n += live[k];
+    memset(out, 0, sizeof *out);
+    for (size_t k = 0; k < subsums->sides; k++) n += subsums->candidate[k];
     while (size < 2 * n) size *= 2;
-    table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys), 0};
+    table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
     out->line = sunder_i_alloc(n, sizeof *out->line);
-    out->lines = 0;
-    const bool ok = t.slot && t.keys && out->line;
+    out->of = sunder_i_alloc(subsums->sides, sizeof *out->of);
+    const bool ok = t.slot && t.keys && out->line && out->of;
     for (uint32_t k = 0; ok && k < subsums->sides; k++)
-        if (live[k]) line_of[k] = find_or_add(&t, k, out);
+        out->of[k] = subsums->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
     sunder_i_free(t.slot);
     sunder_i_free(t.keys);
-    return ok && !subsums->lattice->arena.failed;
+    if (ok && !subsums->lattice->arena.failed) return SUNDER_OK;
+    sunder_i_lines_free(out);
+    return sunder_i_no_memory(err);
+}
+
+void sunder_i_lines_free(sunder_i_lines *lines)
+{
+    sunder_i_free(lines->line);
+    sunder_i_free(lines->of);
+    memset(lines, 0, sizeof *lines);
 }

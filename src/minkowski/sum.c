@@ -14,18 +14,29 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static sunder_status unite(sunder_sum *sum, sunder_i_subsums *subsums, const sunder_sum_options *options,
+static sunder_status unite_along(sunder_sum *sum, const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                 const sunder_sum_options *options, sunder_error *err)
+{
+    sunder_i_cell_pairs pairing;
+    sunder_i_coverage coverage;
+    sunder_status status = sunder_i_cells_pair(subsums, lines, options, &pairing, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_coverage_find(subsums, lines, &pairing, &coverage, err);
+    sunder_i_cell_pairs_free(&pairing);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_boundary_build(subsums, lines, &coverage, sum, err);
+    sunder_i_coverage_free(&coverage);
+    return status;
+}
+
+static sunder_status unite(sunder_sum *sum, const sunder_i_subsums *subsums, const sunder_sum_options *options,
                            sunder_error *err)
 {
-    sunder_i_pairing pairing;
-    sunder_i_coverage coverage;
-    sunder_status status = sunder_i_cells_pair(subsums, options, &pairing, err);
+    sunder_i_lines lines;
+    sunder_status status = sunder_i_lines_group(subsums, &lines, err);
     if (status != SUNDER_OK) return status;
-    status = sunder_i_coverage_find(subsums, &pairing, &coverage, err);
-    sunder_i_pairing_free(&pairing);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_boundary_build(&sum->lattice, subsums->classes, &coverage, sum, err);
-    sunder_i_coverage_free(&coverage);
+    status = unite_along(sum, subsums, &lines, options, err);
+    sunder_i_lines_free(&lines);
     return status;
 }
 
