@@ -167,6 +167,9 @@ static bool write_styles(gis_sink *sink, gis_error *error)
 {
     if (!sink->format.geopackage || sink->request.no_styles)
         return true;
+    /* Any SQL makes GDAL build the spatial indexes first, for which it attaches a database: not within a transaction. */
+    if (!gis_sink_end_transaction(sink, error))
+        return false;
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
         if (!gis_styles_write(layer->dataset, layer->layer, layer->request.style,

@@ -66,15 +66,30 @@ static void supersede_existing(gis_sink *sink, const char *file)
 
 /* ---- Making and opening ----------------------------------------------------------------------------------- */
 
+/* A staged file is thrown away if anything fails, and synced before it is published: SQLite need not sync each step. A
+ * choice that the user made by --config stands. */
+static bool relax_sqlite(void)
+{
+    bool relaxed = !CPLGetConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+    if (relaxed)
+        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
+    return relaxed;
+}
+
+static void restore_sqlite(bool relaxed)
+{
+    if (relaxed)
+        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+}
+
 static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
 {
     char *path = gis_sink_inside(sink, file);
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    /* The file is thrown away if anything fails, and synced before it is published: SQLite need not sync each step. */
-    CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
+    bool relaxed = relax_sqlite();
     *out = GDALCreate(sink->format.driver, path, 0, 0, 0, GDT_Unknown, (CSLConstList)sink->request.dataset_options);
-    CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+    restore_sqlite(relaxed);
     gis_listen_end();
     CPLFree(path);
     if (!*out)
@@ -110,7 +125,9 @@ static bool open_for_update(gis_sink *sink, gis_error *error)
     char *path = gis_sink_inside(sink, sink->main_file);
     gis_listener listener = {0};
     gis_listen_begin(&listener);
+    bool relaxed = relax_sqlite();
     sink->dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    restore_sqlite(relaxed);
     gis_listen_end();
     CPLFree(path);
     if (!sink->dataset)
@@ -184,18 +201,31 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
         sink->dataset = NULL;
 }
 
+bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
+{
+    if (!sink->in_transaction)
+        return true;
+    sink->in_transaction = false;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
+    gis_listen_end();
+    if (!done)
+        gis_fail(error, "%s: writing failed: %s", sink->request.path,
+                 gis_listener_reason(&listener, "the transaction cannot be committed"));
+    gis_listener_clear(&listener);
+    return done;
+}
+
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
     GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
     if (!dataset)
         return true;
+    if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error))
+        return false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    if (sink->in_transaction) {
-        sink->in_transaction = false;
-        if (GDALDatasetCommitTransaction(dataset) != OGRERR_NONE)
-            CPLError(CE_Failure, CPLE_AppDefined, "the transaction cannot be committed");
-    }
     GDALFlushCache(dataset);
     GDALClose(dataset);
     gis_listen_end();

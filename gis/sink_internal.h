@@ -73,6 +73,8 @@ char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
+/* Commits the transaction of the common dataset, if one is open. */
+bool gis_sink_end_transaction(gis_sink *sink, gis_error *error);
 /* Closes the dataset of a layer that has its own, or with NULL the common one; errors of closing fail. */
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */
