@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How much the search for better sides may cost: constraints looked at. About a second a hundred million. */
-#define EFFORT 40000000u
+/* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few milliseconds. */
+#define EFFORT 400000u
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
 {
@@ -47,6 +47,8 @@ static int by_cost(const void *a, const void *b)
     return p->other < q->other ? -1 : p->other > q->other;
 }
 
+static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
+
 /* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
 static bool attempt(sunder_i_search *s, double *best, double *cost)
 {
@@ -71,7 +73,7 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
         if (c > 0) order[n++] = (rank){c, k, 0};
     }
     qsort(order, n, sizeof *order, by_cost);
-    for (size_t k = 0; k < n && s->steps < EFFORT && !s->failed; k++) {
+    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index;
         const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
         double place[2];
@@ -97,13 +99,13 @@ static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best
         order[at].cost += c->force * c->d;
     }
     qsort(order, n, sizeof *order, by_cost);
-    for (size_t k = 0; k < n && s->steps < EFFORT && !s->failed; k++) {
+    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index, j = order[k].other;
         const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
         const double length = hypot(u[0], u[1]);
         double places[4][2];
         const size_t found = sunder_i_search_free_pair(s, i, j, home, 0.3 * length, 4, places);
-        for (size_t p = 0; p < found && s->steps < EFFORT && !s->failed; p++) {
+        for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
             if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < 0.3 * length) continue;
             /* The lighter goes farther. */
             const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
@@ -184,13 +186,14 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
         ok = best && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
+        s.effort = EFFORT * (uint64_t)cluster->n;
         /* Strangers stay. */
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
         if (sunder_i_search_look(&s, s.t) <= s.tolerance) {
             memcpy(best, s.t, 2 * n * sizeof *best);
             const double before = sunder_i_search_cost(&s, s.t);
             double cost = before;
-            for (int round = 0; round < 4 && s.steps < EFFORT && !s.failed; round++) {
+            for (int round = 0; round < 4 && has_time(&s) && !s.failed; round++) {
                 const double start = cost;
                 try_places(&s, order, best, &cost);
                 try_sides(&s, order, room, best, &cost);

@@ -16,8 +16,10 @@
 
 #define MOST_ROUNDS 40    /* rounds in all: a bound that is not met in practice */
 #define MOST_CLASHING 12  /* rounds that end in a clash before the search gives up */
-#define SOFT 1e-3
-#define SWEEPS 4000
+#define SOFT 1e-3         /* at first; less each round that clashes, so that long chains are not taken for contradictions */
+#define HARDEST 1e-7
+#define SETTLED 3e-6      /* a round that gains less of the cost is the last */
+#define STEPS 600
 
 /* ---- Constraints ----------------------------------------------------------------------------------------------------- */
 
@@ -33,9 +35,20 @@ static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n
     return n ? bsearch(&wanted, c, n, sizeof *c, by_key) : NULL;
 }
 
-static void add_constraint(sunder_i_search *s, const sunder_i_constraint *c)
+/* Adds it, unless one of those from `first` on says as much; a weaker one of these is replaced. Pieces of one wall give the same line many times. */
+static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
 {
     sunder_i_quadratic *p = &s->program;
+    for (size_t k = first; k < p->n; k++) {
+        sunder_i_constraint *other = &p->constraint[k];
+        if (fabs(other->n[0] - c->n[0]) > 1e-7 || fabs(other->n[1] - c->n[1]) > 1e-7) continue;
+        if (other->d < c->d) {
+            const double force = other->force + c->force;
+            *other = *c;
+            other->force = force;
+        }
+        return;
+    }
     if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
         s->failed = true;
         return;
@@ -52,6 +65,7 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const dou
     const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
+    const size_t first = s->program.n;
     for (uint32_t k = 0; k < p->pieces; k++) {
         const sunder_i_piece *a = &town->piece[p->piece + k];
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
@@ -71,7 +85,7 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const dou
             const sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, u);
             if (h.distance > r) continue;
             const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
-            add_constraint(s, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = h.support + s->gap,
+            add_constraint(s, first, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = h.support + s->gap,
                                                      .force = before ? before->force : 0, .key = key});
         }
     }
@@ -130,7 +144,7 @@ static bool constrain_limits(sunder_i_search *s)
         if (!(s->mass[k] > 0) || length <= limit * (1 + 1e-12)) continue;
         any = true;
         const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
-        add_constraint(s, &(sunder_i_constraint){.i = SUNDER_I_NOBODY, .j = k, .n = {-t[0] / length, -t[1] / length},
+        add_constraint(s, s->program.n, &(sunder_i_constraint){.i = SUNDER_I_NOBODY, .j = k, .n = {-t[0] / length, -t[1] / length},
                                                  .d = -limit, .key = key});
     }
     return any;
@@ -145,12 +159,18 @@ static double longest_step(const sunder_i_search *s)
     return longest;
 }
 
+static double longest_move(const sunder_i_search *s)
+{
+    double longest = 0;
+    for (size_t k = 0; k < 2 * s->n; k++) longest = fmax(longest, fabs(s->next[k]));
+    return longest;
+}
+
 /* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the violation left. */
 static double solve(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
-    double v = sunder_i_quadratic_solve(p, softness, s->tolerance, SWEEPS);
-    s->steps += p->n * 20;
+    double v = sunder_i_quadratic_solve(p, softness, s->tolerance, STEPS);
     if (v < 0) s->failed = true;
     if (softness > 0 || v <= s->tolerance) return v;
     const double step = longest_step(s);
@@ -159,7 +179,7 @@ static double solve(sunder_i_search *s, double softness)
         const double more = 1.5 * v;
         asked += more;
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
-        v = sunder_i_quadratic_solve(p, 0, s->tolerance, SWEEPS);
+        v = sunder_i_quadratic_solve(p, 0, s->tolerance, STEPS);
         if (v < 0) s->failed = true;
         v = fmax(0, v - asked);
     }
@@ -203,7 +223,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {
-    double reach = s->gap, cost = INFINITY;
+    double reach = s->gap, cost = INFINITY, softness = SOFT;
     bool free_now = false;
     int clashing_rounds = 0;
     for (int round = 0; round < MOST_ROUNDS && !s->failed; round++) {
@@ -211,20 +231,16 @@ bool sunder_i_search_descend(sunder_i_search *s)
         if (s->failed) return false;
         double v;
         if (clashing) {
-            v = solve_lazily(s, SOFT);
-            /* A compromise that misses by more than softness explains is a contradiction; else the hard program has a solution. */
-            const double step = longest_step(s);
-            if (v <= 5 * SOFT * (step + s->gap)) {
-                double *soft = sunder_i_alloc(2 * s->n, sizeof *soft);
-                if (!soft) {
-                    s->failed = true;
-                    return false;
-                }
-                memcpy(soft, s->next, 2 * s->n * sizeof *soft);
+            v = solve_lazily(s, softness);
+            /* What is missed little, beside how far things go, may be had in full. */
+            if (v <= 0.03 * (longest_move(s) + s->gap)) {
                 v = solve_lazily(s, 0);
-                if (v > s->tolerance) memcpy(s->next, soft, 2 * s->n * sizeof *soft);
-                sunder_i_free(soft);
+                if (v > s->tolerance) {
+                    for (size_t k = 0; k < s->program.n; k++) s->program.constraint[k].force = 0;
+                    v = solve_lazily(s, softness);
+                }
             }
+            softness = fmax(softness / 5, HARDEST);
         } else {
             v = solve_lazily(s, 0);
         }
@@ -232,7 +248,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
         const bool free_next = sunder_i_search_look(s, s->next) <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
-        if (free_next && free_now && next_cost > cost - 1e-9 * cost) {
+        if (free_next && free_now && next_cost > cost - SETTLED * cost) {
             if (next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
             return true;
         }

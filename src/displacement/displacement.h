@@ -257,6 +257,7 @@ typedef struct sunder_i_quadratic {
     sunder_i_constraint *constraint;
     size_t n, capacity;
     double *t;                        /* [2 * bodies] out */
+    uint64_t work;                    /* done so far, roughly in constraints looked at */
 } sunder_i_quadratic;
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in proportion to

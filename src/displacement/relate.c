@@ -3,9 +3,9 @@
  *   near       their interiors meet, or their distance is less than the gap
  *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or their
  *              interiors meet and the least translation that takes these apart is no longer than the tolerance
- *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is the polygon of 32 corners
- *              inscribed in the disc whose radius is the tolerance, and the corners of Q + D are taken as the nearest doubles.
- *              (A point of P may then stand outside Q by the tolerance at most, and by 0.995 of it at least.)
+ *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of 16 corners in the
+ *              disc whose radius is the tolerance (a point of P may then stand outside Q by the tolerance at most, and by 0.93 of it
+ *              in any direction), and the corners of Q + D are taken as the nearest doubles
  *   duplicate  each lies in the other, with no tolerance
  *
  * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is positive. */
@@ -29,12 +29,34 @@ static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, dou
     return true;
 }
 
+/* D: corners at multiples of a 32nd of the power of two below the tolerance, cut towards the centre, so that they lie in the disc. Few bits keep
+ * the sum's lattice narrow. With a radius of 32 units or more the sides are never nearer to the centre than cos(pi / 16) - sqrt(2) / 32
+ * of it, which is 0.93. */
+static sunder_status small_disc(double tolerance, sunder_shape **out, sunder_error *err)
+{
+    enum { CORNERS = 16 };
+    int exponent;
+    frexp(tolerance, &exponent);
+    const double unit = ldexp(1, exponent - 6), r = tolerance / unit;
+    /* Cosines of multiples of pi / 8, a little less than the true ones. */
+    static const double cosine[5] = {1, 0.9238, 0.7071, 0.3826, 0};
+    double xy[2 * CORNERS];
+    for (int k = 0; k < CORNERS; k++) {
+        const int quarter = k / 4, i = k % 4;
+        const double x = floor(r * cosine[i]) * unit, y = floor(r * cosine[4 - i]) * unit;
+        xy[2 * k] = quarter == 0 ? x : quarter == 1 ? -y : quarter == 2 ? -x : y;
+        xy[2 * k + 1] = quarter == 0 ? y : quarter == 1 ? x : quarter == 2 ? -y : -x;
+    }
+    const size_t ring_end = CORNERS, poly_end = 1;
+    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_STRICT, out, err);
+}
+
 /* Q + D as a shape. */
 static sunder_status grow(const sunder_shape *q, double tolerance, sunder_shape **out, sunder_error *err)
 {
     sunder_shape *disc = NULL;
     sunder_sum *sum = NULL;
-    sunder_status status = sunder_shape_disc(tolerance, 32, true, &disc, err);
+    sunder_status status = small_disc(tolerance, &disc, err);
     if (!status) status = sunder_minkowski_sum(q, disc, NULL, &sum, err);
     sunder_shape_free(disc);
     if (status) return status;

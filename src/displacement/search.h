@@ -27,7 +27,7 @@ typedef struct sunder_i_search {
     sunder_i_clash *clash;      /* of the last look */
     size_t clashes, clash_capacity;
     sunder_i_scratch scratch;
-    uint64_t steps;             /* work done, in constraints looked at */
+    uint64_t steps, effort;     /* work done, in constraints looked at; how much may be done for better sides */
     bool failed;                /* memory is out */
 } sunder_i_search;
 

@@ -1,0 +1,42 @@
+/* The pieces of the quadratic program's solver; see quadratic.c. */
+#ifndef SUNDER_I_QUADRATIC_H
+#define SUNDER_I_QUADRATIC_H
+
+#include "displacement/displacement.h"
+
+static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i) { return i == SUNDER_I_NOBODY ? 0 : p->mass[i]; }
+
+/* n.(t_j - t_i) */
+static inline double sunder_i_stretch(const sunder_i_constraint *c, const double *t)
+{
+    double v = 0;
+    if (c->j != SUNDER_I_NOBODY) v += c->n[0] * t[2 * c->j] + c->n[1] * t[2 * c->j + 1];
+    if (c->i != SUNDER_I_NOBODY) v -= c->n[0] * t[2 * c->i] + c->n[1] * t[2 * c->i + 1];
+    return v;
+}
+
+/* Adds to t what a force on the constraint moves. */
+static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_constraint *c, double force, double *t)
+{
+    if (c->j != SUNDER_I_NOBODY) {
+        t[2 * c->j] += p->mass[c->j] * force * c->n[0];
+        t[2 * c->j + 1] += p->mass[c->j] * force * c->n[1];
+    }
+    if (c->i != SUNDER_I_NOBODY) {
+        t[2 * c->i] -= p->mass[c->i] * force * c->n[0];
+        t[2 * c->i + 1] -= p->mass[c->i] * force * c->n[1];
+    }
+}
+
+/* Conjugate gradients on the forces, which stay non-negative; at most `steps`, until no constraint is missed, nor one that acts kept,
+ * by more than tolerance. False if memory is out. The forces are changed, t is not. */
+bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, double tolerance, unsigned steps);
+/* The acting constraints as linear equations, their set corrected. False if memory is out. The forces are changed, t is not. */
+bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
+
+/* t from the forces; what is missed at worst, softness allowed for; a pass of Hildreth's method. */
+void sunder_i_quadratic_place(sunder_i_quadratic *program);
+double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);
+double sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness, bool acting_only);
+
+#endif
