@@ -268,6 +268,18 @@ static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
     return m;
 }
 
+void sunder_i_vector_doubles(sunder_i_pairing *g, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
+                             sunder_i_big *w)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    unsigned long bx, by;
+    const sunder_i_big u = in_units(l, dx, &bx), v = in_units(l, dy, &by);
+    const unsigned long bits = bx > by ? bx : by;
+    *x = sunder_i_big_shl(&l->arena, u, bits - bx);
+    *y = sunder_i_big_shl(&l->arena, v, bits - by);
+    *w = sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits);
+}
+
 bool sunder_i_answer_exact(sunder_i_pairing *g, const sunder_i_vector_exact *v, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;

@@ -21,6 +21,10 @@ void sunder_i_answer_numbers(sunder_i_pairing *pairing, const sunder_i_vector_ex
 sunder_status sunder_i_answer_texts(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, sunder_separation *out,
                                     sunder_error *err);
 
+/* (dx, dy) in lattice units exactly: x / w, y / w. */
+void sunder_i_vector_doubles(sunder_i_pairing *pairing, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
+                             sunder_i_big *w);
+
 /* Are out->dx and out->dy exactly the vector? */
 bool sunder_i_answer_exact(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, double dx, double dy);
 

@@ -16,4 +16,8 @@ typedef struct sunder_i_least_options {
 sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *options,
                              sunder_separation *out, bool *beyond, sunder_error *err);
 
+/* Pieces of an answer: nothing has to move; the answer lies beyond the upper limit. */
+sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *err);
+void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
+
 #endif

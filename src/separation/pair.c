@@ -1,4 +1,5 @@
 #include "separation/answer.h"
+#include "separation/gap.h"
 #include "separation/least.h"
 #include "separation/nearest.h"
 
@@ -14,8 +15,7 @@ void sunder_separation_clear(sunder_separation *separation)
     separation->dx_text = separation->dy_text = separation->distance_squared_text = NULL;
 }
 
-/* Nothing has to move. */
-static sunder_status stay(bool texts, sunder_separation *out, sunder_error *err)
+sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *err)
 {
     out->attained = out->rounded_is_free = true;
     out->contact = SUNDER_CONTACT_NONE;
@@ -32,7 +32,7 @@ static sunder_status stay(bool texts, sunder_separation *out, sunder_error *err)
     return SUNDER_OK;
 }
 
-static void too_far(double upper, sunder_separation *out, bool *beyond)
+void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond)
 {
     *beyond = true;
     out->overlap = true;
@@ -70,14 +70,14 @@ static sunder_status least_without_gap(const sunder_shape *p, const sunder_shape
     status = sunder_i_nearest_free(&g, limit == limit ? limit : INFINITY, &found, err);
     if (status == SUNDER_OK) {
         if (found.found && found.origin)
-            status = stay(o->texts, out, err);
+            status = sunder_i_stay(o->texts, out, err);
         else if (!found.found)
-            too_far(o->upper, out, beyond);
+            sunder_i_too_far(o->upper, out, beyond);
         else {
             status = answer_without_gap(&g, &found, o->texts, out, err);
             if (status == SUNDER_OK && out->lower_bound > o->upper) {
                 sunder_separation_clear(out);
-                too_far(o->upper, out, beyond);
+                sunder_i_too_far(o->upper, out, beyond);
             }
         }
         out->operations = g.placed.lattice.operations;
@@ -94,9 +94,9 @@ sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const
     memset(&result, 0, sizeof result);
     sunder_status status;
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, o->tp, q, o->tq, o->gap))
-        status = stay(o->texts, &result, err);
+        status = sunder_i_stay(o->texts, &result, err);
     else if (o->gap > 0)
-        status = SUNDER_EARG;
+        status = sunder_i_least_with_gap(p, q, o, &result, &far, err);
     else
         status = least_without_gap(p, q, o, &result, &far, err);
     if (status) return status;

@@ -1,0 +1,155 @@
+#include "separation/gap.h"
+
+#include "number/sort.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The corners that arcs may go round: sums of two convex vertices (the other kinds never stand out of the obstacle). */
+static bool find_centers(sunder_i_gap_problem *p)
+{
+    sunder_i_pairing *g = p->pairing;
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    uint64_t *key = sunder_i_arena_alloc(arena, 2 * p->segments + 1, sizeof *key);
+    if (!key) return false;
+    size_t n = 0;
+    for (size_t i = 0; i < p->segments; i++) {
+        const sunder_i_candidate *c = p->segment + i;
+        const uint32_t end[2] = {c->edge, g->shape[c->side]->next[c->edge]};
+        for (int k = 0; k < 2; k++) {
+            const uint32_t u = c->side ? c->vertex : end[k], v = c->side ? end[k] : c->vertex;
+            key[n++] = (uint64_t)u << 32 | v;
+        }
+    }
+    if (!sunder_i_sort_keys(key, n)) return false;
+    sunder_i_point *center = sunder_i_arena_alloc(arena, n + 1, sizeof *center);
+    if (!center) return false;
+    for (size_t i = 0; i < n; i++) {
+        if (i && key[i] == key[i - 1]) continue;
+        center[p->centers++] = sunder_i_pairing_add(g, g->at[0][key[i] >> 32], g->at[1][key[i] & UINT32_MAX]);
+    }
+    p->center = center;
+    return true;
+}
+
+/* The way out along each axis, and the gap. */
+static double way_out(const sunder_i_pairing *g, double gap)
+{
+    double d = INFINITY;
+    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
+    return (d + gap) * (1 + 0x1p-40) + 64 * g->error;
+}
+
+/* Does every subsum keep the gap from the origin? */
+static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
+{
+    sunder_i_pairing *g = p->pairing;
+    sunder_i_arena *a = &g->placed.lattice.arena;
+    const sunder_i_big zero = {NULL, 0};
+    const sunder_i_rational origin = {zero, zero, sunder_i_big_i64(a, 1)};
+    for (size_t k = 0; k < g->subsums; k++) {
+        sunder_i_subsum *s = g->subsum + k;
+        const double r = p->gap_units + 2 * g->error;
+        if (s->box[0] > r || s->box[2] < -r || s->box[1] > r || s->box[3] < -r) continue;
+        if (!s->sides && !sunder_i_subsum_make(g, s)) {
+            *memory = false;
+            return false;
+        }
+        /* In doubles first: on the far side of a side's line by more than the gap. */
+        bool far = false;
+        for (uint32_t i = 0; i < s->sides && !far; i++)
+            far = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i] < -s->bound[i] - r * hypot(s->sx[i], s->sy[i]) * (1 + 0x1p-50);
+        if (!far && sunder_i_gap_cmp(p, s, &origin) < 0) return false;
+    }
+    return true;
+}
+
+static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
+{
+    sunder_i_candidates heap;
+    if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
+    p->segment = heap.item;
+    p->segments = heap.n;
+    if (!find_centers(p)) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_gap_search_long(p, answer, err);
+    if (status || (answer->settled && (answer->found || p->limit < INFINITY))) return status;
+    p->last = true;
+    return sunder_i_gap_search_quad(p, answer, err);
+}
+
+static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts, sunder_separation *out,
+                          sunder_error *err)
+{
+    sunder_i_pairing *g = p->pairing;
+    const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x, a->at.y, a->at.w);
+    sunder_i_answer_numbers(g, &v, out);
+    const double bound = a->bound * g->unit * (1 - 0x1p-50);
+    if (bound < out->lower_bound) out->lower_bound = bound;
+    out->overlap = true;
+    out->attained = !a->isolated;
+    out->contact = a->contact;
+    out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy);
+    if (!out->rounded_is_free) {
+        const sunder_i_rational r = sunder_i_rational_doubles(g, out->dx, out->dy);
+        out->rounded_is_free = true;
+        for (size_t k = 0; k < g->subsums && out->rounded_is_free; k++) {
+            sunder_i_subsum *s = g->subsum + k;
+            double xy[2];
+            sunder_i_rational_units(g, &r, xy);
+            const double e = p->gap_units + 2 * g->error;
+            if (xy[0] < s->box[0] - e || xy[0] > s->box[2] + e || xy[1] < s->box[1] - e || xy[1] > s->box[3] + e)
+                continue;
+            if (!s->sides && !sunder_i_subsum_make(g, s)) break;
+            out->rounded_is_free = sunder_i_gap_cmp(p, s, &r) >= 0;
+        }
+    }
+    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
+}
+
+static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_separation *out,
+                           bool *beyond, sunder_error *err)
+{
+    sunder_i_pairing *g = p->pairing;
+    const double upper = o->upper / g->unit;
+    p->limit = way_out(g, p->gap_units);
+    if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
+    if (!sunder_i_pairing_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    bool memory = true;
+    if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
+    if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    sunder_i_gap_answer answer;
+    const sunder_status status = run(p, &answer, err);
+    if (status) return status;
+    if (!answer.found || answer.bound * g->unit > o->upper) {
+        sunder_i_too_far(o->upper, out, beyond);
+        return SUNDER_OK;
+    }
+    return fill(p, &answer, o->texts, out, err);
+}
+
+sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
+                                      sunder_separation *out, bool *beyond, sunder_error *err)
+{
+    sunder_i_pairing g;
+    const sunder_i_pairing_options options = {.tp = o->tp,
+                                              .tq = o->tq,
+                                              .reflect_q = true,
+                                              .force_wide = o->force_wide,
+                                              .extra = &o->gap,
+                                              .extra_n = 1};
+    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    if (status) return status;
+    sunder_i_lattice *l = &g.placed.lattice;
+    sunder_i_gap_problem problem = {.pairing = &g};
+    problem.gap = sunder_i_lattice_int(l, o->gap, 0);
+    problem.gap_units = sunder_i_approx(l, problem.gap);
+    if (problem.gap_units > g.magnitude) {
+        g.magnitude = problem.gap_units;
+        g.error = fmax(g.error, 0x1p-45 * g.magnitude);
+    }
+    status = solve(&problem, o, out, beyond, err);
+    out->operations = l->operations;
+    sunder_i_pairing_free(&g);
+    return status;
+}
