@@ -204,11 +204,11 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_line(out);
     gis_json_key(out, "seconds");
     gis_json_open(out, '{');
-    json_number(out, "read", run->read);
-    json_number(out, "solve", summary->seconds_solve);
-    json_number(out, "verify", summary->seconds_verify);
-    json_number(out, "write", run->write);
-    json_number(out, "total", gis_clock() - run->start);
+    gis_json_seconds(out, "read", run->read);
+    gis_json_seconds(out, "solve", summary->seconds_solve);
+    gis_json_seconds(out, "verify", summary->seconds_verify);
+    gis_json_seconds(out, "write", run->write);
+    gis_json_seconds(out, "total", gis_clock() - run->start);
     gis_json_close(out, '}');
     json_count(out, "peak_rss_bytes", gis_peak_rss());
     gis_json_close(out, '}');

@@ -176,10 +176,8 @@ static void json_seconds(gis_json *out, const sum_run *run)
                  {"write", run->write}, {"compute", run->compute}, {"total", gis_clock() - run->start}};
     gis_json_key(out, "seconds");
     gis_json_open(out, '{');
-    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
-        gis_json_key(out, times[i].key);
-        gis_json_double(out, times[i].seconds);
-    }
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
+        gis_json_seconds(out, times[i].key, times[i].seconds);
     gis_json_close(out, '}');
 }
 

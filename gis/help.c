@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define SCREEN_WIDTH 96
-#define HELP_COLUMN 34
+#define HELP_COLUMN 37
 
 static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_OWN] = "Options [default]:",

@@ -143,6 +143,7 @@ void gis_json_null(gis_json *out)
 void gis_json_raw(gis_json *out, const char *text)
 {
     append(out, text, strlen(text));
+    out->need_comma = true;
 }
 
 /* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no

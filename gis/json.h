@@ -31,7 +31,7 @@ void gis_json_signed(gis_json *out, int64_t value);
 void gis_json_double(gis_json *out, double value); /* shortest that reads back; null where not finite */
 void gis_json_bool(gis_json *out, bool value);
 void gis_json_null(gis_json *out);
-void gis_json_raw(gis_json *out, const char *text); /* as it is, commas and all */
+void gis_json_raw(gis_json *out, const char *text); /* as it is, commas and all; counts as a value */
 
 /* The shortest decimal that reads back as the same double, at most 32 bytes with its end; -0 is 0. */
 #define GIS_NUMBER_MAX 32

@@ -4,6 +4,7 @@
 #include "message.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -34,6 +35,12 @@ static void count(gis_json *out, const char *key, uint64_t value)
 {
     gis_json_key(out, key);
     gis_json_size(out, value);
+}
+
+void gis_json_seconds(gis_json *out, const char *key, double seconds)
+{
+    gis_json_key(out, key);
+    gis_json_double(out, round(seconds * 1e9) / 1e9);
 }
 
 void gis_json_operations(gis_json *out, const sunder_operations *operations)

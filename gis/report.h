@@ -12,6 +12,8 @@ double gis_clock(void);
 /* The greatest amount of memory that the process has held. */
 uint64_t gis_peak_rss(void);
 
+/* A time, to the nanosecond: more digits would be noise. */
+void gis_json_seconds(gis_json *out, const char *key, double seconds);
 void gis_json_operations(gis_json *out, const sunder_operations *operations);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
 
