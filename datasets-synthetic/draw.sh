@@ -50,7 +50,7 @@ function path(wkt, dx, dy,    rings, points, n, m, i, j, xy, d) { # every ring o
     return d
 }
 function panel(which, title,    i, d, xy, ends, part, x0, y0, x1, y1) {
-    printf "<svg x=\"%d\" width=\"%d\" height=\"%d\">\n<rect width=\"100%%\" height=\"100%%\" class=\"ground\"/>\n", at, width, height
+    printf "<svg class=\"%s\" x=\"%d\" width=\"%d\" height=\"%d\">\n<rect width=\"100%%\" height=\"100%%\" class=\"ground\"/>\n", which, at, width, height
     closed = 0
     for (i = 1; i <= n; i++) if (tag[i] == "road")
         printf "<path class=\"road\" stroke-width=\"%.1f\" d=\"%s\"/>\n", size[i] * scale, path(shape[i], 0, 0)
@@ -58,6 +58,10 @@ function panel(which, title,    i, d, xy, ends, part, x0, y0, x1, y1) {
     for (i = 1; i <= n; i++) if (tag[i] == which) {
         split(which == "old" && pair ? size[i] : "0;0", xy, ";")
         printf "<path class=\"b %s\" d=\"%s\"/>\n", class[i], path(shape[i], xy[1], xy[2])
+    }
+    if (which == "new") for (i = 1; i <= n; i++) if (tag[i] == "old" && class[i] ~ /^(moved|blocked)$/) { # where it stood
+        split(size[i], xy, ";")
+        printf "<path class=\"ghost\" d=\"%s\"/>\n", path(shape[i], xy[1], xy[2])
     }
     closed = 0
     if (which == "new") {
@@ -89,7 +93,8 @@ END {
     printf "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">\n", all, height, all, height
     print "<style>.ground{fill:#f4f1ea}.road{fill:none;stroke:#fff;stroke-linecap:round}" \
         ".b{fill:#c9c4bb;stroke:#6d675e;stroke-width:.8;fill-rule:evenodd;fill-opacity:.85}" \
-        ".moved{fill:#4f9d8f;stroke:#1f5f55}.blocked{fill:#d1495b;stroke:#7a1f2b}.fixed,.church,.town_hall,.monument{fill:#59636e;stroke:#2c3238}" \
+        ".moved{fill:#5aa899;stroke:#1f5f55}.blocked{fill:#d1495b;stroke:#7a1f2b}.old .moved,.old .blocked{fill:#e0a13e;stroke:#7d4f0c;fill-opacity:.7}" \
+        ".ghost{fill:none;stroke:#7d4f0c;stroke-width:.8;stroke-dasharray:2.5 2}.fixed,.church,.town_hall,.monument{fill:#59636e;stroke:#2c3238}" \
         ".arrow{fill:none;stroke:#c2410c;stroke-width:1.6}.head{fill:#c2410c}.conflict{fill:none;stroke:#d0006f;stroke-width:2.5}" \
         "text{font:600 18px sans-serif;fill:#33302b;paint-order:stroke;stroke:#f4f1ea;stroke-width:4px}</style>"
     if (pair) { panel("old", "before"); panel("new", "after") } else panel("old", "")

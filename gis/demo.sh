@@ -19,7 +19,7 @@ options=(--gap 3 --max-shift 5 --fixed-where "kind IN ('church', 'town_hall', 'm
 echo
 echo "sunder separate ${options[*]@Q} ${town@Q} ${separated@Q}"
 "$build/sunder" separate "${options[@]}" "$town" "$separated"
-bash "$source/datasets-synthetic/draw.sh" "$town" 451040 5411090 451400 5411380 "$separated" >"$out/before_after.svg"
+bash "$source/datasets-synthetic/draw.sh" "$town" 451222 5411190 451385 5411300 "$separated" >"$out/before_after.svg"
 cat <<END
 
 The separated town, styled for QGIS:    $separated
