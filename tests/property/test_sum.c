@@ -44,7 +44,7 @@ static void test_kind(void **state)
 {
     const pair_kind kind = *(const pair_kind *)*state;
     const uint64_t seed = test_seed();
-    const size_t n = test_count(kind == PAIR_HUGE ? 100 : 600);
+    const size_t n = test_count(kind == PAIR_HUGE ? 100 : 2000);
     size_t bad = 0;
     for (size_t i = 0; i < n; i++)
         if (!agree(kind, seed, i, bad < SHOWN)) bad++;

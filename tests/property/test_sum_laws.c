@@ -51,6 +51,20 @@ static bool translates(law_case *c)
     return ok;
 }
 
+/* P far out on integers, Q fine and near the origin: no double holds the sum of the two places. Only operands of small integers. */
+static bool translates_far(law_case *c)
+{
+    const double dx = 0x1p51 + (double)rng_int(&c->r, -999, 999), dy = (double)rng_int(&c->r, -9, 9) - 0x1p50;
+    if (c->kind >= PAIR_MAP) return true;
+    polyset_scale(&c->q, 0x1p-12, 0x1p-12);
+    char *near = library_sum_text(&c->p, &c->q), *want = near ? sum_text_moved(near, 0, dx, dy) : NULL;
+    polyset_move(&c->p, dx, dy);
+    const bool ok = want && same(library_sum_text(&c->p, &c->q), want);
+    free(near);
+    free(want);
+    return ok;
+}
+
 static bool scales(law_case *c)
 {
     const long k = c->kind == PAIR_HUGE ? 3 : rng_int(&c->r, -300, 300);
@@ -163,11 +177,11 @@ static void test_law(void **state)
 
 int main(void)
 {
-    static law laws[] = {commutes, translates, scales, adds_hulls, measures_area, ignores_dress, reflects};
-    static const char *const names[] = {"P + Q = Q + P",  "translation",  "scaling by powers of two",
+    static law laws[] = {commutes, translates, translates_far, scales, adds_hulls, measures_area, ignores_dress, reflects};
+    static const char *const names[] = {"P + Q = Q + P", "translation", "translation far out", "scaling by powers of two",
                                         "hulls add",      "area",         "the same set said otherwise",
                                         "reflection"};
-    struct CMUnitTest tests[7];
-    for (int i = 0; i < 7; i++) tests[i] = (struct CMUnitTest){names[i], test_law, NULL, NULL, &laws[i]};
+    struct CMUnitTest tests[8];
+    for (int i = 0; i < 8; i++) tests[i] = (struct CMUnitTest){names[i], test_law, NULL, NULL, &laws[i]};
     return cmocka_run_group_tests_name("laws of sums", tests, NULL, NULL);
 }
