@@ -16,8 +16,11 @@ mkdir -p "$out"
 # 3 m between buildings, no move longer than 5 m, church, town hall and monuments stay where they are.
 options=(--gap 3 --max-shift 5 --fixed-where "kind IN ('church', 'town_hall', 'monument')" --id-field id
          --allow-conflicts --stats "$out/summary.json" --overwrite)
+printf '\nsunder separate'
+for word in "${options[@]}" "$town" "$separated"; do
+    case $word in *[!-A-Za-z0-9_./]*) printf ' "%s"' "$word" ;; *) printf ' %s' "$word" ;; esac
+done
 echo
-echo "sunder separate ${options[*]@Q} ${town@Q} ${separated@Q}"
 "$build/sunder" separate "${options[@]}" "$town" "$separated"
 bash "$source/datasets-synthetic/draw.sh" "$town" 451222 5411190 451385 5411300 "$separated" >"$out/before_after.svg"
 cat <<END
