@@ -6,8 +6,10 @@
 #include <math.h>
 #include <string.h>
 
-/* A leaf may hold this many (line, subsum) pairs. */
+/* Up to so many pairs of a line and a subsum other than its own make a leaf, and always where there are so few subsums: then
+ * looking at a pair costs less than sorting it out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
+#define LEAF_SUBSUMS 2
 /* So many splits in a row that thin out less than a tenth mean coincident or concurrent sides, which no split will part. */
 #define STUBBORN_SPLITS 4
 
@@ -28,6 +30,7 @@ typedef struct cell {
     box b;
     size_t entry_from, entry_to, side_from, side_to;
     uint32_t stubborn;
+    int axis; /* to split across */
 } cell;
 
 typedef struct builder {
@@ -36,6 +39,7 @@ typedef struct builder {
     const sunder_sum_options *options;
     sunder_i_cell_pairs *out;
     approx_side *side;
+    box *reach;       /* [subsums] bounding boxes, widened by the error */
     double error;     /* bound on the distance error of a start point, see side_error() */
     entry *entries;   /* lists of all cells on the stack, one after the other */
     size_t entries_n, entries_capacity;
@@ -54,6 +58,29 @@ static inline double most_of(double a, double b) { return a > b ? a : b; }
 
 static int64_t diff(sunder_i_lattice *l, int64_t b, int64_t a) { return l->narrow ? b - a : sunder_i_lattice_sub(l, b, a); }
 
+static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+
+static void grow(box *all, const box *part)
+{
+    for (int k = 0; k < 2; k++) {
+        all->low[k] = least(all->low[k], part->low[k]);
+        all->high[k] = most_of(all->high[k], part->high[k]);
+    }
+}
+
+static void widen(box *b, double by)
+{
+    for (int k = 0; k < 2; k++) {
+        b->low[k] -= by;
+        b->high[k] += by;
+    }
+}
+
+static bool apart(const box *a, const box *b)
+{
+    return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
+}
+
 /* Doubles of all sides; false if memory is out. Vectors are taken from exact differences, so that their error is relative to
  * themselves. */
 static bool approximate(builder *b, box *all)
@@ -62,21 +89,25 @@ static bool approximate(builder *b, box *all)
     sunder_i_lattice *l = s->lattice;
     double most = 0;
     b->side = sunder_i_alloc(s->sides, sizeof *b->side);
-    if (!b->side) return false;
-    *all = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    b->reach = sunder_i_alloc(s->n, sizeof *b->reach);
+    if (!b->side || !b->reach) return false;
+    *all = nothing;
     for (size_t i = 0; i < s->n; i++) {
         const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
+        box own = nothing;
         for (uint32_t k = first; k < end; k++) {
             const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
             const double x = sunder_i_approx(l, from.x), y = sunder_i_approx(l, from.y);
             b->side[k] = (approx_side){x, y, sunder_i_approx(l, diff(l, to.x, from.x)),
                                        sunder_i_approx(l, diff(l, to.y, from.y))};
-            all->low[0] = least(all->low[0], x);
-            all->high[0] = most_of(all->high[0], x);
-            all->low[1] = least(all->low[1], y);
-            all->high[1] = most_of(all->high[1], y);
+            own.low[0] = least(own.low[0], x);
+            own.high[0] = most_of(own.high[0], x);
+            own.low[1] = least(own.low[1], y);
+            own.high[1] = most_of(own.high[1], y);
             most = most_of(most, most_of(fabs(x), fabs(y)));
         }
+        b->reach[i] = own;
+        grow(all, &own);
     }
     /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start point is off by
      * 2u * most (conversion), differences of coordinates by as much again, products and their difference by 3u of products up to
@@ -84,10 +115,8 @@ static bool approximate(builder *b, box *all)
      * largest coordinates near 2^500, and the 2^-900 covers what underflows. */
     b->error = 0x1p-48 * most + 0x1p-900;
     /* A candidate on the very border must not be missed. */
-    for (int k = 0; k < 2; k++) {
-        all->low[k] -= b->error;
-        all->high[k] += b->error;
-    }
+    widen(all, b->error);
+    for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);
     return !l->arena.failed;
 }
 
@@ -126,8 +155,9 @@ static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
     return true;
 }
 
-/* The box is inside `subsum`: every candidate of the parent's lists that passes through it is covered there. */
-static void close_cell(builder *b, const cell *parent, const box *c, uint32_t subsum)
+/* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes through it is
+ * covered there. */
+static void close_cell(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
 {
     box part;
     b->cells++;
@@ -135,15 +165,7 @@ static void close_cell(builder *b, const cell *parent, const box *c, uint32_t su
         const uint32_t k = b->sides[i], line = b->lines->of[k];
         if (line == SUNDER_I_NO_LINE || b->stamp[line] == b->cells || !clip(b, &b->side[k], c, &part)) continue;
         b->stamp[line] = b->cells;
-        if (!push_pair(b, line, subsum)) return;
-    }
-}
-
-static void grow(box *all, const box *part)
-{
-    for (int k = 0; k < 2; k++) {
-        all->low[k] = least(all->low[k], part->low[k]);
-        all->high[k] = most_of(all->high[k], part->high[k]);
+        if (!push_pair(b, line, one) || (other != one && !push_pair(b, line, other))) return;
     }
 }
 
@@ -192,42 +214,94 @@ static void open_leaf(builder *b, const cell *c)
     }
 }
 
+/* Do two half-planes cover the box? f and g are the cross products of side_against(), positive inside; if f + r g > 0 all over the box
+ * for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the sides run against each other is tried. */
+static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
+{
+    if (f->dx * g->dx + f->dy * g->dy >= 0) return false;
+    const double cx = c->low[0] / 2 + c->high[0] / 2, cy = c->low[1] / 2 + c->high[1] / 2;
+    const double hx = c->high[0] / 2 - c->low[0] / 2, hy = c->high[1] / 2 - c->low[1] / 2;
+    const double fs = fabs(f->dx) + fabs(f->dy), gs = fabs(g->dx) + fabs(g->dy), r = fs / gs;
+    const double fc = f->dx * (cy - f->ay) - f->dy * (cx - f->ax), gc = g->dx * (cy - g->ay) - g->dy * (cx - g->ax);
+    const double reach = hx * fabs(f->dy + r * g->dy) + hy * fabs(f->dx + r * g->dx);
+    /* The errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs. */
+    const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + 0x1p-900;
+    return fc + r * gc - reach > error;
+}
+
+#define SINGLES 8 /* so many subsums with one side in the cell are tried in pairs; more are rare */
+
+/* Two subsums, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
+static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
+{
+    uint32_t side[SINGLES], subsum[SINGLES], n = 0;
+    size_t at = c->side_from;
+    for (size_t e = c->entry_from; e < c->entry_to && n < SINGLES; at += b->entries[e].sides, e++)
+        if (b->entries[e].sides == 1) {
+            side[n] = b->sides[at];
+            subsum[n++] = b->entries[e].subsum;
+        }
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (both_hold(b, &b->side[side[i]], &b->side[side[j]], where_to)) {
+                two[0] = subsum[j];
+                two[1] = subsum[i];
+                return true;
+            }
+    return false;
+}
+
 /* Distributes a parent's lists to one box; pushes a cell to split further, or settles it. */
 static void make_child(builder *b, const cell *parent, const box *where_to)
 {
     if (!reserve_child(b, parent)) return;
-    cell c = {*where_to, b->entries_n, b->entries_n, b->sides_n, b->sides_n, 0};
+    cell c = {*where_to, b->entries_n, b->entries_n, b->sides_n, b->sides_n, 0, 0};
     size_t from = parent->side_from;
     for (size_t e = parent->entry_from; e < parent->entry_to; e++) {
         const entry source = b->entries[e];
         const size_t start = b->sides_n;
-        const where w = filter_subsum(b, b->sides + from, source.sides, where_to);
+        const bool far = apart(&b->reach[source.subsum], where_to);
+        const where w = far ? MISSES : filter_subsum(b, b->sides + from, source.sides, where_to);
         from += source.sides;
         if (w == HOLDS) {
             b->entries_n = c.entry_from;
             b->sides_n = c.side_from;
-            close_cell(b, parent, where_to, source.subsum);
+            close_cell(b, parent, where_to, source.subsum, source.subsum);
             return;
         }
         if (w == CROSSES) b->entries[b->entries_n++] = (entry){source.subsum, (uint32_t)(b->sides_n - start)};
     }
     c.entry_to = b->entries_n;
     c.side_to = b->sides_n;
+    uint32_t two[2];
+    if (find_two(b, &c, where_to, two)) {
+        b->entries_n = c.entry_from;
+        b->sides_n = c.side_from;
+        close_cell(b, parent, where_to, two[0], two[1]);
+        return;
+    }
     /* The cell shrinks to what its candidates need. */
     size_t lines = 0;
-    box need = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}}, part;
+    double span[2] = {0, 0}; /* of all candidates together, along each axis */
+    box need = nothing, part;
     b->cells++;
     for (size_t i = c.side_from; i < c.side_to; i++) {
         const uint32_t line = b->lines->of[b->sides[i]];
         if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[b->sides[i]], where_to, &part)) continue;
         grow(&need, &part);
+        span[0] += part.high[0] - part.low[0];
+        span[1] += part.high[1] - part.low[1];
         lines += b->stamp[line] != b->cells;
         b->stamp[line] = b->cells;
     }
     c.b = need;
+    /* Split across the axis along which candidates are short beside the cell: fewer of them fall into both halves. */
+    c.axis = span[0] * (need.high[1] - need.low[1]) > span[1] * (need.high[0] - need.low[0]);
+    const size_t entries = c.entry_to - c.entry_from;
     const size_t sides = c.side_to - c.side_from, before = parent->side_to - parent->side_from;
     c.stubborn = 10 * sides < 9 * before ? 0 : parent->stubborn + 1;
-    const bool leaf = lines * (c.entry_to - c.entry_from) <= LEAF_PAIRS || c.stubborn >= STUBBORN_SPLITS;
+    const bool leaf =
+        entries <= LEAF_SUBSUMS || lines * (entries - 1) <= LEAF_PAIRS || c.stubborn >= STUBBORN_SPLITS;
     if (lines > 0 && !leaf) {
         b->stack[b->stack_n++] = c;
         return;
@@ -239,13 +313,12 @@ static void make_child(builder *b, const cell *parent, const box *where_to)
 
 static void split(builder *b, const cell *c)
 {
-    const int axis = c->b.high[0] - c->b.low[0] >= c->b.high[1] - c->b.low[1] ? 0 : 1;
-    const double middle = c->b.low[axis] / 2 + c->b.high[axis] / 2;
+    const double middle = c->b.low[c->axis] / 2 + c->b.high[c->axis] / 2;
     box half = c->b;
-    half.high[axis] = middle;
+    half.high[c->axis] = middle;
     make_child(b, c, &half);
     half = c->b;
-    half.low[axis] = middle;
+    half.low[c->axis] = middle;
     if (!b->no_memory) make_child(b, c, &half);
 }
 
@@ -286,7 +359,7 @@ static bool make_root(builder *b, const box *all, cell *root)
         b->entries[b->entries_n++] = (entry){order[i], end - first};
         for (uint32_t k = first; k < end; k++) b->sides[b->sides_n++] = k;
     }
-    *root = (cell){*all, 0, b->entries_n, 0, b->sides_n, 0};
+    *root = (cell){*all, 0, b->entries_n, 0, b->sides_n, 0, all->high[1] - all->low[1] > all->high[0] - all->low[0]};
     sunder_i_free(extent);
     sunder_i_free(order);
     return ok;
@@ -323,6 +396,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     const bool ok = out->live && out->live_line && b.stamp;
     const sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     sunder_i_free(b.side);
+    sunder_i_free(b.reach);
     sunder_i_free(b.entries);
     sunder_i_free(b.sides);
     sunder_i_free(b.stack);

@@ -1,7 +1,7 @@
 /* Which subsums matter to which candidate sides: a hierarchy of cells that follows the output.
  *
  * A cell is a box. It carries, for each subsum that reaches into it, the sides whose lines pass through it; a subsum none of
- * whose sides passes holds the whole cell in its interior, and then nothing in the cell can be boundary or degenerate: the cell is
+ * whose sides passes holds the whole cell in its interior (or two do together), and then nothing in the cell can be boundary or degenerate: the cell is
  * closed, whatever else crosses it. Else the cell is split until few candidates are left. So whatever lies deep inside some
  * subsum is discarded before anything is intersected, and the cost follows the boundary of the sum rather than the arrangement
  * beneath it.
@@ -9,7 +9,7 @@
  * The tests are floating point with error bounds, and one-sided: a subsum is taken to hold a cell, or to miss it, only when that is
  * proved. What comes out is for each line with live candidates (sides that pass through an open leaf) a list of subsums that
  * decides exactly what part of those sides is covered: every subsum of the open leaves that they pass, and for each closed cell
- * one subsum that holds that cell. The decision itself is taken elsewhere, exactly (coverage.h). */
+ * the one or two subsums that hold it. The decision itself is taken elsewhere, exactly (coverage.h). */
 #ifndef SUNDER_I_CELLS_H
 #define SUNDER_I_CELLS_H
 

@@ -5,23 +5,19 @@
 
 #include <string.h>
 
-/* What changes at a place on the line. */
-typedef enum change {
-    COVER_END,   /* an open interval of the line, covered, ends ... */
-    COVER_START, /* ... or starts */
-    LEFT_END,
-    LEFT_START,
-    RIGHT_END,
-    RIGHT_START,
-    DOMAIN_END, /* a live candidate side */
-    DOMAIN_START,
-    TOUCH /* a corner of a subsum stands here */
-} change;
+/* How many cover, rest on either bank, or are live candidates. */
+typedef struct state {
+    int32_t cover, left, right, domain;
+} state;
 
+/* What changes at a place on the line; all zero where only a corner stands there. */
 typedef struct event {
     sunder_i_fraction at;
-    change what;
+    state change;
+    uint32_t corner; /* of a subsum, at that place; NO_CORNER if none is known */
 } event;
+
+#define NO_CORNER UINT32_MAX
 
 typedef struct finder {
     const sunder_i_subsums *subsums;
@@ -35,14 +31,14 @@ typedef struct finder {
     bool no_memory;
 } finder;
 
-static void add_event(finder *f, sunder_i_fraction at, change what)
+static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner)
 {
     if (f->events_n == f->events_capacity &&
         !sunder_i_reserve(&f->events, &f->events_capacity, f->events_n + 1, sizeof *f->events)) {
         f->no_memory = true;
         return;
     }
-    f->events[f->events_n++] = (event){at, what};
+    f->events[f->events_n++] = (event){at, change, corner};
 }
 
 /* ---- One subsum and one line ---- */
@@ -97,23 +93,20 @@ static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line
 static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
-    const uint32_t side = p->first + (i + p->n - 1) % p->n;
+    const uint32_t side = p->first + (i + p->n - 1) % p->n, end = p->first + i % p->n;
+    const sunder_i_fraction there = sunder_i_along(l, line->a, line->b, p->s->corner[end]);
     if (p->s->rank[side] != rank) {
-        add_event(f, sunder_i_along(l, line->a, line->b, corner(p, i)), TOUCH);
+        add_event(f, there, (state){0, 0, 0, 0}, end);
         return;
     }
-    sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
-    sunder_i_fraction to = sunder_i_along(l, line->a, line->b, corner(p, i));
-    if (!left) {
-        const sunder_i_fraction t = from;
-        from = to;
-        to = t;
-    }
-    add_event(f, from, left ? LEFT_START : RIGHT_START);
-    add_event(f, to, left ? LEFT_END : RIGHT_END);
-    if (f->live[side]) {
-        add_event(f, from, DOMAIN_START);
-        add_event(f, to, DOMAIN_END);
+    const sunder_i_fraction here = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
+    const int32_t live = f->live[side];
+    if (left) {
+        add_event(f, here, (state){0, 1, 0, live}, side);
+        add_event(f, there, (state){0, -1, 0, -live}, end);
+    } else {
+        add_event(f, there, (state){0, 0, 1, live}, end);
+        add_event(f, here, (state){0, 0, -1, -live}, side);
     }
 }
 
@@ -128,8 +121,8 @@ static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
     if (low < 0 && high > 0) {
         const uint32_t up_to = highest >= lowest ? highest : highest + p.n;
         const uint32_t down_to = lowest > highest ? lowest : lowest + p.n;
-        add_event(f, cross_chain(&p, line, highest, down_to, -1), COVER_START);
-        add_event(f, cross_chain(&p, line, lowest, up_to, 1), COVER_END);
+        add_event(f, cross_chain(&p, line, highest, down_to, -1), (state){1, 0, 0, 0}, NO_CORNER);
+        add_event(f, cross_chain(&p, line, lowest, up_to, 1), (state){-1, 0, 0, 0}, NO_CORNER);
     } else if (low == 0)
         rest_on(f, &p, line, lowest, forward, true);
     else if (high == 0)
@@ -144,25 +137,6 @@ static int compare_events(void *context, uint32_t a, uint32_t b)
     return sunder_i_fraction_cmp(f->subsums->lattice, &f->events[a].at, &f->events[b].at);
 }
 
-typedef struct state {
-    long cover, left, right, domain;
-} state;
-
-static void apply(state *s, change what)
-{
-    switch (what) {
-    case COVER_END: s->cover--; break;
-    case COVER_START: s->cover++; break;
-    case LEFT_END: s->left--; break;
-    case LEFT_START: s->left++; break;
-    case RIGHT_END: s->right--; break;
-    case RIGHT_START: s->right++; break;
-    case DOMAIN_END: s->domain--; break;
-    case DOMAIN_START: s->domain++; break;
-    case TOUCH: break;
-    }
-}
-
 static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
 
 static uint8_t banks(const state *s)
@@ -170,15 +144,18 @@ static uint8_t banks(const state *s)
     return (uint8_t)((s->left > 0 ? SUNDER_I_LEFT : 0) | (s->right > 0 ? SUNDER_I_RIGHT : 0));
 }
 
-static bool add_point(finder *f, const sunder_i_line *line, const sunder_i_fraction *at)
+/* A point of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
+static bool add_point(finder *f, const sunder_i_line *line, const sunder_i_fraction *at, uint32_t corner)
 {
+    sunder_i_lattice *l = f->subsums->lattice;
     sunder_i_coverage *o = f->out;
     if (o->points == o->points_capacity &&
         !sunder_i_reserve(&o->point, &o->points_capacity, o->points + 1, sizeof *o->point)) {
         f->no_memory = true;
         return false;
     }
-    o->point[o->points++] = sunder_i_hpoint_at(f->subsums->lattice, line->a, line->b, at);
+    o->point[o->points++] = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
+                                                : sunder_i_hpoint_of(l, f->subsums->corner[corner]);
     return true;
 }
 
@@ -202,19 +179,24 @@ static void sweep(finder *f, uint32_t number)
     for (size_t i = 0; i < f->events_n;) {
         const event *here = &f->events[f->order[i]];
         const state before = s;
-        long cover_ends = 0, domain_starts = 0;
+        int32_t cover_ends = 0, domain_starts = 0;
+        uint32_t corner = NO_CORNER;
         size_t j = i;
         for (; j < f->events_n; j++) {
             const event *e = &f->events[f->order[j]];
             if (j > i && compare_events(f, f->order[i], f->order[j]) != 0) break;
-            cover_ends += e->what == COVER_END;
-            domain_starts += e->what == DOMAIN_START;
-            apply(&s, e->what);
+            cover_ends += e->change.cover < 0;
+            domain_starts += e->change.domain > 0;
+            if (e->corner != NO_CORNER) corner = e->corner;
+            s.cover += e->change.cover;
+            s.left += e->change.left;
+            s.right += e->change.right;
+            s.domain += e->change.domain;
         }
         /* The place itself: intervals of cover are open, candidates closed. */
         const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
         if (point_free) {
-            if (!add_point(f, line, &here->at)) return;
+            if (!add_point(f, line, &here->at, corner)) return;
             const uint32_t point = (uint32_t)(f->out->points - 1);
             if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, point, banks(&before)});
             last = point;

@@ -75,7 +75,7 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_i256 *a, sunder_i_
                           sunder_i_i128 bw)
 {
     l->operations.exact_fallbacks++;
-    if (l->narrow) return sunder_i_cmp_products_256(a, bw, b, aw);
+    if (l->narrow) return aw == bw ? sunder_i_i256_cmp(a, b) : sunder_i_cmp_products_256(a, bw, b, aw);
     const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
     const sunder_i_big ax = sunder_i_lattice_get(l, (int64_t)a->limb[0]), bx = sunder_i_lattice_get(l, (int64_t)b->limb[0]);
     const int c = sunder_i_big_cmp(sunder_i_big_mul(&l->arena, ax, sunder_i_lattice_get(l, (int64_t)bw)),
