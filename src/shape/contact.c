@@ -35,13 +35,22 @@ static bool report(contact *c, sunder_i_fault fault, uint32_t e, uint32_t f)
     return false;
 }
 
+/* Do u and w lie in one direction from p? */
+static bool same_direction(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w)
+{
+    return sunder_i_rings_orient(r, p, u, w) == 0 &&
+           sunder_i_dot_sign(r->lattice, sunder_i_point_sub(r->lattice, r->at[u], r->at[p]),
+                             sunder_i_point_sub(r->lattice, r->at[w], r->at[p])) > 0;
+}
+
 /* Two passages through the place of p, u1 -> p -> w1 and u2 -> p -> w2: does the second change sides of the first? */
 static bool touch(contact *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
 {
     c->touches = true;
-    if (sunder_i_in_wedge(c->r, p, u1, w1, u2) != sunder_i_in_wedge(c->r, p, u1, w1, w2))
-        return report(c, SUNDER_I_CROSSES, e, f);
-    return true;
+    if (sunder_i_in_wedge(c->r, p, u1, w1, u2) == sunder_i_in_wedge(c->r, p, u1, w1, w2)) return true;
+    const bool overlap = same_direction(c->r, p, u1, u2) || same_direction(c->r, p, u1, w2) ||
+                         same_direction(c->r, p, w1, u2) || same_direction(c->r, p, w1, w2);
+    return report(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
 }
 
 /* Edges on one line. */

@@ -109,22 +109,24 @@ static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const su
     return true;
 }
 
-/* Is the polygon of the last rings, from ring_lo on, as it should be? */
+/* Is the polygon of the last rings, from ring_lo on, as it should be? Crossings first, while the rings still run as they were
+ * given, so that the tail of an edge names its segment; then they are turned. */
 static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *arena, sunder_i_problem *problem,
                           bool *touches)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const uint32_t n = r->vertices - (ring_lo ? r->ring_end[ring_lo - 1] : 0);
     sunder_i_box_tree tree;
-    sunder_i_box_tree *use = NULL;
-    sunder_i_orient_rings(r, ring_lo, r->rings);
-    if (n >= TREE_FROM) {
-        sunder_i_box_tree_build(&tree, r, ring_lo, r->rings, arena);
-        if (arena->failed) return;
-        use = &tree;
-    }
+    sunder_i_box_tree *const use = n >= TREE_FROM ? &tree : NULL;
+    if (use) sunder_i_box_tree_build(use, r, ring_lo, r->rings, arena);
+    if (arena->failed) return;
     sunder_i_contact_find(r, ring_lo, r->rings, use, problem, touches);
-    if (!problem->fault && r->rings - ring_lo > 1) sunder_i_nesting_check(r, ring_lo, r->rings, use, problem);
+    if (!problem->fault) sunder_i_orient_rings(r, ring_lo, r->rings);
+    if (!problem->fault && r->rings - ring_lo > 1) {
+        if (use) sunder_i_box_tree_build(use, r, ring_lo, r->rings, arena);
+        if (arena->failed) return;
+        sunder_i_nesting_check(r, ring_lo, r->rings, use, problem);
+    }
     if (problem->fault) {
         problem->vertex = r->source[problem->vertex];
         if (problem->other != SUNDER_I_NONE) problem->other = r->source[problem->other];

@@ -1,0 +1,371 @@
+/* shape: what is refused and with which words; what is cleaned; standard shapes; copies that move; the getters. */
+#include "polyset.h"
+#include "shape/shape.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static sunder_status build(const char *wkt, sunder_validity validity, sunder_shape **out, sunder_error *err)
+{
+    polyset set;
+    polyset_init(&set);
+    assert_true(polyset_read_wkt(&set, wkt, NULL));
+    const sunder_status status =
+        sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, validity, out, err);
+    polyset_free(&set);
+    return status;
+}
+
+/* A strict shape, sound in every respect. */
+static sunder_shape *sound(const char *wkt)
+{
+    sunder_shape *s = NULL;
+    sunder_error err;
+    if (build(wkt, SUNDER_STRICT, &s, &err)) fail_msg("%s: %s", wkt, err.message);
+    const char *fault = sunder_i_shape_check(s);
+    if (fault) fail_msg("%s: %s", wkt, fault);
+    assert_false(sunder_shape_repaired(s));
+    return s;
+}
+
+static void refused(const char *wkt, const char *sentence, size_t ring, size_t vertex)
+{
+    sunder_shape *s = NULL;
+    sunder_error err;
+    assert_int_equal(build(wkt, SUNDER_STRICT, &s, &err), SUNDER_EINVALID);
+    assert_null(s);
+    assert_string_equal(err.message, sentence);
+    assert_int_equal(err.status, SUNDER_EINVALID);
+    assert_int_equal(err.ring, ring);
+    assert_int_equal(err.vertex, vertex);
+    assert_int_equal(build(wkt, SUNDER_STRICT, &s, NULL), SUNDER_EINVALID);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    refused("POLYGON((0 0,4 4,4 0,0 4,0 0))", "polygon 0, ring 0, vertex 2 (4 0): crosses segment 0", 0, 2);
+    refused("POLYGON((0 0,1 0,0 0))", "polygon 0, ring 0, vertex 0 (0 0): the ring has under three distinct vertices", 0, 0);
+    refused("POLYGON((5 5,5 5,5 5,5 5))", "polygon 0, ring 0, vertex 0 (5 5): the ring has under three distinct vertices", 0, 0);
+    refused("POLYGON((0 0,1 1,2 2,0 0))", "polygon 0, ring 0, vertex 0 (0 0): the ring has no area", 0, 0);
+    refused("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", "polygon 0, ring 0, vertex 2 (6 0): a spike: the ring runs back along itself",
+            0, 2);
+    refused("POLYGON((0 0,4 0,4 4,0 4,0 8,0 4))", "polygon 0, ring 0, vertex 4 (0 8): a spike: the ring runs back along itself",
+            0, 4);
+    refused("POLYGON((0 0,9 0,9 9,6 9,6 0,3 0,3 9,0 9))", "polygon 0, ring 0, vertex 4 (6 0): shares a piece of edge with "
+            "segment 0", 0, 4);
+    refused("POLYGON((0 0,9 0,9 9,0 9),(2 2,4 2,4 12,2 12))", "polygon 0, ring 1, vertex 1 (4 2): crosses segment 2 of ring 0",
+            1, 1);
+    refused("POLYGON((0 0,9 0,9 9,0 9),(0 2,4 2,4 4,0 4))",
+            "polygon 0, ring 1, vertex 0 (0 2): shares a piece of edge with segment 3 of ring 0", 1, 0);
+    refused("POLYGON((0 0,9 0,9 9,0 9),(10 2,14 2,14 4,10 4))", "polygon 0, ring 1, vertex 0 (10 2): the hole lies outside "
+            "ring 0", 1, 0);
+    refused("POLYGON((2 2,4 2,4 4,2 4),(0 0,9 0,9 9,0 9))", "polygon 0, ring 1, vertex 0 (0 0): the hole lies outside ring 0",
+            1, 0);
+    refused("POLYGON((0 0,9 0,9 9,0 9),(1 1,8 1,8 8,1 8),(2 2,3 2,3 3,2 3))",
+            "polygon 0, ring 2, vertex 0 (2 2): the hole lies inside ring 1", 2, 0);
+}
+
+static void test_not_finite(void **state)
+{
+    (void)state;
+    const double bad[] = {NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        for (size_t k = 0; k < 12; k++)
+            for (int validity = SUNDER_STRICT; validity <= SUNDER_EVEN_ODD; validity++) {
+                double xy[] = {0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2};
+                const size_t ring_end[] = {3, 6}, poly_end[] = {2};
+                sunder_shape *s = NULL;
+                sunder_error err;
+                xy[k] = bad[i];
+                assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 1, (sunder_validity)validity, &s, &err),
+                                 SUNDER_EINVALID);
+                assert_null(s);
+                assert_int_equal(err.ring, k / 6);
+                assert_int_equal(err.vertex, k % 6 / 2);
+                assert_non_null(strstr(err.message, "not finite"));
+            }
+}
+
+static void test_cleaning(void **state)
+{
+    (void)state;
+    /* Closed, repeated, collinear vertices, at the seam too; either orientation. */
+    static const char *const square[] = {
+        "POLYGON((0 0,4 0,4 4,0 4,0 0))", "POLYGON((0 0,0 4,4 4,4 0))",
+        "POLYGON((2 0,2 0,4 0,4 0,4 0,4 4,2 4,1 4,0 4,0 0,1 0,2 0,2 0))", "POLYGON((0 2,0 1,0 0,4 0,4 4,0 4,0 3))"};
+    for (size_t i = 0; i < sizeof square / sizeof *square; i++) {
+        sunder_shape *s = sound(square[i]);
+        assert_int_equal(sunder_shape_vertices(s), 4);
+        assert_int_equal(sunder_shape_polygons(s), 1);
+        assert_int_equal(s->pieces, 1);
+        assert_true(sunder_shape_area(s) == 16);
+        double box[4], anchor[2];
+        sunder_shape_box(s, box);
+        assert_true(box[0] == 0 && box[1] == 0 && box[2] == 4 && box[3] == 4);
+        sunder_shape_anchor(s, anchor);
+        assert_true(anchor[0] == 2 && anchor[1] == 2);
+        sunder_shape_free(s);
+    }
+    /* Numbers at both ends of what doubles hold. */
+    sunder_shape *s = sound("POLYGON((0 0,1e300 0,1e300 1e-300,0 1e-300))");
+    assert_true(sunder_shape_area(s) == 1e300 * 1e-300 || fabs(sunder_shape_area(s) - 1) < 1e-15);
+    sunder_shape_free(s);
+    /* One ulp makes it no longer collinear. */
+    s = sound("POLYGON((0 0,1 1,2 2.0000000000000004,0 3))");
+    assert_int_equal(sunder_shape_vertices(s), 4);
+    sunder_shape_free(s);
+}
+
+static void test_touching(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *wkt;
+        size_t polygons, vertices;
+        double area;
+    } good[] = {
+        /* A hole that touches its outer ring in the middle of an edge, and in a corner. */
+        {"POLYGON((0 0,8 0,8 8,0 8),(4 0,6 2,4 4,2 2))", 1, 9, 56},
+        {"POLYGON((0 0,8 0,8 8,0 8),(0 0,4 1,1 4))", 1, 7, 56.5},
+        /* Holes that touch each other: corner to corner, corner to edge. */
+        {"POLYGON((0 0,9 0,9 9,0 9),(1 1,4 1,4 4,1 4),(4 4,7 4,7 7,4 7))", 1, 12, 63},
+        {"POLYGON((0 0,9 0,9 9,0 9),(1 1,4 1,4 4,1 4),(4 2,7 1,7 3))", 1, 12, 69},
+        /* A chain of holes that cuts the interior in two. */
+        {"POLYGON((0 0,8 0,8 8,0 8),(4 0,6 4,4 8,2 4))", 2, 10, 48},
+        /* A ring that touches itself from outside, and from inside. */
+        {"POLYGON((0 0,2 2,4 0,4 4,2 2,0 4))", 2, 6, 8},
+        {"POLYGON((0 0,8 0,8 8,4 8,6 4,2 4,4 8,0 8))", 1, 8, 56},
+        {"POLYGON((0 0,4 0,8 0,8 8,0 8,0 6,2 6,4 0,2 2))", 2, 9, 50},
+        /* An edge that a vertex of the same ring touches from outside: nothing is split. */
+        {"POLYGON((0 0,8 0,8 2,2 2,2 6,4 6,5 2,6 6,8 6,8 8,0 8))", 1, 11, 44},
+        /* Members may touch, overlap and coincide. */
+        {"MULTIPOLYGON(((0 0,4 0,4 4,0 4)),((2 2,6 2,6 6,2 6)),((0 0,4 0,4 4,0 4)))", 3, 12, 48},
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        sunder_shape *s = sound(good[i].wkt);
+        assert_int_equal(sunder_shape_polygons(s), good[i].polygons);
+        assert_int_equal(sunder_shape_vertices(s), good[i].vertices);
+        assert_true(sunder_shape_area(s) == good[i].area);
+        sunder_shape_free(s);
+    }
+}
+
+static void repaired_to(const char *wkt, size_t polygons, size_t vertices, double area, bool rational)
+{
+    sunder_shape *s = NULL;
+    sunder_error err;
+    if (build(wkt, SUNDER_EVEN_ODD, &s, &err)) fail_msg("%s: %s", wkt, err.message);
+    const char *fault = sunder_i_shape_check(s);
+    if (fault) fail_msg("%s: %s", wkt, fault);
+    assert_true(sunder_shape_repaired(s));
+    assert_int_equal(sunder_shape_polygons(s), polygons);
+    assert_int_equal(sunder_shape_vertices(s), vertices);
+    assert_true(sunder_shape_area(s) == area);
+    assert_int_equal(s->rational, rational);
+    sunder_shape_free(s);
+}
+
+static void test_repairs(void **state)
+{
+    (void)state;
+    repaired_to("POLYGON((0 0,4 4,4 0,0 4,0 0))", 2, 6, 8, false);           /* bow-tie, a dyadic crossing */
+    repaired_to("POLYGON((0 0,3 3,3 0,0 2,0 0))", 2, 6, 3.9, true);          /* a crossing at 6/5 */
+    repaired_to("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", 1, 4, 16, false);      /* a spike */
+    repaired_to("POLYGON((0 0,1 0,0 0))", 0, 0, 0, false);                   /* nothing */
+    repaired_to("POLYGON((0 0,1 1,2 2,0 0))", 0, 0, 0, false);
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8,0 0,8 0,8 8,0 8))", 0, 0, 0, false); /* twice round */
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,8 0,8 8,0 8))", 0, 0, 0, false);
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,4 0,4 8,0 8))", 1, 4, 32, false); /* shared edges cancel */
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(9 0,10 0,10 1,9 1))", 2, 8, 65, false); /* a hole outside is filled */
+    repaired_to("POLYGON((0 0,9 0,9 9,0 9),(1 1,8 1,8 8,1 8),(2 2,3 2,3 3,2 3))", 2, 12, 33, false);
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(5 5,5 5,5 5))", 1, 4, 64, false); /* a hole that is a point */
+    /* Members are repaired by themselves: the sound one stays, overlaps count twice. */
+    repaired_to("MULTIPOLYGON(((0 0,4 4,4 0,0 4,0 0)),((0 0,4 0,4 4,0 4)))", 3, 10, 24, false);
+}
+
+static void test_empty(void **state)
+{
+    (void)state;
+    sunder_shape *s = NULL;
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_true(sunder_shape_is_empty(s));
+    assert_int_equal(sunder_shape_vertices(s), 0);
+    double box[4] = {1, 1, 1, 1}, anchor[2] = {1, 1};
+    sunder_shape_box(s, box);
+    assert_true(box[0] == 0 && box[1] == 0 && box[2] == 0 && box[3] == 0);
+    sunder_shape_anchor(s, anchor);
+    assert_true(anchor[0] == 0 && anchor[1] == 0);
+    assert_true(sunder_shape_area(s) == 0);
+    assert_null(sunder_i_shape_check(s));
+    sunder_shape *t = NULL;
+    bool exact = false;
+    assert_int_equal(sunder_shape_reflect(s, &t, NULL), SUNDER_OK);
+    sunder_shape_free(t);
+    assert_int_equal(sunder_shape_translate(s, 3, 4, &t, &exact, NULL), SUNDER_OK);
+    assert_true(exact && sunder_shape_is_empty(t));
+    sunder_shape_free(t);
+    sunder_shape_free(s);
+    sunder_shape_free(NULL);
+}
+
+/* The distance of the line through two points from the origin against the radius, in long doubles: their 11 more bits are
+ * enough to see a fault of an ulp of the radius, and the proof itself is checked for truth, not for tightness. */
+static void check_disc(double radius, unsigned n, bool inside)
+{
+    sunder_shape *s = NULL;
+    sunder_error err;
+    if (sunder_shape_disc(radius, n, inside, &s, &err)) fail_msg("disc %.17g %u: %s", radius, n, err.message);
+    const char *fault = sunder_i_shape_check(s);
+    if (fault) fail_msg("disc %.17g %u: %s", radius, n, fault);
+    assert_int_equal(s->vertices, n);
+    assert_int_equal(s->pieces, 1);
+    const long double tight = inside ? 1 : 1 / cosl(acosl(-1.0L) / n);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t j = s->next[i];
+        const long double ax = s->xy[2 * i], ay = s->xy[2 * i + 1], bx = s->xy[2 * j], by = s->xy[2 * j + 1];
+        const long double corner = hypotl(ax, ay) / radius;
+        if (inside) {
+            assert_true(corner <= 1 + 2 * LDBL_EPSILON);
+        } else {
+            const long double edge = (ax * by - ay * bx) / hypotl(bx - ax, by - ay) / radius;
+            assert_true(edge >= 1 - 8 * LDBL_EPSILON);
+        }
+        assert_true(fabsl(corner / tight - 1) < 1e-12L);
+        /* Symmetric about the x axis: the mirror image of each corner is a corner. */
+        const uint32_t m = (n - i) % n;
+        assert_true(s->xy[2 * m] == s->xy[2 * i] && s->xy[2 * m + 1] == -s->xy[2 * i + 1]);
+        if (n % 2 == 0) {
+            const uint32_t o = (i + n / 2) % n;
+            assert_true(s->xy[2 * o] == -s->xy[2 * i] && s->xy[2 * o + 1] == -s->xy[2 * i + 1]);
+        }
+    }
+    sunder_shape_free(s);
+}
+
+static void test_disc(void **state)
+{
+    (void)state;
+    static const double radius[] = {1, 3, 0.1, 1e-3, 12345.678, 1.0 / 3, 1e100, 1e-200};
+    static const unsigned n[] = {3, 4, 5, 6, 7, 8, 12, 16, 31, 32, 33, 64, 100, 1000};
+    for (size_t i = 0; i < sizeof radius / sizeof *radius; i++)
+        for (size_t j = 0; j < sizeof n / sizeof *n; j++) {
+            check_disc(radius[i], n[j], false);
+            check_disc(radius[i], n[j], true);
+        }
+    sunder_shape *s = NULL;
+    sunder_error err;
+    static const double wrong[] = {0, -1, NAN, INFINITY};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        assert_int_equal(sunder_shape_disc(wrong[i], 32, false, &s, &err), SUNDER_EARG);
+    assert_int_equal(sunder_shape_disc(1, 2, false, &s, &err), SUNDER_EARG);
+    assert_int_equal(sunder_shape_disc(DBL_MAX, 3, false, &s, &err), SUNDER_ERANGE);
+    assert_int_equal(sunder_shape_disc(DBL_TRUE_MIN, 32, true, &s, &err), SUNDER_ERANGE);
+    assert_null(s);
+}
+
+static void test_rectangle(void **state)
+{
+    (void)state;
+    sunder_shape *s = NULL;
+    sunder_error err;
+    assert_int_equal(sunder_shape_rectangle(3, 5, &s, &err), SUNDER_OK);
+    assert_null(sunder_i_shape_check(s));
+    double box[4];
+    sunder_shape_box(s, box);
+    assert_true(box[0] == -1.5 && box[1] == -2.5 && box[2] == 1.5 && box[3] == 2.5);
+    sunder_shape_free(s);
+    s = NULL;
+    static const double wrong[] = {0, -1, NAN, INFINITY};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_int_equal(sunder_shape_rectangle(wrong[i], 1, &s, &err), SUNDER_EARG);
+        assert_int_equal(sunder_shape_rectangle(1, wrong[i], &s, &err), SUNDER_EARG);
+    }
+    assert_int_equal(sunder_shape_rectangle(DBL_TRUE_MIN, 1, &s, &err), SUNDER_ERANGE);
+    assert_null(s);
+}
+
+static void test_reflect(void **state)
+{
+    (void)state;
+    static const char *const wkt[] = {"POLYGON((0 0,9 0,9 9,4 7,0 9),(2 2,3 2,3 3))", "POLYGON((0 0,3 3,3 0,0 2,0 0))"};
+    for (size_t i = 0; i < 2; i++) {
+        sunder_shape *s = NULL, *r = NULL, *back = NULL;
+        assert_int_equal(build(wkt[i], SUNDER_EVEN_ODD, &s, NULL), SUNDER_OK);
+        assert_int_equal(sunder_shape_reflect(s, &r, NULL), SUNDER_OK);
+        assert_int_equal(sunder_shape_reflect(r, &back, NULL), SUNDER_OK);
+        assert_null(sunder_i_shape_check(r));
+        assert_null(sunder_i_shape_check(back));
+        assert_int_equal(sunder_shape_repaired(r), sunder_shape_repaired(s));
+        assert_true(sunder_shape_area(r) == sunder_shape_area(s));
+        for (size_t k = 0; k < 2 * (size_t)s->vertices; k++) {
+            assert_true(r->xy[k] == -s->xy[k]);
+            assert_true(back->xy[k] == s->xy[k]);
+            assert_false(signbit(r->xy[k]) && r->xy[k] == 0);
+        }
+        double a[4], b[4];
+        sunder_shape_box(s, a);
+        sunder_shape_box(r, b);
+        for (int k = 0; k < 4; k++) assert_true(b[k] == -a[(k + 2) % 4]);
+        sunder_shape_free(s);
+        sunder_shape_free(r);
+        sunder_shape_free(back);
+    }
+}
+
+static void test_translate(void **state)
+{
+    (void)state;
+    sunder_shape *s = sound("POLYGON((0.5 0.25,9 0,9 9,0 9,0.25 4),(2 2,3 2,3 3))"), *t = NULL;
+    sunder_error err;
+    bool exact = false;
+    assert_int_equal(sunder_shape_translate(s, 1024.125, -7.5, &t, &exact, &err), SUNDER_OK);
+    assert_true(exact);
+    assert_null(sunder_i_shape_check(t));
+    assert_int_equal(t->vertices, s->vertices);
+    for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
+        assert_true(t->xy[k] == s->xy[k] + (k & 1 ? -7.5 : 1024.125));
+    assert_true(sunder_shape_area(t) == sunder_shape_area(s));
+    sunder_shape_free(t);
+    /* 0.1 is not a sum of few bits. */
+    assert_int_equal(sunder_shape_translate(s, 0.1, 0, &t, &exact, &err), SUNDER_OK);
+    assert_false(exact);
+    assert_null(sunder_i_shape_check(t));
+    sunder_shape_free(t);
+    /* Far away all places fall together, and nothing is left. */
+    assert_int_equal(sunder_shape_translate(s, 1e30, 1e30, &t, &exact, &err), SUNDER_OK);
+    assert_false(exact);
+    assert_true(sunder_shape_is_empty(t));
+    sunder_shape_free(t);
+    t = NULL;
+    assert_int_equal(sunder_shape_translate(s, NAN, 0, &t, &exact, &err), SUNDER_EARG);
+    sunder_shape_free(s);
+    s = sound("POLYGON((0 0,1.7e308 0,0 1.7e308))");
+    assert_int_equal(sunder_shape_translate(s, 1e308, 0, &t, &exact, &err), SUNDER_ERANGE);
+    assert_null(t);
+    sunder_shape_free(s);
+    /* Rational corners move exactly too. */
+    assert_int_equal(build("POLYGON((0 0,3 3,3 0,0 2,0 0))", SUNDER_EVEN_ODD, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_translate(s, 0.125, -16, &t, &exact, &err), SUNDER_OK);
+    assert_true(exact && t->rational);
+    assert_null(sunder_i_shape_check(t));
+    assert_true(sunder_shape_area(t) == 3.9);
+    sunder_shape_free(t);
+    sunder_shape_free(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refusals),  cmocka_unit_test(test_not_finite),
+                                       cmocka_unit_test(test_cleaning),  cmocka_unit_test(test_touching),
+                                       cmocka_unit_test(test_repairs),   cmocka_unit_test(test_empty),
+                                       cmocka_unit_test(test_disc),      cmocka_unit_test(test_rectangle),
+                                       cmocka_unit_test(test_reflect),   cmocka_unit_test(test_translate)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
