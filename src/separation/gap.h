@@ -52,6 +52,10 @@ bool sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve
 /* The common point of two of them nearest to (x, y) units, if it is rational. */
 bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d, double x,
                            double y, sunder_i_rational *out);
+/* The point of the curve's moved line that stands `along` units from the foot of the perpendicular from the origin, in the line's
+ * direction; false if the line has no such rational point. */
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, double along,
+                        sunder_i_rational *out);
 /* Is the distance of the point from the (closed) subsum below, equal to or above the gap? -1, 0, 1. Exact. */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_rational *at);
 /* Order of the distances of two points from the origin, then lexicographic. *tie: the distances are equal. */

@@ -95,6 +95,24 @@ bool sunder_i_gap_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curv
            finish(out, mul(p, m.n.x, m.c), mul(p, m.n.y, m.c), mul(p, m.length, m.length));
 }
 
+bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *curve, double along, sunder_i_rational *out)
+{
+    sunder_i_arena *a = arena_of(p);
+    line m;
+    if (curve->arc || !isfinite(along) || !moved_line(p, curve, &m)) return false;
+    /* n C / L^2 + d k / L with k = v 2^e; d = (-n.y, n.x). */
+    int e;
+    sunder_i_big v = sunder_i_big_double(a, along, &e), scale = sunder_i_big_i64(a, 1);
+    const long shift = e + (long)p->pairing->placed.lattice.approx_shift;
+    if (shift >= 0)
+        v = sunder_i_big_shl(a, v, (unsigned long)shift);
+    else
+        scale = sunder_i_big_shl(a, scale, (unsigned long)-shift);
+    const sunder_i_big k = mul(p, v, m.length), c = mul(p, m.c, scale);
+    return finish(out, sub(p, mul(p, m.n.x, c), mul(p, m.n.y, k)), add(p, mul(p, m.n.y, c), mul(p, m.n.x, k)),
+                  mul(p, mul(p, m.length, m.length), scale));
+}
+
 /* Of the two points base + s * turn and base - s * turn (over w), the one nearest to (x, y). */
 static bool choose(const sunder_i_gap_problem *p, vec base, vec turn, sunder_i_big s, sunder_i_big w, double x, double y,
                    sunder_i_rational *out)
