@@ -12,7 +12,7 @@
 
 struct sunder_sum {
     sunder_i_lattice lattice;
-    double origin[2];
+    double origin[2][2]; /* of each operand; their sum may not be a double */
     sunder_i_hpoint *vertex;
     uint32_t vertices;
     uint32_t *ring_vertex;    /* of all rings, one after the other */

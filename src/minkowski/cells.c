@@ -10,8 +10,12 @@
  * looking at a pair costs less than sorting it out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
 #define LEAF_SUBSUMS 2
-/* So many splits in a row that thin out less than a tenth mean coincident or concurrent sides, which no split will part. */
-#define STUBBORN_SPLITS 4
+/* After so many splits in a row that thin out less than a tenth a cell is left as it is: a few lines are then bundles of coincident
+ * sides, which no split will part and every split doubles; many lines may be a cluster in a corner of the cell (or truly
+ * concurrent, and then only one half keeps them). */
+#define STUBBORN_SPLITS_FEW 3
+#define STUBBORN_SPLITS_MANY 20
+#define FEW_LINES 4
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */
 typedef struct approx_side {
@@ -48,6 +52,7 @@ typedef struct builder {
     cell *stack;
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
+    uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
     uint32_t cells;
     bool no_memory;
 } builder;
@@ -251,11 +256,24 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
     return false;
 }
 
+/* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same set, with the
+ * same candidate along its border. */
+static bool known_half_plane(builder *b, uint32_t side)
+{
+    const uint32_t line = b->lines->of[side];
+    if (line == SUNDER_I_NO_LINE) return false;
+    uint32_t *seen = &b->single[2 * (size_t)line + (b->subsums->rank[side] >= b->subsums->classes)];
+    if (*seen == b->cells) return true;
+    *seen = b->cells;
+    return false;
+}
+
 /* Distributes a parent's lists to one box; pushes a cell to split further, or settles it. */
 static void make_child(builder *b, const cell *parent, const box *where_to)
 {
     if (!reserve_child(b, parent)) return;
     cell c = {*where_to, b->entries_n, b->entries_n, b->sides_n, b->sides_n, 0, 0};
+    b->cells++;
     size_t from = parent->side_from;
     for (size_t e = parent->entry_from; e < parent->entry_to; e++) {
         const entry source = b->entries[e];
@@ -269,7 +287,12 @@ static void make_child(builder *b, const cell *parent, const box *where_to)
             close_cell(b, parent, where_to, source.subsum, source.subsum);
             return;
         }
-        if (w == CROSSES) b->entries[b->entries_n++] = (entry){source.subsum, (uint32_t)(b->sides_n - start)};
+        if (w == MISSES) continue;
+        const uint32_t sides = (uint32_t)(b->sides_n - start);
+        if (sides == 1 && known_half_plane(b, b->sides[start]))
+            b->sides_n = start;
+        else
+            b->entries[b->entries_n++] = (entry){source.subsum, sides};
     }
     c.entry_to = b->entries_n;
     c.side_to = b->sides_n;
@@ -300,8 +323,8 @@ static void make_child(builder *b, const cell *parent, const box *where_to)
     const size_t entries = c.entry_to - c.entry_from;
     const size_t sides = c.side_to - c.side_from, before = parent->side_to - parent->side_from;
     c.stubborn = 10 * sides < 9 * before ? 0 : parent->stubborn + 1;
-    const bool leaf =
-        entries <= LEAF_SUBSUMS || lines * (entries - 1) <= LEAF_PAIRS || c.stubborn >= STUBBORN_SPLITS;
+    const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
+    const bool leaf = entries <= LEAF_SUBSUMS || lines * (entries - 1) <= LEAF_PAIRS || c.stubborn >= patience;
     if (lines > 0 && !leaf) {
         b->stack[b->stack_n++] = c;
         return;
@@ -393,7 +416,8 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     out->live = sunder_i_calloc(subsums->sides, sizeof *out->live);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
-    const bool ok = out->live && out->live_line && b.stamp;
+    b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
+    const bool ok = out->live && out->live_line && b.stamp && b.single;
     const sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     sunder_i_free(b.side);
     sunder_i_free(b.reach);
@@ -401,6 +425,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     sunder_i_free(b.sides);
     sunder_i_free(b.stack);
     sunder_i_free(b.stamp);
+    sunder_i_free(b.single);
     if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
     return status;
 }

@@ -49,7 +49,8 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     sunder_status status = sunder_i_place(p, q, &place, &placed, err);
     if (status != SUNDER_OK) return status;
     sum->lattice = placed.lattice; /* moved: the points refer to its pool */
-    for (int k = 0; k < 2; k++) sum->origin[k] = placed.origin_p[k] + placed.origin_q[k];
+    memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
+    memcpy(sum->origin[1], placed.origin_q, sizeof sum->origin[1]);
     memset(&placed.lattice, 0, sizeof placed.lattice);
     sunder_i_subsums subsums;
     status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);

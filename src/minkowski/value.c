@@ -14,11 +14,12 @@ static long coordinate(sunder_i_arena *arena, const sunder_sum *sum, uint32_t ve
     sunder_i_big n = l->narrow ? sunder_i_big_i256(arena, *c) : l->pool[c->limb[0]];
     sunder_i_big d = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
     d = sunder_i_big_mul(arena, d, l->denominator);
-    /* n * 2^e / d + origin, over one power of two. */
-    int oe;
-    const sunder_i_big o = sunder_i_big_double(arena, sum->origin[axis], &oe);
+    /* n * 2^e / d + both origins, over one power of two. */
     long e = l->exponent;
-    if (o.size) {
+    for (int operand = 0; operand < 2; operand++) {
+        int oe;
+        const sunder_i_big o = sunder_i_big_double(arena, sum->origin[operand][axis], &oe);
+        if (o.size == 0) continue;
         sunder_i_big od = sunder_i_big_mul(arena, o, d);
         if (oe >= e)
             od = sunder_i_big_shl(arena, od, (unsigned long)(oe - e));
