@@ -198,7 +198,9 @@ bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error)
         if (!write_styles(sink, error) || !close_all(sink, error) || !inspect(sink, &seen, error) ||
             !apply_strict(sink, error))
             return false;
-        if (!(sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, error) : publish_memory(sink, error)))
+        bool placed = sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, sink->request.overwrite, error)
+                                                    : publish_memory(sink, error);
+        if (!placed)
             return false;
     }
     sink->committed = true;

@@ -82,6 +82,13 @@ static void restore_sqlite(bool relaxed)
         CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
 }
 
+static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
+{
+    char **all = sink->source ? GDALGetMetadata(gis_source_dataset(sink->source), NULL) : NULL;
+    if (sink->format.geopackage && CSLCount(all) > 0)
+        GDALSetMetadata(to, all, NULL);
+}
+
 static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
 {
     char *path = gis_sink_inside(sink, file);
@@ -90,6 +97,8 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
     bool relaxed = relax_sqlite();
     *out = GDALCreate(sink->format.driver, path, 0, 0, 0, GDT_Unknown, (CSLConstList)sink->request.dataset_options);
     restore_sqlite(relaxed);
+    if (*out)
+        copy_metadata(sink, *out);
     gis_listen_end();
     CPLFree(path);
     if (!*out)

@@ -245,9 +245,21 @@ static bool is_plain(const char *path)
     return lstat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-bool gis_stage_publish(gis_stage *stage, gis_error *error)
+static void supersede_namesakes(gis_stage *stage, char **names)
+{
+    for (char **name = names; name && *name; name++) {
+        char *outside = join(stage->directory, *name);
+        if (strcmp(*name, ".") != 0 && strcmp(*name, "..") != 0 && exists(outside))
+            gis_stage_supersede(stage, *name);
+        CPLFree(outside);
+    }
+}
+
+bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error)
 {
     char **names = VSIReadDir(stage->inside);
+    if (replace)
+        supersede_namesakes(stage, names);
     journal log = {CPLCalloc((size_t)(CSLCount(names) + CSLCount(stage->superseded)) + 1, sizeof(renaming)), 0};
     char *main_from = join(stage->inside, stage->main), *main_to = join(stage->directory, stage->main);
     bool superseded = CSLFindString(stage->superseded, stage->main) >= 0;

@@ -27,7 +27,7 @@ bool gis_stage_copy_in(gis_stage *stage, const char *path, gis_error *error);
 /* This file of the final directory belongs to what is replaced: publishing takes it away. */
 void gis_stage_supersede(gis_stage *stage, const char *path);
 
-/* Puts all that was made in its place. A file in the way that is not superseded makes it fail. */
-bool gis_stage_publish(gis_stage *stage, gis_error *error);
+/* Puts all that was made in its place. A file in the way that is not superseded makes it fail, unless `replace`. */
+bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
 
 #endif
