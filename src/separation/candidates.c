@@ -9,10 +9,13 @@
 
 #include <math.h>
 
-typedef struct turn {
-    sunder_i_point in, out; /* the edges that arrive and leave */
-    bool convex, shared;
-} turn;
+/* A corner that edges of the other operand may meet, in doubles: convex, or one where rings touch (then `in` and `out`, the edges
+ * that arrive and leave, are zero, which every edge passes). */
+typedef struct corners {
+    uint32_t n;
+    uint32_t *vertex;
+    double *x, *y, *in_x, *in_y, *out_x, *out_y;
+} corners;
 
 /* May reflex vertex v lie inside an edge of its polygon, whose vertices are first .. last - 1? In doubles: a false alarm only
  * costs candidates. (A convex one that does so sees its true cone all the same: no straight edge fits in it.) */
@@ -22,46 +25,57 @@ static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint
     const double *xy = g->xy[side], x = xy[2 * v], y = xy[2 * v + 1], e = 2 * g->error;
     for (uint32_t a = first; a < last; a++) {
         const uint32_t b = s->next[a];
-        if (a == v || b == v) continue;
         const double ax = xy[2 * a], ay = xy[2 * a + 1], bx = xy[2 * b], by = xy[2 * b + 1];
         if ((x > ax + e && x > bx + e) || (x < ax - e && x < bx - e) || (y > ay + e && y > by + e) ||
-            (y < ay - e && y < by - e))
+            (y < ay - e && y < by - e) || a == v || b == v)
             continue;
-        const double bound = (fabs(bx - ax) + fabs(by - ay) + e) * e + g->magnitude * g->rough;
+        const double bound = (fabs(bx - ax) + fabs(by - ay) + e) * e + 8 * g->magnitude * g->coarse;
         if (fabs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) <= bound) return true;
     }
     return false;
 }
 
-static turn *find_turns(sunder_i_pairing *g, int side)
+static bool make_room(sunder_i_pairing *g, uint32_t n, corners *c)
+{
+    double *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 6 * sizeof *block + sizeof *c->vertex);
+    if (!block) return false;
+    *c = (corners){0, (uint32_t *)(block + 6 * (size_t)n), block, block + n, block + 2 * (size_t)n, block + 3 * (size_t)n,
+                   block + 4 * (size_t)n, block + 5 * (size_t)n};
+    return true;
+}
+
+static bool find_corners(sunder_i_pairing *g, int side, corners *c)
 {
     const sunder_shape *s = g->shape[side];
-    turn *t = sunder_i_arena_alloc(&g->placed.lattice.arena, s->vertices, sizeof *t);
-    if (!t) return NULL;
-    const sunder_i_point *at = g->at[side];
-    for (uint32_t v = 0; v < s->vertices; v++) {
-        const uint32_t next = s->next[v];
-        t[v].out = t[next].in = sunder_i_pairing_diff(g, at[next], at[v]);
-    }
+    const double *xy = g->xy[side];
+    if (!make_room(g, s->vertices, c)) return false;
     for (uint32_t p = 0, v = 0; p < s->polygons; p++) {
         const uint32_t first = v, last = s->ring_end[s->poly_end[p] - 1];
         for (; v < last; v++) {
-            t[v].convex = sunder_i_pairing_cross(g, t[v].in, t[v].out) > 0;
-            t[v].shared = s->shared[v] || (!t[v].convex && may_touch_edge(g, side, v, first, last));
+            const double *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
+            double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
+            const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
+            const bool convex = in_x * out_y - in_y * out_x > -bound;
+            const bool shared = s->shared[v] || (!convex && may_touch_edge(g, side, v, first, last));
+            if (!convex && !shared) continue;
+            if (shared) in_x = in_y = out_x = out_y = 0;
+            const uint32_t k = c->n++;
+            c->vertex[k] = v;
+            c->x[k] = b[0];
+            c->y[k] = b[1];
+            c->in_x[k] = in_x;
+            c->in_y[k] = in_y;
+            c->out_x[k] = out_x;
+            c->out_y[k] = out_y;
         }
     }
-    return t;
+    return true;
 }
 
-static inline bool compatible(sunder_i_pairing *g, const turn *v, sunder_i_point e)
+/* A lower bound of the distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. */
+static inline double segment_key(double ax, double ay, double dx, double dy, double inverse, double error)
 {
-    return v->shared || (sunder_i_pairing_cross(g, v->in, e) >= 0 && sunder_i_pairing_cross(g, e, v->out) >= 0);
-}
-
-/* A lower bound of the distance of the origin from the segment of length `length` from (ax, ay) in direction (dx, dy). */
-static inline double segment_key(double ax, double ay, double dx, double dy, double square, double error)
-{
-    double t = -(ax * dx + ay * dy) / square;
+    double t = -(ax * dx + ay * dy) * inverse;
     t = t > 0 ? t < 1 ? t : 1 : 0;
     if (!(t >= 0)) t = 0; /* a length lost in the doubles */
     const double x = ax + t * dx, y = ay + t * dy, d = sqrt(x * x + y * y) - 4 * error;
@@ -82,25 +96,34 @@ static bool push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate
     return true;
 }
 
-/* The edges of operand `side` at the vertices of the other. */
-static bool pair_edges(sunder_i_pairing *g, int side, const turn *edges, const turn *corners, double limit,
-                       sunder_i_candidates *h)
+/* Is the edge a..b, moved over the box of the other operand, out of reach of the origin? */
+static bool out_of_reach(const double *a, const double *b, const double box[4], double limit)
 {
-    const uint32_t n = g->shape[side]->vertices, m = g->shape[!side]->vertices;
-    const double *p = g->xy[side], *q = g->xy[!side];
-    for (uint32_t e = 0; e < n; e++) {
-        const sunder_i_point d = edges[e].out;
-        const double ax = p[2 * e], ay = p[2 * e + 1];
-        const double dx = sunder_i_approx(&g->placed.lattice, d.x), dy = sunder_i_approx(&g->placed.lattice, d.y);
-        const double square = dx * dx + dy * dy;
-        for (uint32_t v = 0; v < m; v++) {
-            if (!corners[v].convex && !corners[v].shared) continue;
-            const double key = segment_key(ax + q[2 * v], ay + q[2 * v + 1], dx, dy, square, g->error);
-            if (key > limit || !compatible(g, corners + v, d)) continue;
-            if (!push(g, h, (sunder_i_candidate){key, e, v, side})) return false;
-        }
+    for (int k = 0; k < 2; k++) {
+        const double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
+        if (low + box[k] > limit || high + box[k + 2] < -limit) return true;
     }
-    g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)n * m;
+    return false;
+}
+
+/* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is let in,
+ * since a superset of the boundary serves as well. */
+static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double limit, sunder_i_candidates *h)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side], reach = limit + 8 * g->error;
+    for (uint32_t e = 0; e < s->vertices; e++) {
+        const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
+        if (out_of_reach(a, b, g->box[!side], reach)) continue;
+        const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
+        const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
+        for (uint32_t k = 0; k < c->n; k++) {
+            if (c->in_x[k] * dy - c->in_y[k] * dx < bound || dx * c->out_y[k] - dy * c->out_x[k] < bound) continue;
+            const double key = segment_key(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse, g->error);
+            if (key <= limit && !push(g, h, (sunder_i_candidate){key, e, c->vertex[k], side})) return false;
+        }
+        g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n;
+    }
     return true;
 }
 
@@ -120,9 +143,10 @@ static void sink(sunder_i_candidates *h, size_t i)
 
 bool sunder_i_candidates_find(sunder_i_pairing *g, double limit, sunder_i_candidates *h)
 {
-    const turn *p = find_turns(g, 0), *q = find_turns(g, 1);
+    corners p, q;
     *h = (sunder_i_candidates){NULL, 0, 0};
-    if (!p || !q || !pair_edges(g, 0, p, q, limit, h) || !pair_edges(g, 1, q, p, limit, h)) return false;
+    if (!find_corners(g, 0, &p) || !find_corners(g, 1, &q)) return false;
+    if (!pair_edges(g, 0, &q, limit, h) || !pair_edges(g, 1, &p, limit, h)) return false;
     for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
     return true;
 }

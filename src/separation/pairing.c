@@ -73,6 +73,7 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     fill_operand(g, 1);
     g->error = COORDINATE_ERROR * g->magnitude;
     g->rough = l->narrow ? 0 : g->error;
+    g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
     const bool whole = l->denominator.size == 1 && l->denominator.limb[0] == 1;
     g->unit = whole ? ldexp(1, (int)(l->exponent + l->approx_shift))
                     : sunder_i_big_ratio(&l->arena, sunder_i_big_i64(&l->arena, 1), l->denominator,
