@@ -136,7 +136,14 @@ static bool append_polygons(OGRGeometryH geometry, gis_rings *rings, gis_error *
  * so a chord of length c of a circle of radius R is at most the sagitta R - sqrt(R^2 - c^2/4) away. GDAL chooses the
  * step so that chords differ from arc to arc, hence each arc is linearised by itself here and its longest chord taken.
  * Everything is in doubles, whose error is far below the slack added at the end: 1e-9 of the radius is some 1e6 times
- * the relative rounding error of a dozen operations, and the vertices themselves are off by some ulps of a coordinate. */
+ * the relative rounding error of a dozen operations, and the vertices themselves are off by some ulps of a
+ * coordinate. */
+static double sagitta_of(double chord, double radius)
+{
+    double half = chord / 2, rest = radius * radius - half * half;
+    return half * half / (radius + sqrt(fmax(0, rest))); /* R - sqrt(R^2 - c^2/4), without its cancellation */
+}
+
 static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
 {
     double x[3], y[3], largest = 0;
@@ -159,13 +166,11 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
                                       OGR_G_GetY(line, i) - OGR_G_GetY(line, i - 1)));
     OGR_G_DestroyGeometry(line);
     double slack = 16 * DBL_EPSILON * largest;
-    /* Collinear points (an infinite radius) make a straight piece, on which the chords lie. */
-    double sagitta = isfinite(radius) && n > 2 ? longest * longest / 4 / (radius + sqrt(fmax(0, radius * radius - longest * longest / 4))) : 0;
-    if (isfinite(radius) && n == 2 && area2 > 0) { /* drawn as one chord: the middle point tells how far it is */
-        double length = hypot(cx, cy), half = length / 2;
-        double height = area2 / length;
-        sagitta = fmax(height, half >= radius ? radius : radius - sqrt(radius * radius - half * half));
-    }
+    double sagitta = 0; /* collinear points (an infinite radius) make a straight piece, on which the chords lie */
+    if (isfinite(radius))
+        sagitta = sagitta_of(longest, radius);
+    if (isfinite(radius) && n == 2 && area2 > 0) /* drawn as one chord, even if it spans more than half the circle */
+        sagitta = fmax(sagitta, area2 / hypot(cx, cy));
     *deviation = fmax(*deviation, sagitta + 1e-9 * fmin(radius, longest) + slack);
     return true;
 }
@@ -312,8 +317,9 @@ static bool same_point(sunder_point p, sunder_point q)
     return p.x == q.x && p.y == q.y;
 }
 
-/* +1 counter-clockwise, -1 clockwise, 0 where the smallest vertex is a spike or all is one point. The smallest vertex lies
- * on the hull, so the turn there is the turn of the ring, if the ring is simple. n vertices, the closing one left out. */
+/* +1 counter-clockwise, -1 clockwise, 0 where the smallest vertex is a spike or all is one point. The smallest vertex
+ * lies on the hull, so the turn there is the turn of the ring, if the ring is simple. n vertices, the closing one left
+ * out. */
 static int ring_turn(OGRGeometryH ring, int n)
 {
     int smallest = 0;

@@ -32,8 +32,8 @@ typedef struct gis_sink_layer gis_sink_layer;
 
 /* source  the input, or NULL if there is none that is a dataset; must live until gis_sink_free().
  * Fails with one sentence, nothing touched: unknown format or one that cannot be written; output exists and neither
- * overwrite nor update is given; overwrite with update; input and output the same (save update with new names); directory
- * missing or not writable; a format that reprojects, unless allow_inexact. */
+ * overwrite nor update is given; overwrite with update; input and output the same (save update with new names); a
+ * directory missing or not writable; a format that reprojects, unless allow_inexact. */
 bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gis_sink **out, gis_error *error);
 
 /* False for /vsistdout/: only the main layer is wanted. */

@@ -35,8 +35,8 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
     OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
     if (!as_written) {
         if (sink->format.keeps_doubles || !sink->request.allow_inexact)
-            return gis_fail(error, "%s: layer %s cannot be read back after writing; the disk may be full", sink->request.path,
-                            layer->name);
+            return gis_fail(error, "%s: layer %s cannot be read back after writing; the disk may be full",
+                            sink->request.path, layer->name);
         result->exact = false; /* a format that is only written, and the user knows */
         result->deviation = INFINITY;
         return true;
@@ -167,7 +167,8 @@ static bool write_styles(gis_sink *sink, gis_error *error)
 {
     if (!sink->format.geopackage || sink->request.no_styles)
         return true;
-    /* Any SQL makes GDAL build the spatial indexes first, for which it attaches a database: not within a transaction. */
+    /* Any SQL makes GDAL build the spatial indexes first, for which it attaches a database, and that does not work
+     * within a transaction. */
     if (!gis_sink_end_transaction(sink, error))
         return false;
     for (size_t i = 0; i < sink->n_layers; i++) {

@@ -92,7 +92,8 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
     options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), "fid", "ogc_fid"));
     if (OGR_FD_GetGeomFieldCount(definition) > 0) {
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
-        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, OGR_GFld_GetNameRef(geometry), "geom", "shape"));
+        options = offer(layer, options, "GEOMETRY_NAME",
+                        free_name(layer, OGR_GFld_GetNameRef(geometry), "geom", "shape"));
         if (!OGR_GFld_IsNullable(geometry))
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }

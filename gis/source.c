@@ -157,7 +157,8 @@ static bool read_all(gis_source *source, gis_error *error)
     bool done = read_features(source, error);
     gis_listen_end();
     if (done && listener.failures && source->where && source->n == 0)
-        done = gis_fail_usage(error, "--where \"%s\": %s", source->where, gis_listener_reason(&listener, "not understood"));
+        done = gis_fail_usage(error, "--where \"%s\": %s", source->where,
+                              gis_listener_reason(&listener, "not understood"));
     else if (done && listener.failures)
         done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
                         source->n, gis_listener_reason(&listener, "no reason given"));

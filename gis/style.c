@@ -1,7 +1,7 @@
 /* style.c: rows of layer_styles, which QGIS reads when it opens a GeoPackage.
  *
- * What QGIS 3.22 wants of a row, found by trying: f_table_catalog and f_table_schema empty texts, not NULL (with NULL the
- * style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
+ * What QGIS 3.22 wants of a row, found by trying: f_table_catalog and f_table_schema empty texts, not NULL (with NULL
+ * the style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
 #include "style.h"
 
 #include <cpl_conv.h>
@@ -12,8 +12,8 @@
 #define OURS "sunder"
 
 static const char make_table[] =
-    "CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, f_table_catalog TEXT(256), "
-    "f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), styleQML TEXT, "
+    "CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
+    "f_table_catalog TEXT(256), f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), styleName TEXT(30), styleQML TEXT, "
     "styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), "
     "update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))";
 

@@ -9,8 +9,8 @@
 #include "sink.h"
 
 /* Writes our style for `layer` as its default, and copies the styles that the source's GeoPackage has for the source's
- * layer (source may be NULL) as non-default ones. Makes the table where it is missing. GIS_STYLE_NONE writes none of our
- * own. The dataset is an open GeoPackage. */
+ * layer (source may be NULL) as non-default ones. Makes the table where it is missing. GIS_STYLE_NONE writes none of
+ * our own. The dataset is an open GeoPackage. */
 bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, const gis_source *source,
                       gis_error *error);
 

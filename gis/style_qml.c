@@ -158,7 +158,8 @@ static void add_by_status(text *to, kind of)
 
 static void begin_single(text *to)
 {
-    add(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n<symbols>\n");
+    add(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+            "<symbols>\n");
 }
 
 static void end_single(text *to)
