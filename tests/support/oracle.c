@@ -241,6 +241,25 @@ bool oracle_covers(const oracle *o, const char *x, const char *y)
     return in;
 }
 
+double *oracle_triangles(const polyset *set, size_t *count)
+{
+    polyset none;
+    polyset_init(&none);
+    oracle *o = oracle_new(set, &none);
+    double *xy = test_alloc(6 * o->p.triangles, sizeof *xy);
+    mpz_t one;
+    mpz_init_set_ui(one, 1);
+    *count = o->p.triangles;
+    for (size_t i = 0; i < 3 * *count; i++) {
+        const zpoint *v = &o->p.v[o->p.triangle[i]];
+        xy[2 * i] = near_ratio(v->x, one, o->shift); /* exact: these were doubles */
+        xy[2 * i + 1] = near_ratio(v->y, one, o->shift);
+    }
+    mpz_clear(one);
+    oracle_free(o);
+    return xy;
+}
+
 char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments)
 {
     oracle *o = oracle_new(p, q);

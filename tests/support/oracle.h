@@ -25,4 +25,8 @@ bool oracle_covers(const oracle *o, const char *x, const char *y);
  * whenever the lemma in oracle_arrangement.c holds (tests run both). Freed by the caller. */
 char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments);
 
+/* The triangles of a set, member by member, 6 coordinates each, counter-clockwise; found by trying everything, O(n^4) at worst.
+ * Vertices are those of the set. Freed by the caller. */
+double *oracle_triangles(const polyset *set, size_t *count);
+
 #endif

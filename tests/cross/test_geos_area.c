@@ -1,0 +1,230 @@
+/* Areas of larger sums against GEOS: the union, by OverlayNG in doubles, of the sums of all pairs of triangles, the triangles
+ * by the oracle (GEOS's own triangulation fails on rings that touch). Relative difference at most 1e-9: GEOS rounds its crossings, of relative size 1e-16
+ * each, and the areas add up over some thousand edges; a face lost or found too much is far larger. */
+#include "generate.h"
+#include "oracle.h"
+#include "sum_text.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+#include <geos_c.h>
+#include <gmp.h>
+
+static GEOSContextHandle_t geos;
+
+static void complain(const char *message, void *user)
+{
+    (void)user;
+    print_message("GEOS: %s\n", message);
+}
+
+static int open_geos(void **state)
+{
+    (void)state;
+    geos = GEOS_init_r();
+    GEOSContext_setErrorMessageHandler_r(geos, complain, NULL);
+    return geos ? 0 : -1;
+}
+
+static int close_geos(void **state)
+{
+    (void)state;
+    GEOS_finish_r(geos);
+    return 0;
+}
+
+static GEOSGeometry *polygon(const double *xy, size_t n)
+{
+    GEOSCoordSequence *s = GEOSCoordSeq_create_r(geos, (unsigned)n + 1, 2);
+    for (size_t i = 0; i <= n; i++) GEOSCoordSeq_setXY_r(geos, s, (unsigned)i, xy[2 * (i % n)], xy[2 * (i % n) + 1]);
+    return GEOSGeom_createPolygon_r(geos, GEOSGeom_createLinearRing_r(geos, s), NULL, 0);
+}
+
+static double cross(const double *u, const double *v) { return u[0] * v[1] - u[1] * v[0]; }
+
+/* The sum of two triangles: their sides in the order of their angles, from the lowest corners on. */
+static GEOSGeometry *triangle_sum(const double *a, const double *b)
+{
+    double out[14];
+    size_t i = 0, j = 0, low[2] = {0, 0}, n = 0;
+    for (size_t k = 1; k < 3; k++) {
+        if (a[2 * k + 1] < a[2 * low[0] + 1] || (a[2 * k + 1] == a[2 * low[0] + 1] && a[2 * k] < a[2 * low[0]])) low[0] = k;
+        if (b[2 * k + 1] < b[2 * low[1] + 1] || (b[2 * k + 1] == b[2 * low[1] + 1] && b[2 * k] < b[2 * low[1]])) low[1] = k;
+    }
+    while (i < 3 || j < 3) {
+        const double *p = a + 2 * ((low[0] + i) % 3), *q = b + 2 * ((low[1] + j) % 3);
+        const double *p2 = a + 2 * ((low[0] + i + 1) % 3), *q2 = b + 2 * ((low[1] + j + 1) % 3);
+        const double u[2] = {p2[0] - p[0], p2[1] - p[1]}, v[2] = {q2[0] - q[0], q2[1] - q[1]};
+        out[2 * n] = p[0] + q[0];
+        out[2 * n + 1] = p[1] + q[1];
+        n++;
+        const double c = cross(u, v);
+        if (j == 3 || (i < 3 && c > 0)) i++;
+        else if (i == 3 || c < 0) j++;
+        else i++, j++;
+    }
+    return polygon(out, n);
+}
+
+static double geos_area(const polyset *p, const polyset *q)
+{
+    size_t m, n;
+    double *s = oracle_triangles(p, &m), *t = oracle_triangles(q, &n), area = NAN;
+    GEOSGeometry **all = test_alloc(m * n, sizeof(GEOSGeometry *));
+    for (size_t i = 0; i < m; i++)
+        for (size_t j = 0; j < n; j++) all[i * n + j] = triangle_sum(s + 6 * i, t + 6 * j);
+    GEOSGeometry *many = GEOSGeom_createCollection_r(geos, GEOS_MULTIPOLYGON, all, (unsigned)(m * n));
+    GEOSGeometry *one = GEOSUnaryUnion_r(geos, many);
+    if (one) GEOSArea_r(geos, one, &area);
+    GEOSGeom_destroy_r(geos, many);
+    GEOSGeom_destroy_r(geos, one);
+    free(all);
+    free(s);
+    free(t);
+    return area;
+}
+
+static double our_area(const polyset *p, const polyset *q)
+{
+    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
+    sunder_sum *sum = NULL;
+    double area = NAN;
+    char *text = NULL;
+    if (a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK &&
+        sunder_sum_area_text(sum, &text, NULL) == SUNDER_OK) {
+        /* num/den to a double: strtod would overflow on the parts of a long fraction. */
+        mpq_t r;
+        mpq_init(r);
+        if (mpq_set_str(r, text, 10) == 0) area = mpq_get_d(r);
+        mpq_clear(r);
+    }
+    sunder_free(text);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return area;
+}
+
+static bool same_area(const char *name, const polyset *p, const polyset *q)
+{
+    const double theirs = geos_area(p, q), ours = our_area(p, q);
+    if (fabs(ours - theirs) <= 1e-9 * fabs(theirs)) return true;
+    char *a = polyset_wkt(p), *b = polyset_wkt(q);
+    print_message("%s: area %.17g, GEOS %.17g\n%.2000s\n%.2000s\n", name, ours, theirs, a, b);
+    free(a);
+    free(b);
+    return false;
+}
+
+typedef enum family { STAR, COMB, SLANTED, FORK, ROBOT, ROOMS, MAP, TOWN, FAMILIES } family;
+
+static const char *const family_name[FAMILIES] = {"star + star",       "comb + convex", "slanted comb + star", "fork + fork",
+                                                  "star + many convex", "rooms + star",  "rooms at map coordinates", "buildings"};
+
+static void many(polyset *set, rng *r, int n, void (*one)(polyset *set, rng *r, int n, double size), double spread)
+{
+    for (int i = 0; i < n; i++) {
+        polyset m;
+        polyset_init(&m);
+        one(&m, r, (int)rng_int(r, 4, 9), spread / 8);
+        polyset_move(&m, rint(spread * rng_unit(r)), rint(spread * rng_unit(r)));
+        polyset_append(set, &m);
+        polyset_free(&m);
+    }
+}
+
+static void rooms(polyset *set, rng *r, spacing kind)
+{
+    cells c;
+    random_cells(&c, r, 7, 7, kind, true, 65);
+    cells_outline(set, &c, false, true);
+}
+
+static void draw(family f, rng *r, polyset *p, polyset *q)
+{
+    const int n = (int)rng_int(r, 30, 70);
+    polyset_init(p);
+    polyset_init(q);
+    switch (f) {
+    case STAR: random_star(p, r, n, 100000); random_star(q, r, n, 100000); break;
+    case COMB: random_comb(p, r, n / 4, 100000, rng_once_in(r, 2)); random_convex(q, r, n, 9000); break;
+    case SLANTED: random_comb(p, r, n / 4, 100000, true); random_star(q, r, n / 2, 50000); break;
+    case FORK: random_fork(p, r, n / 8, 100000, false); random_fork(q, r, n / 8, 100000, true); break;
+    case ROBOT: many(p, r, n / 3, random_convex, 200000); random_star(q, r, n, 20000); break;
+    case ROOMS:
+        rooms(p, r, SPACING_SMALL);
+        polyset_scale(p, 7, 7);
+        random_star(q, r, 12, 8);
+        break;
+    case MAP: rooms(p, r, SPACING_MAP); random_star(q, r, 12, 9); break;
+    case TOWN:
+        for (int i = 0; i < 12; i++) random_building(p, r);
+        random_building(q, r);
+        polyset_negate(q);
+        break;
+    case FAMILIES: break;
+    }
+}
+
+static void test_families(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(6);
+    size_t bad = 0;
+    print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
+    for (int f = 0; f < FAMILIES; f++)
+        for (size_t i = 0; i < n; i++) {
+            rng r = rng_start(seed + 77 * (uint64_t)f, i);
+            polyset p, q;
+            draw((family)f, &r, &p, &q);
+            char *name = test_format("%s, case %zu", family_name[f], i);
+            if (!same_area(name, &p, &q)) bad++;
+            free(name);
+            polyset_free(&p);
+            polyset_free(&q);
+        }
+    assert_int_equal(bad, 0);
+}
+
+/* The benchmark inputs beside the repository, where present. */
+static void test_shared_families(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"comb_50", "fork_20",  "forkt_20",    "cfork_20",   "star_20",
+                                        "star_50", "random_20", "random_50",  "randmap_50", "robot_20",
+                                        "robot_50", "fatgrid_20", "fatcover_20", "tight_0", "tight_1", "tight_2"};
+    const char *source = getenv("SUNDER_SOURCE");
+    size_t found = 0, bad = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char *path = test_format("%s/../shared/families/%s.txt", source ? source : SUNDER_SOURCE, names[i]);
+        char *text = test_read_file(path);
+        const char *end;
+        polyset p, q;
+        if (text && polyset_read_wkt(&p, text, &end)) {
+            found++;
+            if (!polyset_read_wkt(&q, end, NULL) || !same_area(names[i], &p, &q)) bad++;
+            polyset_free(&p);
+            polyset_free(&q);
+        }
+        free(text);
+        free(path);
+    }
+    if (!found) {
+        print_message("no ../shared/families beside the repository: skipped\n");
+        skip();
+    }
+    print_message("%zu of %zu files agree\n", found - bad, found);
+    assert_int_equal(bad, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_families), cmocka_unit_test(test_shared_families)};
+    return cmocka_run_group_tests_name("areas like GEOS's", tests, open_geos, close_geos);
+}
