@@ -70,7 +70,7 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     size_t wanted = 1 + plan % 3;
     sunder_validity validity = plan & 8 ? SUNDER_STRICT : SUNDER_EVEN_ODD;
     for (size_t r = 0; r < wanted; ++r) {
-        size_t count = 3 + fuzz_byte(bytes) % 8;
+        size_t count = fuzz_byte(bytes) % 11; /* rings of none, one and two vertices too */
         if (plan & 16) { /* a rectangle: the one ring that strict validity likes without luck */
             double x0 = fuzz_coordinate(bytes, scale), y0 = fuzz_coordinate(bytes, scale);
             double x1 = fuzz_coordinate(bytes, scale), y1 = fuzz_coordinate(bytes, scale);

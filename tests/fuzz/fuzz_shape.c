@@ -6,6 +6,7 @@
 static void demand_shape(const sunder_shape *shape)
 {
     double box[4], anchor[2];
+    fuzz_fail_allocations(0); /* getters cannot say that memory ran out */
     sunder_shape_box(shape, box);
     FUZZ_DEMAND(box[0] <= box[2] && box[1] <= box[3]);
     FUZZ_DEMAND(sunder_shape_is_empty(shape) == (sunder_shape_vertices(shape) == 0));
@@ -39,7 +40,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     sunder_shape *shape = fuzz_shape(&bytes, scale, 64), *moved = NULL, *disc = NULL;
     if (shape) {
         bool exact = false;
-        fuzz_fail_allocations(0); /* getters cannot say that memory ran out */
         demand_shape(shape);
         ask_reflection(shape);
         double dx = fuzz_coordinate(&bytes, scale), dy = fuzz_coordinate(&bytes, scale);
