@@ -14,7 +14,7 @@
  * sides, which no split will part and every split doubles; many lines may be a cluster in a corner of the cell (or truly
  * concurrent, and then only one half keeps them). */
 #define STUBBORN_SPLITS_FEW 3
-#define STUBBORN_SPLITS_MANY 20
+#define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */

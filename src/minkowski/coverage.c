@@ -89,25 +89,34 @@ static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line
     return sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high));
 }
 
-/* The subsum rests on the line: the side before corner i (if it has the wanted rank) covers one bank. */
-static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
+/* One side on the line, covering one bank of it. */
+static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, uint32_t side, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
-    const uint32_t side = p->first + (i + p->n - 1) % p->n, end = p->first + i % p->n;
-    const sunder_i_fraction there = sunder_i_along(l, line->a, line->b, p->s->corner[end]);
-    if (p->s->rank[side] != rank) {
-        add_event(f, there, (state){0, 0, 0, 0}, end);
-        return;
-    }
-    const sunder_i_fraction here = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
+    const uint32_t next = side + 1 < p->first + p->n ? side + 1 : p->first;
+    const sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
+    const sunder_i_fraction to = sunder_i_along(l, line->a, line->b, p->s->corner[next]);
     const int32_t live = f->live[side];
     if (left) {
-        add_event(f, here, (state){0, 1, 0, live}, side);
-        add_event(f, there, (state){0, -1, 0, -live}, end);
+        add_event(f, from, (state){0, 1, 0, live}, side);
+        add_event(f, to, (state){0, -1, 0, -live}, next);
     } else {
-        add_event(f, there, (state){0, 0, 1, live}, end);
-        add_event(f, here, (state){0, 0, -1, -live}, side);
+        add_event(f, to, (state){0, 0, 1, live}, next);
+        add_event(f, from, (state){0, 0, -1, -live}, side);
     }
+}
+
+/* The subsum rests on the line: sides of the wanted rank end in corner i (several where a piece has straight corners); or it
+ * touches the line there. */
+static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
+{
+    const uint32_t end = p->first + i % p->n;
+    uint32_t side = p->first + (i + p->n - 1) % p->n;
+    if (p->s->rank[side] != rank) {
+        add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end);
+        return;
+    }
+    for (; p->s->rank[side] == rank; side = side > p->first ? side - 1 : p->first + p->n - 1) rest_side(f, p, line, side, left);
 }
 
 static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)

@@ -1,5 +1,6 @@
 #include "minkowski/subsums.h"
 
+#include "minkowski/join.h"
 #include "number/sort.h"
 #include "predicate/predicate.h"
 
@@ -9,6 +10,7 @@
 typedef struct operand {
     const sunder_shape *shape;
     const sunder_i_point *vertex;
+    sunder_i_joined joined; /* its pieces */
     uint32_t *corner;    /* [sides] vertex where the side starts, rotated as said */
     uint32_t *rank;      /* [sides] */
     uint32_t *edge_rank; /* [vertices] rank of the boundary edge (v, next[v]) */
@@ -28,32 +30,34 @@ static int compare_keys(void *context, uint32_t a, uint32_t b)
 
 static void operand_free(operand *o)
 {
+    sunder_i_joined_free(&o->joined);
     sunder_i_free(o->corner);
     sunder_i_free(o->rank);
     sunder_i_free(o->edge_rank);
 }
 
-static bool operand_init(operand *o, const sunder_shape *shape, const sunder_i_point *vertex)
+static bool operand_init(operand *o, sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *vertex)
 {
     o->shape = shape;
     o->vertex = vertex;
-    o->sides = shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
+    if (!sunder_i_join_pieces(l, shape, vertex, &o->joined)) return false;
+    o->sides = o->joined.end[o->joined.pieces - 1];
     o->corner = sunder_i_alloc(o->sides, sizeof *o->corner);
     o->rank = sunder_i_alloc(o->sides, sizeof *o->rank);
     o->edge_rank = sunder_i_alloc(shape->vertices, sizeof *o->edge_rank);
     return o->corner && o->rank && o->edge_rank;
 }
 
-static uint32_t piece_first(const sunder_shape *s, size_t piece) { return piece ? s->piece_end[piece - 1] : 0; }
+static uint32_t piece_first(const operand *o, size_t piece) { return piece ? o->joined.end[piece - 1] : 0; }
 
 /* The vectors of all sides of an operand, turned into [0, pi); flipped tells which were turned. */
 static void side_vectors(sunder_i_lattice *l, const operand *o, sunder_i_point *key, bool *flipped)
 {
-    const sunder_shape *s = o->shape;
-    for (uint32_t i = 0; i < s->pieces; i++) {
-        const uint32_t first = piece_first(s, i), end = s->piece_end[i];
+    const uint32_t *vertex = o->joined.vertex;
+    for (uint32_t i = 0; i < o->joined.pieces; i++) {
+        const uint32_t first = piece_first(o, i), end = o->joined.end[i];
         for (uint32_t k = first; k < end; k++) {
-            const uint32_t u = s->piece_vertex[k], v = s->piece_vertex[k + 1 < end ? k + 1 : first];
+            const uint32_t u = vertex[k], v = vertex[k + 1 < end ? k + 1 : first];
             const sunder_i_point d = sunder_i_point_sub(l, o->vertex[v], o->vertex[u]);
             flipped[k] = sunder_i_half_plane(l, d) == 1;
             key[k] = flipped[k] ? sunder_i_point_neg(l, d) : d;
@@ -64,18 +68,20 @@ static void side_vectors(sunder_i_lattice *l, const operand *o, sunder_i_point *
 /* Stores corners and ranks of each piece, rotated to ascending ranks, and the ranks of the boundary edges. */
 static void store_ranks(operand *o, const uint32_t *rank)
 {
-    const sunder_shape *s = o->shape;
-    for (uint32_t i = 0; i < s->pieces; i++) {
-        const uint32_t first = piece_first(s, i), n = s->piece_end[i] - first;
+    const uint32_t *vertex = o->joined.vertex;
+    for (uint32_t i = 0; i < o->joined.pieces; i++) {
+        const uint32_t first = piece_first(o, i), n = o->joined.end[i] - first;
         uint32_t least = 0;
         for (uint32_t k = 1; k < n; k++)
             if (rank[first + k] < rank[first + least]) least = k;
+        /* Sides on one line have one rank: start with the first of them, which may stand at the end of the list. */
+        while (rank[first + (least + n - 1) % n] == rank[first + least]) least = (least + n - 1) % n;
         for (uint32_t k = 0; k < n; k++) {
             const uint32_t from = first + (least + k) % n;
-            const uint32_t u = s->piece_vertex[from], v = s->piece_vertex[first + (least + k + 1) % n];
+            const uint32_t u = vertex[from], v = vertex[first + (least + k + 1) % n];
             o->corner[first + k] = u;
             o->rank[first + k] = rank[from];
-            if (sunder_i_is_boundary(s, u, v)) o->edge_rank[u] = rank[from];
+            if (sunder_i_is_boundary(o->shape, u, v)) o->edge_rank[u] = rank[from];
         }
     }
 }
@@ -138,8 +144,8 @@ static bool is_candidate(const operand *a, uint32_t k, uint32_t m, const operand
 static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *p, uint32_t i, const operand *q,
                              uint32_t j)
 {
-    const uint32_t pf = piece_first(p->shape, i), pn = p->shape->piece_end[i] - pf;
-    const uint32_t qf = piece_first(q->shape, j), qn = q->shape->piece_end[j] - qf;
+    const uint32_t pf = piece_first(p, i), pn = p->joined.end[i] - pf;
+    const uint32_t qf = piece_first(q, j), qn = q->joined.end[j] - qf;
     const uint32_t start = at, classes = out->classes;
     uint32_t a = 0, b = 0;
     while (a < pn || b < qn) {
@@ -165,7 +171,7 @@ static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *
 
 static bool merge_all(sunder_i_subsums *out, const operand *p, const operand *q)
 {
-    const size_t m = p->shape->pieces, n = q->shape->pieces, most = p->sides * n + q->sides * m;
+    const size_t m = p->joined.pieces, n = q->joined.pieces, most = p->sides * n + q->sides * m;
     if (m * n > UINT32_MAX / 2 || most > UINT32_MAX / 2) return false;
     out->end = sunder_i_alloc(m * n, sizeof *out->end);
     out->corner = sunder_i_alloc(most, sizeof *out->corner);
@@ -190,8 +196,7 @@ sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_sha
     out->lattice = lattice;
     if (p->pieces == 0 || q->pieces == 0) return SUNDER_OK;
     operand a = {0}, b = {0};
-    bool ok = operand_init(&a, p, vp);
-    ok = operand_init(&b, q, vq) && ok;
+    bool ok = operand_init(&a, lattice, p, vp) && operand_init(&b, lattice, q, vq);
     ok = ok && rank_directions(out, &a, &b) && merge_all(out, &a, &b);
     operand_free(&a);
     operand_free(&b);

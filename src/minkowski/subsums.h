@@ -22,7 +22,7 @@ typedef struct sunder_i_subsums {
     sunder_i_point *direction; /* [classes] a vector of each, angle in [0, pi) */
     size_t n, sides;
     uint32_t *end;             /* [n] past the last side of each */
-    sunder_i_point *corner;    /* [sides] where each side starts; counter-clockwise, ranks ascending in each subsum */
+    sunder_i_point *corner;    /* [sides] where each side starts; counter-clockwise, ranks not falling in each subsum */
     uint32_t *rank;            /* [sides] */
     bool *candidate;           /* [sides] */
 } sunder_i_subsums;
