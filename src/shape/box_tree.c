@@ -150,17 +150,14 @@ bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings
     return true;
 }
 
-void sunder_i_box_tree_ray(const sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_t v,
-                           sunder_i_edge_visitor visit, void *user)
+void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit, void *user)
 {
-    const double *at = r->xy + 2 * (size_t)v;
     uint32_t stack[64];
     int n = 0;
     if (tree->edges) stack[n++] = 1;
     while (n) {
         const uint32_t b = stack[--n];
-        const double *box = tree->box[b];
-        if (box[1] > at[1] || box[3] < at[1] || box[2] < at[0]) continue;
+        if (!boxes_meet(tree->box[b], box)) continue;
         if (b < tree->leaves) {
             stack[n++] = 2 * b;
             stack[n++] = 2 * b + 1;

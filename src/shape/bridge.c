@@ -12,7 +12,7 @@
  * runs through is meant. */
 #include "shape/build.h"
 
-#include <stdlib.h>
+#include <math.h>
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }
 
@@ -41,10 +41,6 @@ static bool is_above(const sunder_i_rings *r, span s, span t)
     return side > 0;
 }
 
-typedef struct bridge {
-    uint32_t hole, u; /* the smallest corner of the hole, and what it is joined to */
-} bridge;
-
 static uint32_t smallest_corner(const sunder_i_rings *r, uint32_t ring)
 {
     uint32_t v = ring_begin(r, ring);
@@ -53,44 +49,92 @@ static uint32_t smallest_corner(const sunder_i_rings *r, uint32_t ring)
     return v;
 }
 
-/* The corner to join h to, among the vertices lo .. hi of the polygon. */
-static uint32_t visible_left(const sunder_i_rings *r, uint32_t lo, uint32_t hi, uint32_t h)
+/* Looking from h: the nearest edges below and above, then the corner u. reach is the box in which something better may
+ * still be found; it shrinks. */
+typedef struct view {
+    const sunder_i_rings *r;
+    uint32_t h, u;
+    span below, above; /* left is NONE until one is known */
+    double reach[4];
+} view;
+
+static double lower_y(const sunder_i_rings *r, span s)
 {
-    span below = {SUNDER_I_NONE, 0}, above = below;
-    const double x = r->xy[2 * (size_t)h];
-    for (uint32_t e = lo; e < hi; e++) {
-        const double a = r->xy[2 * (size_t)e], b = r->xy[2 * (size_t)r->next[e]];
-        if ((a > x && b > x) || (a < x && b < x)) continue;
-        const span s = span_of(r, e);
-        if (sunder_i_rings_cmp(r, s.left, h) >= 0 || sunder_i_rings_cmp(r, s.right, h) <= 0) continue;
-        const int side = sunder_i_rings_orient(r, s.left, s.right, h);
-        if (side > 0) {
-            if (below.left == SUNDER_I_NONE || is_above(r, s, below)) below = s;
-        } else if (above.left == SUNDER_I_NONE || is_above(r, above, s)) {
-            above = s;
-        }
-    }
-    if (below.left == SUNDER_I_NONE || above.left == SUNDER_I_NONE) return SUNDER_I_NONE; /* memory is out */
-    uint32_t u = sunder_i_rings_cmp(r, below.left, above.left) > 0 ? below.left : above.left;
-    for (uint32_t v = lo; v < hi; v++) {
-        const double c = r->xy[2 * (size_t)v];
-        if (c > x || c < r->xy[2 * (size_t)u]) continue;
-        if (sunder_i_rings_cmp(r, v, h) >= 0 || sunder_i_rings_cmp(r, v, u) <= 0) continue;
-        if (sunder_i_rings_orient(r, below.left, below.right, v) > 0 &&
-            sunder_i_rings_orient(r, above.left, above.right, v) < 0)
-            u = v;
-    }
-    return u;
+    return fmin(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
 }
 
-/* The node at the place of vertex v whose sector the direction to vertex d runs through. */
-static uint32_t facing_node(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t v, uint32_t d)
+static double upper_y(const sunder_i_rings *r, span s)
 {
-    for (uint32_t node = 0; node < walk->nodes; node++) {
-        const uint32_t w = walk->vertex[node];
-        if (w != v && sunder_i_rings_cmp(r, w, v) != 0) continue;
-        if (sunder_i_in_wedge(r, w, walk->vertex[walk->next[node]], walk->vertex[walk->prev[node]], d)) return node;
+    return fmax(r->xy[2 * (size_t)s.left + 1], r->xy[2 * (size_t)s.right + 1]);
+}
+
+static void see_edge(void *user, uint32_t e)
+{
+    view *w = user;
+    const sunder_i_rings *r = w->r;
+    const double x = w->reach[0], a = r->xy[2 * (size_t)e], b = r->xy[2 * (size_t)r->next[e]];
+    if ((a > x && b > x) || (a < x && b < x)) return;
+    const span s = span_of(r, e);
+    if (sunder_i_rings_cmp(r, s.left, w->h) >= 0 || sunder_i_rings_cmp(r, s.right, w->h) <= 0) return;
+    if (sunder_i_rings_orient(r, s.left, s.right, w->h) > 0) {
+        if (w->below.left != SUNDER_I_NONE && !is_above(r, s, w->below)) return;
+        w->below = s;
+        w->reach[1] = lower_y(r, s);
+    } else {
+        if (w->above.left != SUNDER_I_NONE && !is_above(r, w->above, s)) return;
+        w->above = s;
+        w->reach[3] = upper_y(r, s);
     }
+}
+
+static void see_corner(void *user, uint32_t v)
+{
+    view *w = user;
+    const sunder_i_rings *r = w->r;
+    const double x = r->xy[2 * (size_t)v];
+    if (x > w->reach[2] || x < w->reach[0]) return;
+    if (sunder_i_rings_cmp(r, v, w->h) >= 0 || sunder_i_rings_cmp(r, v, w->u) <= 0) return;
+    if (sunder_i_rings_orient(r, w->below.left, w->below.right, v) <= 0 ||
+        sunder_i_rings_orient(r, w->above.left, w->above.right, v) >= 0)
+        return;
+    w->u = v;
+    w->reach[0] = x;
+}
+
+static void look(view *w, sunder_i_edge_visitor see, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi)
+{
+    if (tree)
+        sunder_i_box_tree_query(tree, w->reach, see, w);
+    else
+        for (uint32_t e = lo; e < hi; e++) see(w, e);
+}
+
+/* The corner to join h to, among the vertices lo .. hi of the polygon. NONE only where memory is out. */
+static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi, uint32_t h)
+{
+    const double x = r->xy[2 * (size_t)h];
+    view w = {r, h, SUNDER_I_NONE, {SUNDER_I_NONE, 0}, {SUNDER_I_NONE, 0}, {x, -INFINITY, x, INFINITY}};
+    look(&w, see_edge, tree, lo, hi);
+    if (w.below.left == SUNDER_I_NONE || w.above.left == SUNDER_I_NONE) return SUNDER_I_NONE;
+    w.u = sunder_i_rings_cmp(r, w.below.left, w.above.left) > 0 ? w.below.left : w.above.left;
+    w.reach[0] = r->xy[2 * (size_t)w.u];
+    look(&w, see_corner, tree, lo, hi);
+    return w.u;
+}
+
+/* Does the direction to vertex d run through the sector of this node? */
+static bool faces(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t node, uint32_t d)
+{
+    return sunder_i_in_wedge(r, walk->vertex[node], walk->vertex[walk->next[node]], walk->vertex[walk->prev[node]], d);
+}
+
+/* The node at the place of vertex v whose sector the direction to vertex d runs through. Nearly always it is the vertex's own
+ * first node; else another at the place. lo: the vertex of node 0. */
+static uint32_t facing_node(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t lo, uint32_t v, uint32_t d)
+{
+    if (faces(r, walk, v - lo, d)) return v - lo;
+    for (uint32_t node = walk->nodes; node-- > 0;)
+        if (sunder_i_rings_cmp(r, walk->vertex[node], v) == 0 && faces(r, walk, node, d)) return node;
     return SUNDER_I_NONE;
 }
 
@@ -124,16 +168,19 @@ void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
                            sunder_i_arena *arena)
 {
     const uint32_t lo = ring_begin(r, ring_lo), hi = r->ring_end[ring_hi - 1];
-    (void)arena;
-    for (uint32_t ring = ring_lo + 1; ring < ring_hi; ring++) {
-        const uint32_t h = smallest_corner(r, ring), u = visible_left(r, lo, hi, h);
-        if (u == SUNDER_I_NONE) {
-            r->lattice->arena.failed = true;
-            return;
+    sunder_i_box_tree tree;
+    sunder_i_box_tree *const use = hi - lo >= SUNDER_I_TREE_FROM ? &tree : NULL;
+    if (use) sunder_i_box_tree_build(use, r, ring_lo, ring_hi, arena);
+    for (uint32_t ring = ring_lo + 1; ring < ring_hi && !arena->failed; ring++) {
+        const uint32_t h = smallest_corner(r, ring), u = visible_left(r, use, lo, hi, h);
+        uint32_t from = SUNDER_I_NONE, to = SUNDER_I_NONE;
+        if (u != SUNDER_I_NONE) {
+            from = facing_node(r, walk, lo, u, h);
+            to = facing_node(r, walk, lo, h, u);
         }
-        const uint32_t from = facing_node(r, walk, u, h), to = facing_node(r, walk, h, u);
         if (from == SUNDER_I_NONE || to == SUNDER_I_NONE) {
-            r->lattice->arena.failed = true;
+            /* Sound rings have a bridge; only predicates that ran out of memory answer otherwise. */
+            arena->failed = true;
             return;
         }
         join(walk, from, to, ring - ring_lo - 1);

@@ -111,10 +111,13 @@ typedef bool (*sunder_i_pair_visitor)(void *user, uint32_t e, uint32_t f);
 bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
                              void *user);
 
-/* Calls visit for each edge whose box may meet the ray that starts at vertex v and goes to the right. */
+/* Calls visit for the edges whose boxes may meet a closed box (x0 y0 x1 y1), and some others. The visitor may shrink the box on
+ * the way: what no longer meets it is left out. */
 typedef void (*sunder_i_edge_visitor)(void *user, uint32_t e);
-void sunder_i_box_tree_ray(const sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_t v,
-                           sunder_i_edge_visitor visit, void *user);
+void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit, void *user);
+
+/* Fewer edges than this are looked at one by one; from here on a tree pays. */
+#define SUNDER_I_TREE_FROM 40
 
 /* ---- contact.c, nesting.c ---- */
 

@@ -11,9 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Below this all pairs of edges are looked at; above, the tree of boxes pays. */
-#define TREE_FROM 40
-
 static bool finite_all(const sunder_i_input *in, sunder_error *err)
 {
     const size_t n = in->vertices;
@@ -117,7 +114,7 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const uint32_t n = r->vertices - (ring_lo ? r->ring_end[ring_lo - 1] : 0);
     sunder_i_box_tree tree;
-    sunder_i_box_tree *const use = n >= TREE_FROM ? &tree : NULL;
+    sunder_i_box_tree *const use = n >= SUNDER_I_TREE_FROM ? &tree : NULL;
     if (use) sunder_i_box_tree_build(use, r, ring_lo, r->rings, arena);
     if (arena->failed) return;
     sunder_i_contact_find(r, ring_lo, r->rings, use, problem, touches);

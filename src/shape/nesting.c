@@ -11,6 +11,8 @@
  * itself are on the right of q when they lie clockwise of d, or are d. */
 #include "shape/build.h"
 
+#include <math.h>
+
 typedef struct probe {
     const sunder_i_rings *r;
     uint32_t v, d; /* the lowest place, and the far end of the first direction there */
@@ -64,9 +66,10 @@ static void count_edge(void *user, uint32_t e)
 static int winding(probe *p, uint32_t lo, uint32_t hi, const sunder_i_box_tree *tree)
 {
     p->winding = 0;
-    if (tree)
-        sunder_i_box_tree_ray(tree, p->r, p->v, count_edge, p);
-    else
+    if (tree) {
+        const double *at = p->r->xy + 2 * (size_t)p->v, ray[4] = {at[0], at[1], INFINITY, at[1]};
+        sunder_i_box_tree_query(tree, ray, count_edge, p);
+    } else
         for (uint32_t e = lo; e < hi; e++) count_edge(p, e);
     return p->winding;
 }

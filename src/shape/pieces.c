@@ -26,12 +26,17 @@
 /* A list up to here, a grid from here on; by measurement on random and coast-like rings. */
 #define GRID_FROM 24
 
+enum { CONVEX, BLUNT, CUT };
+
 typedef struct cutter {
     const sunder_i_rings *r;
     sunder_i_walk walk;
     sunder_i_mesh mesh;
     uint32_t *bridge_half; /* [bridges] the half-edge that met the bridge first, or NONE */
-    bool *blunt;           /* [nodes] not strictly convex */
+    uint8_t *state;        /* [nodes] CONVEX, BLUNT or CUT */
+    uint32_t *stamp;       /* [nodes] the round in which a neighbour was cut */
+    uint32_t *turn[2];     /* convex nodes of this round and of the next */
+    uint32_t turn_n, round;
     uint32_t *list;        /* the nodes that are or were blunt, by cell */
     uint32_t listed, live; /* in the list; of these still blunt */
     uint32_t *cell_end;    /* the grid: NULL for few */
@@ -59,7 +64,7 @@ static void build_grid(cutter *c, uint32_t *spare)
     uint32_t n = 0;
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (uint32_t i = 0; i < c->listed; i++) {
-        if (!c->blunt[c->list[i]]) continue;
+        if (c->state[c->list[i]] != BLUNT) continue;
         const double *p = place(c, c->list[i]);
         for (int k = 0; k < 2; k++) {
             low[k] = fmin(low[k], p[k]);
@@ -103,7 +108,7 @@ typedef struct triangle {
 /* Does this blunt node forbid the cut? */
 static bool blocks(const cutter *c, const triangle *t, uint32_t node)
 {
-    if (node == t->a || node == t->b || node == t->c || !c->blunt[node]) return false;
+    if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
     const double *p = place(c, node);
     if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
     if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
@@ -112,7 +117,6 @@ static bool blocks(const cutter *c, const triangle *t, uint32_t node)
 
 static bool is_ear(const cutter *c, uint32_t b)
 {
-    if (c->blunt[b]) return false;
     triangle t = {c->walk.prev[b], b, c->walk.next[b], {0}};
     const double *p = place(c, t.a), *q = place(c, t.b), *s = place(c, t.c);
     for (int k = 0; k < 2; k++) {
@@ -172,11 +176,14 @@ static uint32_t add_triangle(cutter *c, uint32_t b)
     return h;
 }
 
+/* A neighbour of a cut corner: it may have become convex, and is left alone for the rest of the round. */
 static void refresh(cutter *c, uint32_t node)
 {
-    if (!c->blunt[node] || turn(c, c->walk.prev[node], node, c->walk.next[node]) <= 0) return;
-    c->blunt[node] = false;
+    c->stamp[node] = c->round;
+    if (c->state[node] != BLUNT || turn(c, c->walk.prev[node], node, c->walk.next[node]) <= 0) return;
+    c->state[node] = CONVEX;
     c->live--;
+    c->turn[1][c->turn_n++] = node;
 }
 
 static void cut(cutter *c, uint32_t b)
@@ -186,33 +193,41 @@ static void cut(cutter *c, uint32_t b)
     c->mesh.twin[h + 2] = SUNDER_I_NONE;
     c->walk.next[a] = d;
     c->walk.prev[d] = a;
+    c->state[b] = CUT;
     refresh(c, a);
     refresh(c, d);
 }
 
-/* All ears of the closed walk of n nodes through start. */
-static void cut_ears(cutter *c, uint32_t start, uint32_t n, uint32_t *spare)
+/* All ears of the closed walk. Convex nodes take turns in rounds; in one round no two neighbours are cut, so that triangles do
+ * not fan out from one vertex, and blunt nodes cost nothing. */
+static void cut_ears(cutter *c, uint32_t *spare)
 {
-    uint32_t node = start, idle = 0;
+    uint32_t left = c->walk.nodes, last = 0;
     if (c->cell_end) build_grid(c, spare);
-    while (n > 3) {
-        /* Without an ear in two rounds memory has run out, and the predicates answer nothing. */
-        if (idle > 2 * n) return;
-        if (!is_ear(c, node)) {
-            node = c->walk.next[node];
-            idle++;
-            continue;
+    while (left > 3) {
+        const uint32_t n = c->turn_n, before = left;
+        uint32_t *const now = c->turn[1];
+        c->turn[1] = c->turn[0];
+        c->turn[0] = now;
+        c->turn_n = 0;
+        c->round++;
+        for (uint32_t i = 0; i < n; i++) {
+            const uint32_t node = now[i];
+            if (left > 3 && c->stamp[node] != c->round && is_ear(c, node)) {
+                last = c->walk.prev[node];
+                cut(c, node);
+                left--;
+            } else {
+                c->turn[1][c->turn_n++] = node;
+            }
         }
-        cut(c, node);
-        n--;
-        idle = 0;
-        /* One corner on, so that triangles do not fan out from one vertex. */
-        node = c->walk.next[c->walk.next[node]];
+        /* A round without an ear: memory has run out, and the predicates answer nothing. */
+        if (left == before) return;
         if (c->cell_end && c->live < c->listed / 2) build_grid(c, spare);
     }
     /* The last triangle has three sides that are all known. */
-    const uint32_t h = add_triangle(c, c->walk.next[node]);
-    link_side(c, h + 2, c->walk.next[c->walk.next[node]]);
+    const uint32_t b = c->walk.next[last], h = add_triangle(c, b);
+    link_side(c, h + 2, c->walk.next[b]);
 }
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }
@@ -254,12 +269,13 @@ static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_h
     }
     const size_t nodes = (size_t)n + 2 * (size_t)holes, halves = 3 * (nodes - 2);
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    uint32_t *block = sunder_i_arena_alloc(arena, 7 * nodes + 4 * halves + holes + 2, sizeof *block);
-    bool *blunt = sunder_i_arena_alloc(arena, nodes, sizeof *blunt);
-    if (!block || !blunt) return;
-    cutter c = {.r = r, .blunt = blunt};
-    uint32_t **const array[] = {&c.walk.vertex, &c.walk.next, &c.walk.prev, &c.walk.beyond, &c.list};
-    for (size_t k = 0; k < 5; k++, block += nodes) *array[k] = block;
+    uint32_t *block = sunder_i_arena_alloc(arena, 10 * nodes + 4 * halves + holes + 2, sizeof *block);
+    uint8_t *state = sunder_i_arena_alloc(arena, nodes, sizeof *state);
+    if (!block || !state) return;
+    cutter c = {.r = r, .state = state};
+    uint32_t **const array[] = {&c.walk.vertex, &c.walk.next, &c.walk.prev,  &c.walk.beyond,
+                                &c.list,        &c.stamp,     &c.turn[0],    &c.turn[1]};
+    for (size_t k = 0; k < 8; k++, block += nodes) *array[k] = block;
     uint32_t **const half[] = {&c.mesh.origin, &c.mesh.twin, &c.mesh.next, &c.mesh.prev};
     for (size_t k = 0; k < 4; k++, block += halves) *half[k] = block;
     c.bridge_half = block;
@@ -278,13 +294,17 @@ static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_h
         sunder_i_bridge_holes(r, ring_lo, ring_hi, &c.walk, arena);
     }
     for (uint32_t i = 0; i < c.walk.nodes; i++) {
-        c.blunt[i] = turn(&c, c.walk.prev[i], i, c.walk.next[i]) <= 0;
-        if (c.blunt[i]) c.list[c.listed++] = i;
+        c.state[i] = turn(&c, c.walk.prev[i], i, c.walk.next[i]) > 0 ? CONVEX : BLUNT;
+        c.stamp[i] = 0;
+        if (c.state[i] == BLUNT)
+            c.list[c.listed++] = i;
+        else
+            c.turn[1][c.turn_n++] = i;
     }
     c.live = c.listed;
     if (c.listed >= GRID_FROM) c.cell_end = block;
     if (!arena->failed && !r->lattice->arena.failed) {
-        cut_ears(&c, 0, c.walk.nodes, spare);
+        cut_ears(&c, spare);
         sunder_i_mesh_merge(r, &c.mesh);
         collect(&c.mesh, out);
     }

@@ -50,6 +50,29 @@ static void nasty_set(polyset *set, rng *g)
     }
 }
 
+/* Long walks along the eight directions of a small board: crossings on half-integers only, edges covered many times, dozens of
+ * passages through one place. Large enough for the grids and trees that small rings do without. */
+static void walk_set(polyset *set, rng *g)
+{
+    static const int step[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+    const int64_t span = rng_int(g, 4, 9), rings = rng_int(g, 1, 3);
+    for (int64_t r = 0; r < rings; r++) {
+        int64_t x = rng_int(g, 0, span), y = rng_int(g, 0, span);
+        for (int64_t n = rng_int(g, 20, 150); n > 0; n--) {
+            const int d = (int)rng_int(g, 0, 7);
+            const int64_t far = rng_int(g, 1, 3);
+            const int64_t nx = x + far * step[d][0], ny = y + far * step[d][1];
+            if (nx < 0 || ny < 0 || nx > span || ny > span) continue;
+            x = nx;
+            y = ny;
+            polyset_vertex(set, (double)x, (double)y);
+        }
+        polyset_vertex(set, (double)x, (double)y);
+        polyset_end_ring(set);
+    }
+    polyset_end_polygon(set);
+}
+
 /* Is the point (x, y) / DEN inside by the even-odd rule (1), outside (0), or on an edge (-1)? All numbers are small. */
 static int even_odd(const polyset *set, size_t ring_lo, size_t ring_hi, int64_t x, int64_t y)
 {
@@ -200,8 +223,23 @@ static void test_nasty_rings(void **state)
     assert_true(strict < n);
 }
 
+static void test_long_walks(void **state)
+{
+    (void)state;
+    const size_t n = test_count(CASES / 30);
+    size_t strict = 0;
+    for (uint64_t i = 0; i < n; i++) {
+        rng g = rng_start(test_seed(), i + 1000000);
+        polyset set;
+        polyset_init(&set);
+        walk_set(&set, &g);
+        check_case(&set, &g, i, &strict);
+        polyset_free(&set);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nasty_rings)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_nasty_rings), cmocka_unit_test(test_long_walks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
