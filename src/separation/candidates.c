@@ -72,14 +72,14 @@ static bool find_corners(sunder_i_pairing *g, int side, corners *c)
     return true;
 }
 
-/* A lower bound of the distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. */
-static inline double segment_key(double ax, double ay, double dx, double dy, double inverse, double error)
+/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The distance
+ * itself is good to 4 times the pairing's error. */
+static inline double segment_square(double ax, double ay, double dx, double dy, double inverse)
 {
     double t = -(ax * dx + ay * dy) * inverse;
-    t = t > 0 ? t < 1 ? t : 1 : 0;
-    if (!(t >= 0)) t = 0; /* a length lost in the doubles */
-    const double x = ax + t * dx, y = ay + t * dy, d = sqrt(x * x + y * y) - 4 * error;
-    return d > 0 ? d : 0;
+    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
+    const double x = ax + t * dx, y = ay + t * dy;
+    return x * x + y * y;
 }
 
 static bool push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate c)
@@ -112,15 +112,22 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], reach = limit + 8 * g->error;
+    uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
+    if (!met) return false;
     for (uint32_t e = 0; e < s->vertices; e++) {
         const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
         if (out_of_reach(a, b, g->box[!side], reach)) continue;
         const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
         const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
-        for (uint32_t k = 0; k < c->n; k++) {
-            if (c->in_x[k] * dy - c->in_y[k] * dx < bound || dx * c->out_y[k] - dy * c->out_x[k] < bound) continue;
-            const double key = segment_key(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse, g->error);
-            if (key <= limit && !push(g, h, (sunder_i_candidate){key, e, c->vertex[k], side})) return false;
+        uint32_t n = 0;
+        for (uint32_t k = 0; k < c->n; k++) { /* without branches: which corners pass is anyone's guess */
+            met[n] = k;
+            n += (uint32_t)((c->in_x[k] * dy - c->in_y[k] * dx >= bound) & (dx * c->out_y[k] - dy * c->out_x[k] >= bound));
+        }
+        for (uint32_t m = 0; m < n; m++) {
+            const uint32_t k = met[m];
+            const double square = segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
+            if (square <= reach * reach && !push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
         }
         g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n;
     }
@@ -133,8 +140,8 @@ static void sink(sunder_i_candidates *h, size_t i)
     for (;;) {
         size_t k = 2 * i + 1;
         if (k >= h->n) break;
-        if (k + 1 < h->n && h->item[k + 1].key < h->item[k].key) k++;
-        if (c.key <= h->item[k].key) break;
+        if (k + 1 < h->n && h->item[k + 1].square < h->item[k].square) k++;
+        if (c.square <= h->item[k].square) break;
         h->item[i] = h->item[k];
         i = k;
     }

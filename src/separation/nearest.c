@@ -137,7 +137,7 @@ sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_
     }
     sunder_i_candidates heap;
     if (!sunder_i_candidates_find(g, s.limit, &heap)) return sunder_i_no_memory(err);
-    while (heap.n && heap.item[0].key <= s.limit && !l->arena.failed) {
+    while (heap.n && sqrt(heap.item[0].square) - 4 * g->error <= s.limit && !l->arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
         const sunder_i_line line = sunder_i_candidate_line(g, &c);
         try_candidate(&s, &line);

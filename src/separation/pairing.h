@@ -19,6 +19,12 @@ typedef struct sunder_i_subsum {
     double *bound;                 /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
 } sunder_i_subsum;
 
+/* A convex piece that starts at its lowest corner; the first corner stands again at the end. */
+typedef struct sunder_i_ring {
+    uint32_t n; /* sides; 0: not made yet */
+    sunder_i_point *corner, *side;
+} sunder_i_ring;
+
 typedef struct sunder_i_pairing {
     const sunder_shape *shape[2];
     sunder_i_placed placed;
@@ -32,6 +38,7 @@ typedef struct sunder_i_pairing {
     double coarse;    /* the same for the difference of two coordinates in doubles; 0 if they are exact */
     double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */
 
+    sunder_i_ring *ring[2];  /* [pieces] */
     sunder_i_subsum *subsum; /* those within reach (sunder_i_pairing_reach); they that may cover the origin first */
     size_t subsums;
 } sunder_i_pairing;

@@ -12,41 +12,48 @@ static bool touches_disc(const double box[4], double radius)
     return x <= radius && y <= radius && (x + y <= radius || x * x + y * y <= radius * radius * (1 + 0x1p-50));
 }
 
+/* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
+static int nearness(const sunder_i_pairing *g, uint32_t i, uint32_t j, double reach, double box[4])
+{
+    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
+    for (int k = 0; k < 4; k++) box[k] = a[k] + b[k];
+    return touches_disc(box, 2 * g->error) ? 2 : touches_disc(box, reach) ? 1 : 0;
+}
+
 bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
 {
     const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
     const double reach = radius + 2 * g->error;
-    const double *pb = g->piece_box[0], *qb = g->piece_box[1];
-    size_t covering = 0, others = 0;
-    for (uint32_t i = 0; i < m; i++)
-        for (uint32_t j = 0; j < n; j++) {
-            const double *a = pb + 4 * (size_t)i, *b = qb + 4 * (size_t)j;
-            const double box[4] = {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
-            if (touches_disc(box, 2 * g->error))
-                covering++;
-            else if (touches_disc(box, reach))
-                others++;
-        }
-    g->subsums = covering + others;
-    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, g->subsums + 1, sizeof *g->subsum);
+    double box[4];
+    size_t room = (size_t)m * n, count[3] = {0, 0, 0};
+    if (room > 64) {
+        for (uint32_t i = 0; i < m; i++)
+            for (uint32_t j = 0; j < n; j++) count[nearness(g, i, j, reach, box)]++;
+        room = count[1] + count[2];
+    }
+    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, room + 1, sizeof *g->subsum);
     if (!g->subsum) return false;
-    sunder_i_subsum *near = g->subsum, *far = g->subsum + covering;
+    size_t near = 0, all = 0; /* those that may cover the origin come first */
     for (uint32_t i = 0; i < m; i++)
         for (uint32_t j = 0; j < n; j++) {
-            const double *a = pb + 4 * (size_t)i, *b = qb + 4 * (size_t)j;
-            const double box[4] = {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
-            const bool covers = touches_disc(box, 2 * g->error);
-            if (!covers && !touches_disc(box, reach)) continue;
-            sunder_i_subsum *s = covers ? near++ : far++;
+            const int how = nearness(g, i, j, reach, box);
+            if (how == 0) continue;
+            sunder_i_subsum *s = g->subsum + all++;
+            if (how == 2) {
+                *s = g->subsum[near];
+                s = g->subsum + near++;
+            }
             s->i = i;
             s->j = j;
             s->sides = 0;
             memcpy(s->box, box, sizeof box);
         }
+    g->subsums = all;
     return true;
 }
 
-/* The lowest corner of a piece (of those the leftmost), as an offset into its corners. */
+/* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
+
 static uint32_t lowest(sunder_i_pairing *g, int side, uint32_t first, uint32_t n)
 {
     const uint32_t *c = g->shape[side]->piece_vertex + first;
@@ -66,40 +73,41 @@ static uint32_t lowest(sunder_i_pairing *g, int side, uint32_t first, uint32_t n
     return best;
 }
 
-typedef struct ring {
-    const uint32_t *corner;
-    const sunder_i_point *at;
-    uint32_t n, start, done; /* `done` sides are used up */
-} ring;
-
-static ring open_ring(sunder_i_pairing *g, int side, uint32_t piece)
+/* The piece's corners and sides, one more corner than sides; NULL if memory is out. */
+static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece)
 {
+    sunder_i_ring *r = g->ring[side] + piece;
+    if (r->n) return r;
     const sunder_shape *s = g->shape[side];
     const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
-    return (ring){s->piece_vertex + first, g->at[side], n, lowest(g, side, first, n), 0};
+    sunder_i_point *block = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * (size_t)n + 1, sizeof *block);
+    if (!block) return NULL;
+    uint32_t k = lowest(g, side, first, n);
+    r->corner = block;
+    r->side = block + n + 1;
+    for (uint32_t i = 0; i <= n; i++) {
+        block[i] = g->at[side][s->piece_vertex[first + k]];
+        if (++k == n) k = 0;
+    }
+    for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_pairing_diff(g, block[i + 1], block[i]);
+    r->n = n;
+    return r;
 }
 
-static inline sunder_i_point ring_at(const ring *r, uint32_t ahead)
-{
-    uint32_t k = r->start + r->done + ahead;
-    while (k >= r->n) k -= r->n;
-    return r->at[r->corner[k]];
-}
+/* ---- The merge ---- */
 
-/* The merge. Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at
- * hand are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
-static uint32_t merge(sunder_i_pairing *g, ring *a, ring *b, sunder_i_point *corner, sunder_i_point *side)
+/* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand are
+ * never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
+static uint32_t merge(sunder_i_pairing *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
+                      sunder_i_point *side)
 {
-    uint32_t n = 0;
-    while (a->done < a->n || b->done < b->n) {
-        const sunder_i_point pa = ring_at(a, 0), pb = ring_at(b, 0);
-        const sunder_i_point u = sunder_i_pairing_diff(g, ring_at(a, 1), pa);
-        const sunder_i_point v = sunder_i_pairing_diff(g, ring_at(b, 1), pb);
-        const int turn = a->done == a->n ? -1 : b->done == b->n ? 1 : sunder_i_pairing_cross(g, u, v);
-        corner[n] = sunder_i_pairing_add(g, pa, pb);
-        side[n++] = turn > 0 ? u : turn < 0 ? v : sunder_i_pairing_add(g, u, v);
-        if (turn >= 0) a->done++;
-        if (turn <= 0) b->done++;
+    uint32_t n = 0, i = 0, j = 0;
+    while (i < a->n || j < b->n) {
+        corner[n] = sunder_i_pairing_add(g, a->corner[i], b->corner[j]);
+        const int turn = i == a->n ? -1 : j == b->n ? 1 : sunder_i_pairing_cross(g, a->side[i], b->side[j]);
+        side[n++] = turn > 0 ? a->side[i] : turn < 0 ? b->side[j] : sunder_i_pairing_add(g, a->side[i], b->side[j]);
+        i += turn >= 0;
+        j += turn <= 0;
     }
     return n;
 }
@@ -107,8 +115,9 @@ static uint32_t merge(sunder_i_pairing *g, ring *a, ring *b, sunder_i_point *cor
 bool sunder_i_subsum_make(sunder_i_pairing *g, sunder_i_subsum *s)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    ring a = open_ring(g, 0, s->i), b = open_ring(g, 1, s->j);
-    const size_t most = (size_t)a.n + b.n;
+    const sunder_i_ring *a = turned(g, 0, s->i), *b = turned(g, 1, s->j);
+    if (!a || !b) return false;
+    const size_t most = (size_t)a->n + b->n;
     sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *s->cx);
     if (!points) return false;
     s->corner = points;
@@ -118,13 +127,14 @@ bool sunder_i_subsum_make(sunder_i_pairing *g, sunder_i_subsum *s)
     s->sx = s->cy + most;
     s->sy = s->sx + most;
     s->bound = s->sy + most;
-    const uint32_t n = merge(g, &a, &b, s->corner, s->side);
+    const uint32_t n = merge(g, a, b, s->corner, s->side);
     const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
     for (uint32_t k = 0; k < n; k++) {
-        s->cx[k] = sunder_i_approx(l, s->corner[k].x);
-        s->cy[k] = sunder_i_approx(l, s->corner[k].y);
-        s->sx[k] = sunder_i_approx(l, s->side[k].x);
-        s->sy[k] = sunder_i_approx(l, s->side[k].y);
+        const sunder_i_point c = s->corner[k], d = s->side[k];
+        s->cx[k] = l->narrow ? (double)c.x : sunder_i_approx(l, c.x);
+        s->cy[k] = l->narrow ? (double)c.y : sunder_i_approx(l, c.y);
+        s->sx[k] = l->narrow ? (double)d.x : sunder_i_approx(l, d.x);
+        s->sy[k] = l->narrow ? (double)d.y : sunder_i_approx(l, d.y);
         s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
     }
     s->sides = n;
