@@ -25,6 +25,8 @@ static bool check(check_run *run, gis_error *error)
     how.progress = gis_progress_call;
     how.progress_user = &run->progress;
     sunder_status status = sunder_layer_check(run->input.layer, &how, &run->report, &why);
+    if (status == SUNDER_ECANCEL)
+        return gis_fail(error, "interrupted");
     if (status == SUNDER_EARG)
         return gis_fail_usage(error, "%s", why.message);
     if (status != SUNDER_OK)

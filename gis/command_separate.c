@@ -30,6 +30,8 @@ static bool solve(separate_run *run, gis_error *error)
     how.progress_user = &run->progress;
     double begin = gis_clock();
     sunder_status status = sunder_layer_separate(run->input.layer, &how, &run->report, &why);
+    if (status == SUNDER_ECANCEL)
+        return gis_fail(error, "interrupted");
     if (status == SUNDER_EARG)
         return gis_fail_usage(error, "%s", why.message);
     if (status != SUNDER_OK)

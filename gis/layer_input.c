@@ -4,6 +4,7 @@
 #include "layer_input.h"
 
 #include "message.h"
+#include "report.h"
 #include "sum_layers.h"
 
 #include <cpl_conv.h>
@@ -131,8 +132,11 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
         ok = append_translate(symbol, at + 2 * k, &all, who, error);
     CPLFree(at);
     sunder_error why;
-    if (ok && sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_EVEN_ODD, &input->shape[i],
-                                      &why) != SUNDER_OK)
+    /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
+    if (ok && sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_STRICT, &input->shape[i],
+                                      &why) != SUNDER_OK &&
+        sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_EVEN_ODD, &input->shape[i],
+                                &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_polygons_clear(&all);
     return ok;
@@ -144,14 +148,19 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     OGRFeatureH feature = gis_source_feature(input->source, i);
     char who[512];
     gis_feature_name(input, i, who, sizeof who);
-    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) {
+    /* Formats without nulls have empty texts instead: no symbol is written so, so they count as null. */
+    const char *text = field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
+    if (text[strspn(text, " ")] == '\0') {
         if (common)
             return place_symbol(input, i, common, who, error);
         return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
                         input->options->text[OPT_SYMBOL_FIELD]);
     }
     sunder_shape *own;
-    if (!gis_shape_from_text(OGR_F_GetFieldAsString(feature, field), who, &input->rule, gis_options_invalid(input->options),
+    if (!gis_shape_is_text(text))
+        return gis_fail(error, "%s: %s in %s is no symbol; expected WKT, disc:R[:N], inside-disc:R[:N], square:SIDE or "
+                        "rectangle:WxH", who, text, input->options->text[OPT_SYMBOL_FIELD]);
+    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options),
                              &own, error)) {
         error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
         return false;
@@ -167,9 +176,11 @@ static bool polygon_shapes(gis_layer_input *input, gis_error *error)
     bool ok = true;
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
+        if (gis_interrupted())
+            ok = gis_fail(error, "interrupted");
         input->null += content == GIS_NOTHING;
         input->other += content == GIS_POINTS || content == GIS_OTHER;
-        if (content == GIS_POLYGONS)
+        if (ok && content == GIS_POLYGONS)
             ok = polygon_shape(input, i, &rings, error);
     }
     gis_rings_clear(&rings);
@@ -197,9 +208,11 @@ static bool point_shapes(gis_layer_input *input, gis_error *error)
     }
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
+        if (gis_interrupted())
+            ok = gis_fail(error, "interrupted");
         input->null += content == GIS_NOTHING;
         input->other += content == GIS_POLYGONS || content == GIS_OTHER;
-        if (content == GIS_POINTS)
+        if (ok && content == GIS_POINTS)
             ok = point_shape(input, i, field, common, error);
     }
     sunder_shape_free(common);

@@ -1,6 +1,7 @@
 /* layer_output.c: the layers of separate but the conflicts. */
 #include "layer_output.h"
 
+#include "report.h"
 #include "wkt.h"
 
 #include <cpl_conv.h>
@@ -43,6 +44,8 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
         return false;
     for (size_t i = 0; i < input->n; i++) {
         double dx, dy;
+        if (gis_interrupted())
+            return gis_fail(error, "interrupted");
         sunder_report_move(report, i, &dx, &dy);
         const gis_value values[] = {
             {GIS_REAL, {.real = dx}},

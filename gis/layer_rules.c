@@ -176,7 +176,8 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
     const gis_options *options = input->options;
-    const char *contained = options->text[OPT_CONTAINED];
+    /* Symbols that lie on each other are what a layer of points is separated for; buildings that do belong together. */
+    const char *contained = input->points && !options->given[OPT_CONTAINED] ? "separate" : options->text[OPT_CONTAINED];
     sunder_layer_options core;
     sunder_layer_options_init(&core);
     core.gap = input->gap;

@@ -1,6 +1,7 @@
 /* main.c: which command, with which options. */
 #include "commands.h"
 #include "message.h"
+#include "report.h"
 #include "sunder.h"
 
 #include <cpl_conv.h>
@@ -63,6 +64,7 @@ static int run(const gis_command *command, int argc, char **argv)
     } else {
         configure(&options);
         GDALAllRegister();
+        gis_catch_signals();
         status = command->run(&options);
         GDALDestroy();
     }

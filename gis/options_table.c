@@ -23,7 +23,7 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_NO_BLOCKS] = {OPT_NO_BLOCKS, "--no-blocks", GIS_TYPE_FLAG, GIS_LAYERS, OWN, NULL, NULL,
         "nothing joins by touch or containment"},
     [OPT_CONTAINED] = {OPT_CONTAINED, "--contained", GIS_TYPE_CHOICE, GIS_LAYERS, OWN, "block|ignore|separate", "block",
-        "a feature in another one"},
+        "if one lies in another; points: separate"},
     [OPT_SYMBOL] = {OPT_SYMBOL, "--symbol", GIS_TYPE_TEXT, GIS_LAYERS, OWN, "SHAPE", NULL,
         "drawn at each point: WKT, disc:R[:N], square:S ..."},
     [OPT_SYMBOL_FIELD] = {OPT_SYMBOL_FIELD, "--symbol-field", GIS_TYPE_TEXT, GIS_LAYERS, OWN, "FIELD", NULL,

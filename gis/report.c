@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -99,6 +100,28 @@ bool gis_stdout_taken(const gis_options *options, const char *output, bool *take
     return true;
 }
 
+/* The one variable of the program that is not handed from function to function: a signal has no other way in. */
+static volatile sig_atomic_t interrupted;
+
+static void note_signal(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+void gis_catch_signals(void)
+{
+    struct sigaction action = {.sa_handler = note_signal, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+bool gis_interrupted(void)
+{
+    return interrupted != 0;
+}
+
 gis_progress gis_progress_of(const gis_options *options)
 {
     gis_progress progress = {GIS_PROGRESS_NONE, 0, 1, -1};
@@ -131,7 +154,7 @@ bool gis_progress_call(double fraction, void *user)
 {
     gis_progress *progress = user;
     if (progress->kind == GIS_PROGRESS_NONE)
-        return true;
+        return !gis_interrupted();
     double inside = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
     double whole = progress->from + inside * (progress->to - progress->from);
     if (progress->kind == GIS_PROGRESS_BAR) {
@@ -140,7 +163,7 @@ bool gis_progress_call(double fraction, void *user)
         progress->shown = (int)(whole * 100);
         fprintf(stderr, "%d\n", progress->shown);
     }
-    return true;
+    return !gis_interrupted();
 }
 
 void gis_progress_done(gis_progress *progress)

@@ -27,6 +27,11 @@ bool gis_any_conflict(const sunder_conflict_counts *counts);
  * once is wrong usage. */
 bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error);
 
+/* From here on SIGINT and SIGTERM do not end the process but make gis_interrupted() true (and the next one ends it), so that
+ * temporary files go. */
+void gis_catch_signals(void);
+bool gis_interrupted(void);
+
 /* Progress on stderr, as the options ask: none, a bar in GDAL's manner, or whole percents, a line each. */
 typedef struct gis_progress {
     enum { GIS_PROGRESS_NONE, GIS_PROGRESS_BAR, GIS_PROGRESS_PLAIN } kind;
@@ -37,7 +42,7 @@ typedef struct gis_progress {
 gis_progress gis_progress_of(const gis_options *options);
 /* The next stage covers [from, to] of the whole. */
 void gis_progress_stage(gis_progress *progress, double from, double to);
-/* A sunder_progress; user is a gis_progress. */
+/* A sunder_progress; user is a gis_progress. False when a signal asked to stop. */
 bool gis_progress_call(double fraction, void *user);
 void gis_progress_done(gis_progress *progress);
 

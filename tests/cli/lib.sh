@@ -1,0 +1,79 @@
+# shellcheck shell=bash
+# What the tests of the command share. A test sources this first; $work is a scratch directory that goes with the test,
+# and the test stands in it.
+#
+#   run ARGS           runs the program; its exit status is $status, what it says in `out` and `err`
+#   expect N ARGS      the same, and fails the test unless the status is N
+#   refused N WORDS ARGS  status N, one line on stderr that is an error and holds WORDS, nothing on stdout, no new file
+#   layer FILE NAME TYPE [CRS]  makes a layer from CSV on stdin whose column WKT is the geometry (CRS EPSG:25832; "none")
+set -u
+command -v ogr2ogr >/dev/null && command -v ogrinfo >/dev/null || { echo "skipped: gdal-bin is not installed"; exit 77; }
+work=$(mktemp -d)
+trap 'chmod -R u+rwx "$work"; rm -rf "$work"' EXIT
+cd "$work" || exit 1
+trouble=0
+
+fail() {
+    echo "FAILED: $*"
+    [ -s err ] && sed 's/^/  stderr: /' err | head -5
+    trouble=1
+}
+
+finish() { exit $trouble; }
+
+run() {
+    status=0
+    "$SUNDER" "$@" >out 2>err || status=$?
+}
+
+expect() {
+    local wanted=$1
+    shift
+    run "$@"
+    [ "$status" -eq "$wanted" ] || fail "exit status $status, not $wanted: sunder $*"
+    if grep -qE 'Sanitizer|runtime error' err; then fail "sanitizer: sunder $*"; fi
+}
+
+# What is there, and what is in it. Files that tests make for themselves are not looked at.
+listing() { find . -mindepth 1 ! -name out ! -name err ! -name before ! -name after | sort | while read -r f; do
+    echo "$f $([ -f "$f" ] && cksum <"$f")"
+done; }
+
+refused() {
+    local wanted=$1 words=$2
+    shift 2
+    listing >before
+    expect "$wanted" "$@"
+    listing >after
+    [ "$(wc -l <err)" -eq 1 ] || fail "$(wc -l <err) lines on stderr: sunder $*"
+    grep -q '^sunder: error: ..' err || fail "no error: sunder $*"
+    grep -qiF -- "$words" err || fail "the message does not say '$words': sunder $*"
+    [ ! -s out ] || fail "something on stdout: sunder $*"
+    cmp -s before after || fail "files changed: sunder $*"
+}
+
+# The words are in the file.
+says() { grep -qF -- "$2" "$1" || fail "$1 does not say '$2'"; }
+same() { [ "$1" = "$2" ] || fail "${3:-} '$1' is not '$2'"; }
+
+layer() {
+    cat >layer.csv
+    local crs=(-a_srs "${4:-EPSG:25832}")
+    [ "${4:-}" = none ] && crs=()
+    local mode=()
+    [ -e "$1" ] && mode=(-update)
+    ogr2ogr "${mode[@]}" "$1" layer.csv -nln "$2" -nlt "$3" "${crs[@]}" -oo GEOM_POSSIBLE_NAMES=WKT \
+        -oo KEEP_GEOM_COLUMNS=NO -oo AUTODETECT_TYPE=YES || fail "cannot make layer $2"
+    rm layer.csv
+}
+
+# The value of one field of one feature: value FILE LAYER FID FIELD
+value() { ogrinfo -q -ro "$1" "$2" -fid "$3" | sed -n "s/^  $4 (.*) = //p"; }
+geometry() { ogrinfo -q -ro "$1" "$2" -fid "$3" | grep -E '^  [A-Z]+ .*\('; }
+count() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^Feature Count: //p'; }
+# One value of a JSON text: json .result.area FILE
+if command -v jq >/dev/null; then
+    json() { jq -r "$1" "$2"; }
+else
+    json() { echo "skipped: jq is not installed"; exit 77; }
+fi

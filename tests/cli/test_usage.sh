@@ -1,0 +1,88 @@
+# shellcheck shell=bash disable=SC2016,SC1091
+# Version, help, and what is refused as wrong usage: one line, exit status 2, nothing done.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+expect 0 --version
+grep -qE '^sunder [0-9]+\.[0-9]+\.[0-9]+$' out || fail "--version says $(cat out)"
+expect 0 --help
+mv out commands
+for command in separate check sum pair; do
+    says commands "  $command "
+    expect 0 $command --help
+    [ ! -s err ] || fail "$command --help writes to stderr"
+    [ "$(wc -l <out)" -le 45 ] || fail "$command --help does not fit a screen: $(wc -l <out) lines"
+    [ "$(awk 'length > w { w = length } END { print w }' out)" -le 120 ] || fail "$command --help is too wide"
+    says out "Usage: sunder $command"
+done
+expect 0 separate --help
+for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '0 done, 1 failed, 2 wrong usage, 3 conflicts'; do
+    says out "$words"
+done
+rm commands
+# What comes later is neither there nor known.
+for option in --barrier --allow-jumps --effort --seed --max-shift-field --symbol-size-field --report --max-memory; do
+    if grep -qF -- "$option" out; then fail "$option is in --help"; fi
+    refused 2 "unknown option $option" separate a b $option 1
+done
+for option in --decomposition --order --planar-map; do refused 2 "unknown option" sum square:1 square:1 $option; done
+refused 2 'must be one of' sum square:1 square:1 --algorithm divide
+refused 2 'unknown command' buffer a b
+refused 2 'unknown command' route a b
+refused 2 'which command'
+refused 2 'unknown option' --nonsense
+
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+X
+refused 2 'needs INPUT OUTPUT' separate in.gpkg
+refused 2 'one operand too many' separate in.gpkg a.gpkg b.gpkg
+refused 2 'operand is empty' separate in.gpkg ''
+refused 2 'unknown option --gaap' separate in.gpkg o.gpkg --gaap 3
+refused 2 'needs a value' separate in.gpkg o.gpkg --gap
+refused 2 'takes no value' separate in.gpkg o.gpkg --quiet=yes
+refused 2 'given twice' separate in.gpkg o.gpkg --gap 1 --gap 2
+refused 2 'negative' separate in.gpkg o.gpkg --gap -3
+refused 2 'negative' separate in.gpkg o.gpkg --gap=-3m
+refused 2 'negative' separate in.gpkg o.gpkg --gap 3 --touch-tolerance -1
+refused 2 'negative' separate in.gpkg o.gpkg --max-shift -1
+for gap in nan inf infinity 1e999 0x10 3x '' 3furlong ,3 '3 m'; do refused 2 '--gap' separate in.gpkg o.gpkg --gap "$gap"; done
+refused 2 'touch-tolerance' separate in.gpkg o.gpkg --gap 3 --touch-tolerance inf
+refused 2 'less than the gap' separate in.gpkg o.gpkg --gap 3 --touch-tolerance 3
+for scale in 0 -1 1:0 nan a ''; do refused 2 '--scale' separate in.gpkg o.gpkg --scale "$scale" --gap 0.2mm; done
+refused 2 'must be one of 1|area|sqrt-area' separate in.gpkg o.gpkg --weight 0
+refused 2 'must be one of block|ignore|separate' check in.gpkg --contained maybe
+refused 2 'must be one of repair|skip|fail' check in.gpkg --invalid perhaps
+refused 2 'whole number' separate in.gpkg o.gpkg --threads -1
+refused 2 'whole number' separate in.gpkg o.gpkg --threads 1.5
+refused 2 'four finite numbers' check in.gpkg --bbox 1,2,3
+refused 2 'four finite numbers' check in.gpkg --bbox 1,2,3,nan
+refused 2 'four finite numbers' check in.gpkg -spat 1 2 3
+refused 2 'greater than its maximum' check in.gpkg --bbox 5,0,1,1
+refused 2 'none of main' separate in.gpkg o.gpkg --layers main,nonsense
+refused 2 'nothing of that applies' separate in.gpkg o.gpkg --layers symbols
+refused 2 'cannot be given together' check in.gpkg --sql 'SELECT * FROM houses' --input-layer houses
+refused 2 '--dialect needs --sql' check in.gpkg --dialect sqlite
+refused 2 'needs --update' separate in.gpkg o.gpkg --overwrite-layer
+refused 2 '--overwrite replaces' separate in.gpkg o.gpkg --overwrite --update
+refused 2 'share standard output' separate in.gpkg /vsistdout/ --of GeoJSON --stats -
+refused 2 'OUTPUT is given twice' check in.gpkg a.gpkg --output b.gpkg
+refused 2 'neither P nor Q is one' sum square:1 square:1 --where 'a = 1'
+refused 2 'expected K=V' check in.gpkg --config NAME
+refused 2 'is empty' check in.gpkg --where ''
+refused 1 'is a directory' separate in.gpkg o.gpkg --stats .
+refused 1 '--stats' separate in.gpkg o.gpkg --stats no/such/dir.json
+
+# Spellings of ogr2ogr, values joined by '=', options after operands, and -- before operands that look like options.
+expect 3 check -l houses -where 'id < 3' -spat 0 0 9 9 --config CPL_DEBUG OFF --config=GDAL_CACHEMAX=64 in.gpkg
+expect 0 check in.gpkg --where="id = 1"
+expect 0 separate -f GPKG -nln moved -lco SPATIAL_INDEX=NO -dsco VERSION=1.2 -q in.gpkg o.gpkg
+[ ! -s out ] || fail "--quiet prints a summary"
+same "$(count o.gpkg moved)" 2 features
+expect 0 separate -overwrite -nln moved in.gpkg o.gpkg
+expect 0 check --input-layer moved -- o.gpkg
+expect 3 check -sql 'SELECT * FROM houses' -dialect sqlite in.gpkg
+refused 2 'needs INPUT' check -- 
+refused 1 'no such file' check -- --gap
+finish
