@@ -100,8 +100,11 @@ static int compare_crossings(const void *a, const void *b)
     return mpq_cmp(((const crossing *)a)->y, ((const crossing *)b)->y);
 }
 
-/* Does the vertical line at x run through both interiors at once? By parity within each member. */
-static bool line_meets_both(const edge *e, size_t n, const mpq_t x)
+/* What a vertical line is asked: does it run through both interiors at once; through the first set outside the second? */
+typedef enum question { MEET, ESCAPE } question;
+
+/* By parity within each member. */
+static bool line_says(const edge *e, size_t n, const mpq_t x, question what)
 {
     crossing *c = malloc(n * sizeof *c);
     size_t m = 0;
@@ -123,14 +126,15 @@ static bool line_meets_both(const edge *e, size_t n, const mpq_t x)
             p |= in[0][k];
             q |= in[1][k];
         }
-        both |= p && q;
+        both |= p && (what == MEET ? q : !q);
     }
     for (size_t i = 0; i < m; i++) mpq_clear(c[i].y);
     free(c);
     return both;
 }
 
-static bool interiors_meet(const polyset *p, const polyset *q, const mpq_t *x, const mpq_t *y)
+/* Of P and Q + (x, y); NULLs for zero. */
+static bool ask_slabs(const polyset *p, const polyset *q, const mpq_t *x, const mpq_t *y, question what)
 {
     const size_t most = p->vertices + q->vertices;
     edge *e = malloc(most * sizeof *e);
@@ -154,7 +158,7 @@ static bool interiors_meet(const polyset *p, const polyset *q, const mpq_t *x, c
         if (mpq_equal(xs[i], xs[i + 1])) continue;
         mpq_add(middle, xs[i], xs[i + 1]);
         mpq_div(middle, middle, two);
-        meet = line_meets_both(e, n, middle);
+        meet = line_says(e, n, middle, what);
     }
     mpq_clears(middle, two, NULL);
     for (size_t i = 0; i < m; i++) mpq_clear(xs[i]);
@@ -162,6 +166,17 @@ static bool interiors_meet(const polyset *p, const polyset *q, const mpq_t *x, c
     free(xs);
     free(e);
     return meet;
+}
+
+static inline bool interiors_meet(const polyset *p, const polyset *q, const mpq_t *x, const mpq_t *y)
+{
+    return ask_slabs(p, q, x, y, MEET);
+}
+
+/* Is some interior point of P outside Q? */
+static inline bool escapes(const polyset *p, const polyset *q)
+{
+    return ask_slabs(p, q, NULL, NULL, ESCAPE);
 }
 
 /* Moves q over p, a few units off. */
