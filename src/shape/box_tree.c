@@ -7,48 +7,24 @@
  * are closed and their coordinates monotone images of the exact ones, so edges that meet are always candidates. */
 #include "shape/build.h"
 
-#include "number/sort.h"
-
 #include <math.h>
 
-/* Bits of the two 16-bit numbers in turn (Morton order). */
-static uint32_t interleave(uint32_t x, uint32_t y)
-{
-    uint32_t code = 0;
-    for (int i = 0; i < 16; i++) code |= (x >> i & 1) << (2 * i) | (y >> i & 1) << (2 * i + 1);
-    return code;
-}
-
-static uint32_t cell(double v, double low, double high)
-{
-    const double t = (v - low) / (high - low) * 65535;
-    return t >= 0 && t <= 65535 ? (uint32_t)t : 0;
-}
-
-/* Tails of the edges, rings in Morton order of their first vertices. */
+/* Tails of the edges, rings in the curve's order of their first vertices. */
 static void sort_rings(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
                        sunder_i_arena *arena)
 {
-    uint64_t *key = sunder_i_arena_alloc(arena, ring_hi - ring_lo, sizeof *key);
+    const uint32_t rings = ring_hi - ring_lo;
     tree->edge = sunder_i_arena_alloc(arena, tree->edges, sizeof *tree->edge);
-    if (!key || !tree->edge) return;
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (uint32_t i = tree->first; i < tree->first + tree->edges; i++)
-        for (int k = 0; k < 2; k++) {
-            low[k] = fmin(low[k], r->xy[2 * (size_t)i + (size_t)k]);
-            high[k] = fmax(high[k], r->xy[2 * (size_t)i + (size_t)k]);
-        }
-    for (uint32_t ring = ring_lo; ring < ring_hi; ring++) {
-        const double *at = r->xy + 2 * (size_t)(ring ? r->ring_end[ring - 1] : 0);
-        const uint32_t code = interleave(cell(at[0], low[0], high[0]), cell(at[1], low[1], high[1]));
-        key[ring - ring_lo] = (uint64_t)code << 32 | ring;
+    uint32_t *list = sunder_i_arena_alloc(arena, 2 * (size_t)rings, sizeof *list), *first = list + rings;
+    if (arena->failed) return;
+    for (uint32_t k = 0; k < rings; k++) {
+        list[k] = k;
+        first[k] = ring_lo + k ? r->ring_end[ring_lo + k - 1] : 0;
     }
-    if (!sunder_i_sort_keys(key, ring_hi - ring_lo)) arena->failed = true;
+    sunder_i_curve_sort(r->xy, first, list, rings, arena);
     uint32_t n = 0;
-    for (uint32_t k = 0; k < ring_hi - ring_lo; k++) {
-        const uint32_t ring = (uint32_t)key[k];
-        for (uint32_t e = ring ? r->ring_end[ring - 1] : 0; e < r->ring_end[ring]; e++) tree->edge[n++] = e;
-    }
+    for (uint32_t k = 0; k < rings; k++)
+        for (uint32_t e = first[list[k]]; e < r->ring_end[ring_lo + list[k]]; e++) tree->edge[n++] = e;
 }
 
 static uint32_t edge_at(const sunder_i_box_tree *tree, uint32_t i) { return tree->edge ? tree->edge[i] : tree->first + i; }

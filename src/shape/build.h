@@ -1,11 +1,12 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
  * clean.c      one raw ring -> its corners
+ * curve.c      order along a space-filling curve
  * box_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
  * contact.c    where rings cross (an error) or touch
  * nesting.c    orientation; holes inside outer rings, and not inside each other
  * repair.c     the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
- * pieces.c     ears cut off, holes bridged (bridge.c), triangles merged (merge.c)
+ * pieces.c     holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge.c)
  * finish.c     everything into one block of memory */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
@@ -89,7 +90,10 @@ typedef struct sunder_i_problem {
 uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
                              uint32_t hi, uint32_t *keep, sunder_i_problem *problem);
 
-/* ---- box_tree.c ---- */
+/* ---- curve.c, box_tree.c ---- */
+
+/* Sorts a list of n numbers along a space-filling curve; number i stands at vertex[i]. The arena says if memory is out. */
+void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *list, size_t n, sunder_i_arena *arena);
 
 /* A binary tree of boxes over edges in the order of the rings (rings that are many are first put in order along a
  * space-filling curve). Edges near each other along a ring are near each other in the plane, so nothing is sorted. */

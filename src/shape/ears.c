@@ -1,0 +1,265 @@
+/* Ears cut off a closed walk until nothing is left.
+ *
+ * What makes the ear test exact on rings that touch. Each vertex of the cleaned form stands for one sector of the
+ * interior; several may stand at one place, their sectors disjoint. A vertex touches the inside of an edge only if it is
+ * an end of it. Then a corner b between a and c is an ear exactly when a, b, c turn left and no corner that is not
+ * strictly convex lies in the open triangle or inside the side ca:
+ *   - a boundary edge that reaches into the open triangle has an end there, since it cannot cross ab or bc, and of the
+ *     corners in the triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex;
+ *   - other corners at the places of a, b, c have sectors of their own, so an edge of theirs that enters the triangle is of
+ *     that kind, and the corners themselves need no look;
+ *   - a corner inside ca would touch the new edge from inside, so it forbids the cut; if its sector does not face the
+ *     triangle, the triangle is not interior there and another corner forbids it;
+ *   - corners on ab or bc touch from outside and do not matter.
+ * Cutting keeps all this true of what remains, and a polygon with more than three corners has an ear [Mei75]. Corners may
+ * become straight; they are no ears, but block others, until they become convex.
+ *
+ * Convex corners take turns in rounds; in one round no two neighbours are cut, so that triangles do not fan out from one
+ * vertex. Corners that are not convex cost nothing until they become so, and never come back. While they last they stand in a
+ * list, or for many in a tree of boxes, built anew whenever half of them have gone; a triangle is
+ * compared with boxes by its own box and by the lines of its sides, so that long thin triangles find their few candidates too. */
+#include "shape/ears.h"
+
+#include <float.h>
+#include <math.h>
+
+/* A list up to here, a tree from here on; by measurement on random and coast-like rings. */
+#define TREE_FROM 24
+#define LEAF 4
+
+enum { CONVEX, BLUNT, CUT };
+
+typedef struct cutter {
+    const sunder_i_rings *r;
+    sunder_i_walk *walk;
+    sunder_i_mesh *mesh;
+    uint32_t *bridge_half;   /* [bridges] the half-edge that met the bridge first, or NONE */
+    uint8_t *state;          /* [nodes] CONVEX, BLUNT or CUT */
+    uint32_t *stamp;         /* [nodes] the round in which a neighbour was cut */
+    uint32_t *turn[2];       /* convex nodes of this round and of the next */
+    uint32_t turn_n, round;
+    uint32_t *list;          /* the nodes that are or were blunt, in order */
+    uint32_t listed, live;   /* in the list; of these still blunt */
+    uint32_t leaves;         /* of the tree, a power of two; 0: no tree */
+    double (*box)[4];        /* heap order, 1 .. 2 * leaves - 1 */
+} cutter;
+
+static const double *place(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }
+
+static int turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
+{
+    return sunder_i_rings_orient(c->r, c->walk->vertex[a], c->walk->vertex[b], c->walk->vertex[d]);
+}
+
+/* Drops the nodes that are no longer blunt and puts the rest into a tree, LEAF to a leaf. */
+static void build_tree(cutter *c)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < c->listed; i++)
+        if (c->state[c->list[i]] == BLUNT) c->list[n++] = c->list[i];
+    c->live = c->listed = n;
+    for (c->leaves = 1; c->leaves * LEAF < n;) c->leaves *= 2;
+    for (uint32_t b = 0; b < c->leaves; b++) {
+        double *box = c->box[c->leaves + b];
+        box[0] = box[1] = INFINITY;
+        box[2] = box[3] = -INFINITY;
+        for (uint32_t i = b * LEAF; i < n && i < (b + 1) * LEAF; i++) {
+            const double *p = place(c, c->list[i]);
+            for (int k = 0; k < 2; k++) {
+                box[k] = fmin(box[k], p[k]);
+                box[k + 2] = fmax(box[k + 2], p[k]);
+            }
+        }
+    }
+    for (uint32_t b = c->leaves - 1; b > 0; b--)
+        for (int k = 0; k < 2; k++) {
+            c->box[b][k] = fmin(c->box[2 * b][k], c->box[2 * b + 1][k]);
+            c->box[b][k + 2] = fmax(c->box[2 * b][k + 2], c->box[2 * b + 1][k + 2]);
+        }
+}
+
+typedef struct triangle {
+    uint32_t a, b, c;
+    const double *corner[3];
+    double box[4];
+} triangle;
+
+/* Does this blunt node forbid the cut? */
+static bool blocks(const cutter *c, const triangle *t, uint32_t node)
+{
+    if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
+    const double *p = place(c, node);
+    if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
+    if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
+    return turn(c, t->c, t->a, node) >= 0;
+}
+
+/* Is a box certainly on the right of the line p -> q? Its corner that is farthest to the left decides. The determinant of doubles is
+ * wrong by at most (3 + 16 e) e of its two products, e = 2^-53 [She96]; DBL_MIN stands in for what underflows. */
+static bool right_of(const double box[4], const double *p, const double *q)
+{
+    const double dx = q[0] - p[0], dy = q[1] - p[1];
+    const double l = dx * ((dx > 0 ? box[3] : box[1]) - p[1]), r = dy * ((dy > 0 ? box[0] : box[2]) - p[0]);
+    return l - r < -(0x1p-50 * (fabs(l) + fabs(r)) + DBL_MIN);
+}
+
+static bool misses(const cutter *c, const triangle *t, const double box[4])
+{
+    if (box[0] > t->box[2] || box[2] < t->box[0] || box[1] > t->box[3] || box[3] < t->box[1]) return true;
+    if (c->r->rounded) return false; /* the lines of rounded corners prove nothing */
+    for (int k = 0; k < 3; k++)
+        if (right_of(box, t->corner[k], t->corner[(k + 1) % 3])) return true;
+    return false;
+}
+
+static bool is_free(const cutter *c, const triangle *t)
+{
+    uint32_t stack[64];
+    int n = 0;
+    stack[n++] = 1;
+    while (n) {
+        const uint32_t b = stack[--n];
+        if (misses(c, t, c->box[b])) continue;
+        if (b < c->leaves) {
+            stack[n++] = 2 * b;
+            stack[n++] = 2 * b + 1;
+            continue;
+        }
+        const uint32_t lo = (b - c->leaves) * LEAF;
+        for (uint32_t i = lo; i < c->listed && i < lo + LEAF; i++)
+            if (blocks(c, t, c->list[i])) return false;
+    }
+    return true;
+}
+
+static bool is_ear(const cutter *c, uint32_t b)
+{
+    triangle t = {c->walk->prev[b], b, c->walk->next[b], {NULL}, {0}};
+    const double *p = t.corner[0] = place(c, t.a), *q = t.corner[1] = place(c, t.b), *s = t.corner[2] = place(c, t.c);
+    for (int k = 0; k < 2; k++) {
+        t.box[k] = fmin(fmin(p[k], q[k]), s[k]);
+        t.box[k + 2] = fmax(fmax(p[k], q[k]), s[k]);
+    }
+    if (c->leaves) return is_free(c, &t);
+    for (uint32_t i = 0; i < c->listed; i++)
+        if (blocks(c, &t, c->list[i])) return false;
+    return true;
+}
+
+/* Joins side h of a new triangle to what lies beyond the edge that starts at this node. */
+static void link_side(cutter *c, uint32_t h, uint32_t node)
+{
+    uint32_t beyond = c->walk->beyond[node];
+    c->mesh->twin[h] = SUNDER_I_NONE;
+    if (beyond == SUNDER_I_NONE) return;
+    if (beyond & SUNDER_I_BRIDGE) {
+        uint32_t *met = &c->bridge_half[beyond & ~SUNDER_I_BRIDGE];
+        if (*met == SUNDER_I_NONE) {
+            *met = h;
+            return;
+        }
+        beyond = *met;
+    }
+    c->mesh->twin[h] = beyond;
+    c->mesh->twin[beyond] = h;
+}
+
+/* The triangle prev(b), b, next(b) into the mesh; returns its first half-edge. */
+static uint32_t add_triangle(cutter *c, uint32_t b)
+{
+    const uint32_t a = c->walk->prev[b], d = c->walk->next[b], h = c->mesh->halves;
+    const uint32_t corner[3] = {a, b, d};
+    for (uint32_t k = 0; k < 3; k++) {
+        c->mesh->origin[h + k] = c->walk->vertex[corner[k]];
+        c->mesh->next[h + k] = h + (k + 1) % 3;
+        c->mesh->prev[h + k] = h + (k + 2) % 3;
+    }
+    c->mesh->halves += 3;
+    link_side(c, h, a);
+    link_side(c, h + 1, b);
+    return h;
+}
+
+/* A neighbour of a cut corner: it may have become convex, and is left alone for the rest of the round. */
+static void refresh(cutter *c, uint32_t node)
+{
+    c->stamp[node] = c->round;
+    if (c->state[node] != BLUNT || turn(c, c->walk->prev[node], node, c->walk->next[node]) <= 0) return;
+    c->state[node] = CONVEX;
+    c->live--;
+    c->turn[1][c->turn_n++] = node;
+}
+
+static void cut(cutter *c, uint32_t b)
+{
+    const uint32_t a = c->walk->prev[b], d = c->walk->next[b], h = add_triangle(c, b);
+    c->walk->beyond[a] = h + 2;
+    c->mesh->twin[h + 2] = SUNDER_I_NONE;
+    c->walk->next[a] = d;
+    c->walk->prev[d] = a;
+    c->state[b] = CUT;
+    refresh(c, a);
+    refresh(c, d);
+}
+
+static void cut_all(cutter *c)
+{
+    uint32_t left = c->walk->nodes, last = 0;
+    if (c->leaves) build_tree(c);
+    while (left > 3) {
+        const uint32_t n = c->turn_n, before = left;
+        uint32_t *const now = c->turn[1];
+        c->turn[1] = c->turn[0];
+        c->turn[0] = now;
+        c->turn_n = 0;
+        c->round++;
+        for (uint32_t i = 0; i < n; i++) {
+            const uint32_t node = now[i];
+            if (left > 3 && c->stamp[node] != c->round && is_ear(c, node)) {
+                last = c->walk->prev[node];
+                cut(c, node);
+                left--;
+            } else {
+                c->turn[1][c->turn_n++] = node;
+            }
+        }
+        /* A round without an ear: memory has run out, and the predicates answer nothing. */
+        if (left == before) return;
+        if (c->leaves && c->live < c->listed / 2) build_tree(c);
+    }
+    /* The last triangle has three sides that are all known. */
+    const uint32_t b = c->walk->next[last], h = add_triangle(c, b);
+    link_side(c, h + 2, c->walk->next[b]);
+}
+
+void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *bridge_half, uint32_t bridges,
+                       sunder_i_mesh *mesh, sunder_i_arena *arena)
+{
+    const size_t n = walk->nodes;
+    cutter c = {.r = r, .walk = walk, .mesh = mesh, .bridge_half = bridge_half};
+    uint32_t *block = sunder_i_arena_alloc(arena, 4 * n, sizeof *block);
+    c.state = sunder_i_arena_alloc(arena, n, sizeof *c.state);
+    if (arena->failed) return;
+    c.list = block;
+    c.stamp = block + n;
+    c.turn[0] = block + 2 * n;
+    c.turn[1] = block + 3 * n;
+    for (uint32_t i = 0; i < n; i++) {
+        c.state[i] = turn(&c, walk->prev[i], i, walk->next[i]) > 0 ? CONVEX : BLUNT;
+        c.stamp[i] = 0;
+        if (c.state[i] == BLUNT)
+            c.list[c.listed++] = i;
+        else
+            c.turn[1][c.turn_n++] = i;
+    }
+    c.live = c.listed;
+    if (c.listed >= TREE_FROM) {
+        for (c.leaves = 1; c.leaves * LEAF < c.listed;) c.leaves *= 2;
+        c.box = sunder_i_arena_alloc(arena, 2 * (size_t)c.leaves, sizeof *c.box);
+        if (!c.box) return;
+        /* One ring runs through the plane in good order by itself; many holes come in any order. */
+        if (bridges > 8) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
+        if (arena->failed) return;
+    }
+    cut_all(&c);
+}
