@@ -94,7 +94,8 @@ static link nearest_edges(sunder_i_pairing *g)
 /* A coordinate in the caller's units again. */
 static vector outside(sunder_i_pairing *g, vector v)
 {
-    return (vector){v.x * g->unit + g->placed.origin_p[0], v.y * g->unit + g->placed.origin_p[1]};
+    return (vector){v.x * g->unit + g->placed.origin_p[0] + g->base[0],
+                    v.y * g->unit + g->placed.origin_p[1] + g->base[1]};
 }
 
 static vector link_point(sunder_i_pairing *g, int side, uint32_t edge, double t)

@@ -138,9 +138,32 @@ static bool place_plain(sunder_i_pairing *g, bool reflect, const plain *u)
     return true;
 }
 
-static sunder_status place(sunder_i_pairing *g, const sunder_i_pairing_options *o, sunder_error *err)
+/* Only the difference of the translations matters. Where it is a double it is given to Q alone, which keeps the numbers
+ * short; that the subtraction is exact is seen from its rounding error (Knuth's two-sum). */
+static const double *reduced(const double *tp, const double *tq, double difference[2])
+{
+    if (!tp) return NULL;
+    for (int k = 0; k < 2; k++) {
+        const double a = tq ? tq[k] : 0, b = -tp[k], s = a + b, bb = s - a;
+        if (!isfinite(s) || (a - (s - bb)) + (b - bb) != 0) return NULL;
+        difference[k] = s;
+    }
+    return difference;
+}
+
+static sunder_status place(sunder_i_pairing *g, const sunder_i_pairing_options *given, sunder_error *err)
 {
     plain u;
+    double difference[2];
+    sunder_i_pairing_options reduced_options = *given;
+    const sunder_i_pairing_options *o = given;
+    if (reduced(given->tp, given->tq, difference)) {
+        g->base[0] = given->tp[0];
+        g->base[1] = given->tp[1];
+        reduced_options.tp = NULL;
+        reduced_options.tq = difference;
+        o = &reduced_options;
+    }
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
     if (plain_unit(p, q, o, &u)) {
         if (place_plain(g, o->reflect_q, &u)) return SUNDER_OK;

@@ -36,6 +36,7 @@ typedef struct sunder_i_pairing {
     double error;     /* of a coordinate of a sum, or of a point on a line through sums, evaluated in doubles */
     double rough;     /* absolute error of a difference vector as doubles, besides its relative one; 0 if narrow */
     double coarse;    /* the same for the difference of two coordinates in doubles; 0 if they are exact */
+    double base[2];   /* a translation of both that was left out */
     double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */
 
     sunder_i_ring *ring[2];  /* [pieces] */
