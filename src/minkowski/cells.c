@@ -34,7 +34,8 @@ typedef struct cell {
     box b;
     size_t entry_from, entry_to, side_from, side_to;
     uint32_t stubborn;
-    int axis; /* to split across */
+    int axis;     /* to split across */
+    double share; /* of the whole work, taking each half as half of its parent's */
 } cell;
 
 typedef struct builder {
@@ -44,7 +45,7 @@ typedef struct builder {
     sunder_i_cell_pairs *out;
     approx_side *side;
     box *reach;       /* [subsums] bounding boxes, widened by the error */
-    double error;     /* bound on the distance error of a start point, see side_error() */
+    double error;     /* bound on the distance error of a start point, see filter_subsum() */
     entry *entries;   /* lists of all cells on the stack, one after the other */
     size_t entries_n, entries_capacity;
     uint32_t *sides;
@@ -53,7 +54,8 @@ typedef struct builder {
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
     uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
-    uint32_t cells;
+    uint32_t cells;   /* stamps given out */
+    double done;      /* share of the work, for progress */
     bool no_memory;
 } builder;
 
@@ -125,19 +127,6 @@ static bool approximate(builder *b, box *all)
     return !l->arena.failed;
 }
 
-typedef enum where { HOLDS, CROSSES, MISSES } where;
-
-/* The half-plane left of a side against a box. */
-static where side_against(const builder *b, const approx_side *s, double cx, double cy, double hx, double hy)
-{
-    const double cross = s->dx * (cy - s->ay) - s->dy * (cx - s->ax);
-    const double adx = fabs(s->dx), ady = fabs(s->dy);
-    const double reach = hx * ady + hy * adx, error = b->error * (adx + ady) + 0x1p-900;
-    if (cross - reach > error) return HOLDS;
-    if (cross + reach < -error) return MISSES;
-    return CROSSES;
-}
-
 /* The part of a box that the segment's own box covers; false if there is none. */
 static bool clip(const builder *b, const approx_side *s, const box *c, box *part)
 {
@@ -174,52 +163,32 @@ static void close_cell(builder *b, const cell *parent, const box *c, uint32_t on
     }
 }
 
-/* Appends to the side list those sides of one subsum that pass through the box; MISSES if the subsum does. */
-static where filter_subsum(builder *b, const uint32_t *side, uint32_t n, const box *c)
-{
-    const double cx = c->low[0] / 2 + c->high[0] / 2, cy = c->low[1] / 2 + c->high[1] / 2;
-    const double hx = c->high[0] / 2 - c->low[0] / 2, hy = c->high[1] / 2 - c->low[1] / 2;
-    const size_t start = b->sides_n;
-    for (uint32_t i = 0; i < n; i++) {
-        const where w = side_against(b, &b->side[side[i]], cx, cy, hx, hy);
-        if (w == HOLDS) continue;
-        if (w == MISSES) {
-            b->sides_n = start;
-            return MISSES;
-        }
-        b->sides[b->sides_n++] = side[i];
-    }
-    return b->sides_n == start ? HOLDS : CROSSES;
-}
-
-static bool reserve_child(builder *b, const cell *parent)
-{
-    const size_t e = parent->entry_to - parent->entry_from, s = parent->side_to - parent->side_from;
-    if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + e, sizeof *b->entries) &&
-        sunder_i_reserve(&b->sides, &b->sides_capacity, b->sides_n + s, sizeof *b->sides) &&
-        sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 1, sizeof *b->stack))
-        return true;
-    b->no_memory = true;
-    return false;
-}
-
-/* All pairs of a leaf. */
+/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. */
 static void open_leaf(builder *b, const cell *c)
 {
     box part;
-    b->cells++;
+    const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
     for (size_t i = c->side_from; i < c->side_to; i++) {
         const uint32_t k = b->sides[i], line = b->lines->of[k];
         if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[k], &c->b, &part)) continue;
         b->out->live[k] = b->out->live_line[line] = true;
-        if (b->stamp[line] == b->cells) continue;
-        b->stamp[line] = b->cells;
-        for (size_t e = c->entry_from; e < c->entry_to; e++)
-            if (!push_pair(b, line, b->entries[e].subsum)) return;
+        b->stamp[line] = b->stamp[line] == once || b->stamp[line] == again ? again : once;
+    }
+    const uint32_t pushed = ++b->cells;
+    for (size_t i = c->side_from; i < c->side_to; i++) {
+        const uint32_t k = b->sides[i], line = b->lines->of[k];
+        if (line == SUNDER_I_NO_LINE || b->stamp[line] == pushed || !clip(b, &b->side[k], &c->b, &part)) continue;
+        const bool alone = b->stamp[line] == once;
+        b->stamp[line] = pushed;
+        for (size_t e = c->entry_from; e < c->entry_to; e++) {
+            const uint32_t subsum = b->entries[e].subsum;
+            if (alone && apart(&b->reach[subsum], &part)) continue;
+            if (!push_pair(b, line, subsum)) return;
+        }
     }
 }
 
-/* Do two half-planes cover the box? f and g are the cross products of side_against(), positive inside; if f + r g > 0 all over the box
+/* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g > 0 all over the box
  * for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the sides run against each other is tried. */
 static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
 {
@@ -258,91 +227,174 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
 
 /* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same set, with the
  * same candidate along its border. */
-static bool known_half_plane(builder *b, uint32_t side)
+static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
 {
     const uint32_t line = b->lines->of[side];
     if (line == SUNDER_I_NO_LINE) return false;
     uint32_t *seen = &b->single[2 * (size_t)line + (b->subsums->rank[side] >= b->subsums->classes)];
-    if (*seen == b->cells) return true;
-    *seen = b->cells;
+    if (*seen == stamp) return true;
+    *seen = stamp;
     return false;
 }
 
-/* Distributes a parent's lists to one box; pushes a cell to split further, or settles it. */
-static void make_child(builder *b, const cell *parent, const box *where_to)
+/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many lines they
+ * are on. */
+static size_t shrink(builder *b, cell *c, const box *whole)
 {
-    if (!reserve_child(b, parent)) return;
-    cell c = {*where_to, b->entries_n, b->entries_n, b->sides_n, b->sides_n, 0, 0};
-    b->cells++;
-    size_t from = parent->side_from;
-    for (size_t e = parent->entry_from; e < parent->entry_to; e++) {
-        const entry source = b->entries[e];
-        const size_t start = b->sides_n;
-        const bool far = apart(&b->reach[source.subsum], where_to);
-        const where w = far ? MISSES : filter_subsum(b, b->sides + from, source.sides, where_to);
-        from += source.sides;
-        if (w == HOLDS) {
-            b->entries_n = c.entry_from;
-            b->sides_n = c.side_from;
-            close_cell(b, parent, where_to, source.subsum, source.subsum);
-            return;
-        }
-        if (w == MISSES) continue;
-        const uint32_t sides = (uint32_t)(b->sides_n - start);
-        if (sides == 1 && known_half_plane(b, b->sides[start]))
-            b->sides_n = start;
-        else
-            b->entries[b->entries_n++] = (entry){source.subsum, sides};
-    }
-    c.entry_to = b->entries_n;
-    c.side_to = b->sides_n;
-    uint32_t two[2];
-    if (find_two(b, &c, where_to, two)) {
-        b->entries_n = c.entry_from;
-        b->sides_n = c.side_from;
-        close_cell(b, parent, where_to, two[0], two[1]);
-        return;
-    }
-    /* The cell shrinks to what its candidates need. */
     size_t lines = 0;
     double span[2] = {0, 0}; /* of all candidates together, along each axis */
     box need = nothing, part;
     b->cells++;
-    for (size_t i = c.side_from; i < c.side_to; i++) {
+    for (size_t i = c->side_from; i < c->side_to; i++) {
         const uint32_t line = b->lines->of[b->sides[i]];
-        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[b->sides[i]], where_to, &part)) continue;
+        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[b->sides[i]], whole, &part)) continue;
         grow(&need, &part);
         span[0] += part.high[0] - part.low[0];
         span[1] += part.high[1] - part.low[1];
         lines += b->stamp[line] != b->cells;
         b->stamp[line] = b->cells;
     }
-    c.b = need;
-    /* Split across the axis along which candidates are short beside the cell: fewer of them fall into both halves. */
-    c.axis = span[0] * (need.high[1] - need.low[1]) > span[1] * (need.high[0] - need.low[0]);
-    const size_t entries = c.entry_to - c.entry_from;
-    const size_t sides = c.side_to - c.side_from, before = parent->side_to - parent->side_from;
-    c.stubborn = 10 * sides < 9 * before ? 0 : parent->stubborn + 1;
+    c->b = need;
+    /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. */
+    c->axis = span[0] * (need.high[1] - need.low[1]) > span[1] * (need.high[0] - need.low[0]);
+    return lines;
+}
+
+/* One half of a cell while its lists are made. */
+typedef struct half {
+    box b;
+    double cx, cy;     /* centre */
+    entry *entries;
+    uint32_t *sides;
+    size_t entries_n, sides_n;
+    bool held;
+    uint32_t holder;   /* the subsum that holds it */
+    uint32_t stamp;    /* of known_half_plane() */
+} half;
+
+/* Takes note of what one subsum is in one half: its sides that pass are behind the half's list, `sides` of them. */
+static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t sides)
+{
+    if (sides == 0) {
+        h->held = true;
+        h->holder = subsum;
+    } else if (sides > 1 || !known_half_plane(b, h->sides[h->sides_n], h->stamp)) {
+        h->entries[h->entries_n++] = (entry){subsum, sides};
+        h->sides_n += sides;
+    }
+}
+
+/* One subsum against one half, from its side i on; n of the sides before that pass. */
+static void filter_one(builder *b, half *h, const uint32_t *side, const entry *source, uint32_t i, uint32_t n, double hx,
+                       double hy)
+{
+    if (h->held) return;
+    uint32_t *out = h->sides + h->sides_n;
+    for (; i < source->sides; i++) {
+        const approx_side *s = &b->side[side[i]];
+        const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
+        if (c + reach < -error) return; /* all of the half is beyond this side */
+        out[n] = side[i];
+        n += !(c - reach > error); /* else all of it is on the inner side, and the side need not be kept */
+    }
+    settle_entry(b, h, source->subsum, n);
+}
+
+/* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each half. */
+static void filter_subsum(builder *b, half h[2], const uint32_t *side, const entry *source, double hx, double hy)
+{
+    uint32_t *out0 = h[0].sides + h[0].sides_n, *out1 = h[1].sides + h[1].sides_n;
+    uint32_t i = 0, n0 = 0, n1 = 0;
+    bool miss0 = h[0].held || apart(&b->reach[source->subsum], &h[0].b);
+    bool miss1 = h[1].held || apart(&b->reach[source->subsum], &h[1].b);
+    for (; i < source->sides && !miss0 && !miss1; i++) {
+        const approx_side *s = &b->side[side[i]];
+        const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double c0 = s->dx * (h[0].cy - s->ay) - s->dy * (h[0].cx - s->ax);
+        const double c1 = s->dx * (h[1].cy - s->ay) - s->dy * (h[1].cx - s->ax);
+        out0[n0] = out1[n1] = side[i];
+        n0 += !(c0 - reach > error);
+        n1 += !(c1 - reach > error);
+        miss0 = c0 + reach < -error;
+        miss1 = c1 + reach < -error;
+    }
+    if (!miss0) filter_one(b, &h[0], side, source, i, n0, hx, hy);
+    if (!miss1) filter_one(b, &h[1], side, source, i, n1, hx, hy);
+}
+
+/* What is left of a half when its lists are made: a cell to split further, or settled. */
+static void settle_half(builder *b, const cell *parent, const half *h)
+{
+    if (h->held) {
+        close_cell(b, parent, &h->b, h->holder, h->holder);
+        b->done += parent->share / 2;
+        return;
+    }
+    cell c = {h->b, b->entries_n, b->entries_n + h->entries_n, b->sides_n, b->sides_n + h->sides_n, 0, 0,
+              parent->share / 2};
+    memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
+    memmove(b->sides + c.side_from, h->sides, h->sides_n * sizeof *h->sides);
+    uint32_t two[2];
+    if (find_two(b, &c, &h->b, two)) {
+        close_cell(b, parent, &h->b, two[0], two[1]);
+        b->done += c.share;
+        return;
+    }
+    const size_t lines = shrink(b, &c, &h->b);
+    c.stubborn = 10 * h->sides_n < 9 * (parent->side_to - parent->side_from) ? 0 : parent->stubborn + 1;
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
-    const bool leaf = entries <= LEAF_SUBSUMS || lines * (entries - 1) <= LEAF_PAIRS || c.stubborn >= patience;
+    const bool leaf =
+        h->entries_n <= LEAF_SUBSUMS || lines * (h->entries_n - 1) <= LEAF_PAIRS || c.stubborn >= patience;
     if (lines > 0 && !leaf) {
+        b->entries_n = c.entry_to;
+        b->sides_n = c.side_to;
         b->stack[b->stack_n++] = c;
         return;
     }
     if (lines > 0) open_leaf(b, &c);
-    b->entries_n = c.entry_from;
-    b->sides_n = c.side_from;
+    b->done += c.share;
+}
+
+/* Room on the stack for both halves and, above them, for the lists in the making; one more side is written than kept. */
+static bool reserve_halves(builder *b, const cell *c)
+{
+    const size_t e = c->entry_to - c->entry_from, s = c->side_to - c->side_from + 1;
+    if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 4 * e, sizeof *b->entries) &&
+        sunder_i_reserve(&b->sides, &b->sides_capacity, b->sides_n + 4 * s, sizeof *b->sides) &&
+        sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 2, sizeof *b->stack))
+        return true;
+    b->no_memory = true;
+    return false;
 }
 
 static void split(builder *b, const cell *c)
 {
-    const double middle = c->b.low[c->axis] / 2 + c->b.high[c->axis] / 2;
-    box half = c->b;
-    half.high[c->axis] = middle;
-    make_child(b, c, &half);
-    half = c->b;
-    half.low[c->axis] = middle;
-    if (!b->no_memory) make_child(b, c, &half);
+    if (!reserve_halves(b, c)) return;
+    const size_t e = c->entry_to - c->entry_from, s = c->side_to - c->side_from + 1;
+    half h[2];
+    memset(h, 0, sizeof h);
+    h[0].b = h[1].b = c->b;
+    h[0].b.high[c->axis] = h[1].b.low[c->axis] = c->b.low[c->axis] / 2 + c->b.high[c->axis] / 2;
+    for (int k = 0; k < 2; k++) {
+        h[k].cx = h[k].b.low[0] / 2 + h[k].b.high[0] / 2;
+        h[k].cy = h[k].b.low[1] / 2 + h[k].b.high[1] / 2;
+        h[k].entries = b->entries + b->entries_n + (2 + (size_t)k) * e;
+        h[k].sides = b->sides + b->sides_n + (2 + (size_t)k) * s;
+        h[k].stamp = ++b->cells;
+    }
+    /* The halves are of one size up to rounding; the larger stands for both. */
+    const double hx = most_of(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
+    const double hy = most_of(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
+    size_t from = c->side_from;
+    for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
+        filter_subsum(b, h, b->sides + from, &b->entries[i], hx, hy);
+        from += b->entries[i].sides;
+    }
+    settle_half(b, c, &h[0]);
+    if (!b->no_memory) settle_half(b, c, &h[1]);
 }
 
 /* Twice the area of a subsum, nearly. */
@@ -382,7 +434,8 @@ static bool make_root(builder *b, const box *all, cell *root)
         b->entries[b->entries_n++] = (entry){order[i], end - first};
         for (uint32_t k = first; k < end; k++) b->sides[b->sides_n++] = k;
     }
-    *root = (cell){*all, 0, b->entries_n, 0, b->sides_n, 0, all->high[1] - all->low[1] > all->high[0] - all->low[0]};
+    *root = (cell){*all, 0, b->entries_n, 0, b->sides_n, 0, 0, 1};
+    root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);
     sunder_i_free(order);
     return ok;
@@ -399,8 +452,8 @@ static sunder_status descend(builder *b, sunder_error *err)
         const cell c = b->stack[--b->stack_n];
         b->entries_n = c.entry_to; /* lists above belong to cells already done */
         b->sides_n = c.side_to;
-        if (b->options && b->options->progress && (++tick & 4095) == 0 &&
-            !b->options->progress(0.0, b->options->progress_user))
+        if (b->options && b->options->progress && (++tick & 63) == 0 &&
+            !b->options->progress(b->done, b->options->progress_user))
             return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
         split(b, &c);
     }
