@@ -101,7 +101,7 @@ static bool is_proved(const disc *d, sunder_i_arena *arena)
 static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_error *err)
 {
     const double ideal = d->inside ? 1 : 1 / cos(PI / d->n);
-    for (double ulps = 0; ulps < 0x1p40; ulps = ulps ? 2 * ulps : 1) {
+    for (double ulps = 0; ulps < 0x1p40; ulps = ulps > 0 ? 2 * ulps : 1) {
         const double give = ulps * DBL_EPSILON;
         if (!make_corners(d, d->inside ? ideal * (1 - give) : ideal * (1 + give)))
             return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g leaves the range of doubles", d->radius);

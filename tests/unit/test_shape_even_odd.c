@@ -181,7 +181,27 @@ static void check_members(const polyset *set, const sunder_shape *s, rng *g, uin
     free_coordinates(at, s);
 }
 
-/* Twice the area of a polygon's even-odd set is not easily had otherwise; the area of the shape must be that of its doubles. */
+/* The same set, flat and far wider than a narrow lattice holds: everything is decided in big integers, with the same result. */
+static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
+{
+    polyset thin;
+    sunder_shape *t = NULL;
+    sunder_error err;
+    polyset_copy(&thin, set);
+    polyset_scale(&thin, 0x1p-100, 0x1p100);
+    if (sunder_shape_from_rings(thin.xy, thin.ring_end, thin.poly_end, thin.polygons, SUNDER_EVEN_ODD, &t, &err))
+        explain(set, i, err.message);
+    const char *fault = sunder_i_shape_check(t);
+    if (fault) explain(set, i, fault);
+    if (t->vertices != s->vertices || t->rings != s->rings || t->polygons != s->polygons ||
+        sunder_shape_area(t) != sunder_shape_area(s))
+        explain(set, i, "a wide lattice gives another set");
+    for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
+        if (t->xy[k] != s->xy[k] * (k & 1 ? 0x1p100 : 0x1p-100)) explain(set, i, "a wide lattice gives another corner");
+    sunder_shape_free(t);
+    polyset_free(&thin);
+}
+
 static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
 {
     sunder_shape *s = NULL, *t = NULL;
@@ -191,6 +211,7 @@ static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
     const char *fault = sunder_i_shape_check(s);
     if (fault) explain(set, i, fault);
     check_members(set, s, g, i);
+    if (i % 4 == 0) check_wide(set, s, i);
     const sunder_status status =
         sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_STRICT, &t, &err);
     if (status != (sunder_shape_repaired(s) ? SUNDER_EINVALID : SUNDER_OK))

@@ -6,6 +6,7 @@
 #include "gmp_numbers.h"
 #include "shape/shape.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -49,6 +50,46 @@ static void test_valid_sets(void **state)
         sunder_shape_free(build(&q, i));
         polyset_free(&p);
         polyset_free(&q);
+    }
+}
+
+/* A ring of many corners round a middle, spikes and bays in turn, with a net of holes in it: enough for the trees. */
+static void gear(polyset *set, rng *g)
+{
+    const int teeth = (int)rng_int(g, 30, 120);
+    for (int k = 0; k < teeth; k++) {
+        const double angle = 6.283185307179586 * k / teeth, far = (k & 1 ? 90 : 50) + 20 * rng_unit(g);
+        polyset_vertex(set, far * cos(angle), far * sin(angle));
+    }
+    polyset_end_ring(set);
+    const int n = (int)rng_int(g, 0, 6);
+    for (int k = 0; k < n * n; k++) {
+        const double x = -30 + 60.0 / n * (k % n), y = -30 + 60.0 / n * (k / n), size = 50.0 / n;
+        const double hole[] = {x, y, x + size, y + size * rng_unit(g) / 2, x + size * rng_unit(g), y + size, x + size / 4,
+                               y + size * rng_unit(g)};
+        polyset_ring(set, hole, 4);
+    }
+    polyset_end_polygon(set);
+}
+
+static void test_gears(void **state)
+{
+    (void)state;
+    const size_t n = test_count(CASES / 10);
+    for (uint64_t i = 0; i < n; i++) {
+        rng g = rng_start(test_seed(), i);
+        polyset set;
+        polyset_init(&set);
+        gear(&set, &g);
+        sunder_shape *s = NULL;
+        sunder_error err;
+        /* A hole may have come out crossing itself. */
+        if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_EVEN_ODD, &s, &err))
+            explain(&set, i, err.message);
+        const char *fault = sunder_i_shape_check(s);
+        if (fault) explain(&set, i, fault);
+        sunder_shape_free(s);
+        polyset_free(&set);
     }
 }
 
@@ -229,7 +270,8 @@ static void test_no_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_valid_sets), cmocka_unit_test(test_place),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_valid_sets), cmocka_unit_test(test_gears),
+                                       cmocka_unit_test(test_place),
                                        cmocka_unit_test(test_no_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
