@@ -201,7 +201,7 @@ static double brute_force(const polyset *p, const polyset *q, double gap, double
             put(&s, t[i].x, t[i].y);
         for (size_t j = 0; j < i; j++) meet(&s, t + i, t + j, gap);
     }
-    qsort(s.at, s.n, sizeof *s.at, by_length);
+    if (s.n) qsort(s.at, s.n, sizeof *s.at, by_length);
     double found = INFINITY;
     for (size_t i = 0; i < s.n && found == INFINITY; i++)
         if (set_distance(p, q, a, an, b, bn, s.at[i].x, s.at[i].y, gap - 1e-9) >= gap - 1e-9) found = s.at[i].length;

@@ -174,6 +174,44 @@ static void rounded_or_not(void **state)
     sunder_shape_free(q);
 }
 
+/* A bow tie crosses itself at (2, 2/3); three times as large it is two triangles on integers. */
+static void repaired_operands(void **state)
+{
+    static const double TIE[] = {0, 0, 3, 1, 3, 0, 0, 2};
+    static const size_t END[] = {4}, ONE[] = {1};
+    sunder_shape *tie, *thrice = shape("MULTIPOLYGON(((0 0,6 2,0 6,0 0)),((9 3,6 2,9 0,9 3)))");
+    assert_int_equal(sunder_shape_from_rings(TIE, END, ONE, 1, SUNDER_EVEN_ODD, &tie, NULL), SUNDER_OK);
+    assert_true(sunder_shape_repaired(tie));
+    static const char *Q[][2] = {{"POLYGON((1 0,4 0,4 1,1 1,1 0))", "POLYGON((3 0,12 0,12 3,3 3,3 0))"},
+                                 {"POLYGON((2 1,3 2,1 2,2 1))", "POLYGON((6 3,9 6,3 6,6 3))"},
+                                 {"POLYGON((2 0,3 1,1 1,2 0))", "POLYGON((6 0,9 3,3 3,6 0))"}};
+    for (int i = 0; i < 3; i++)
+        for (int gap = 0; gap < 2; gap++) {
+            sunder_shape *q = shape(Q[i][0]), *larger = shape(Q[i][1]);
+            sunder_separation s, t;
+            assert_int_equal(sunder_pair_separate(tie, q, gap, &s, NULL), SUNDER_OK);
+            assert_int_equal(sunder_pair_separate(thrice, larger, 3 * gap, &t, NULL), SUNDER_OK);
+            assert_int_equal(s.overlap, t.overlap);
+            assert_int_equal(s.contact, t.contact);
+            assert_true(fabs(3 * s.distance - t.distance) <= 1e-9 * t.distance);
+            assert_true(fabs(3 * s.dx - t.dx) <= 1e-8 && fabs(3 * s.dy - t.dy) <= 1e-8);
+            const double move[2] = {s.dx, s.dy};
+            bool apart;
+            assert_int_equal(sunder_i_apart(tie, NULL, q, move, gap, &apart, NULL), SUNDER_OK);
+            assert_int_equal(apart, s.rounded_is_free);
+            double d, e, a[2], b[2];
+            assert_int_equal(sunder_pair_distance(tie, q, &d, a, b, NULL), SUNDER_OK);
+            assert_int_equal(sunder_pair_distance(thrice, larger, &e, a, b, NULL), SUNDER_OK);
+            assert_true(fabs(3 * d - e) <= 1e-14 * e);
+            sunder_separation_clear(&s);
+            sunder_separation_clear(&t);
+            sunder_shape_free(q);
+            sunder_shape_free(larger);
+        }
+    sunder_shape_free(tie);
+    sunder_shape_free(thrice);
+}
+
 static void upper_limit(void **state)
 {
     sunder_shape *p = shape(SQUARE), *q = shape("POLYGON((1 1,3 1,3 3,1 3,1 1))");
@@ -352,7 +390,7 @@ int main(void)
         cmocka_unit_test(known_answers),   cmocka_unit_test(translated_alike), cmocka_unit_test(huge_and_tiny),
         cmocka_unit_test(rounded_or_not),  cmocka_unit_test(upper_limit),      cmocka_unit_test(bad_arguments),
         cmocka_unit_test(empty_operands),  cmocka_unit_test(containment),      cmocka_unit_test(distances),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(memory_runs_out), cmocka_unit_test(repaired_operands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
