@@ -156,7 +156,7 @@ static const char *unit_name(const separate_run *run)
 {
     OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
     char *name = NULL;
-    if (!crs)
+    if (!gis_crs_is_known(crs))
         return "unknown";
     if (run->input.rule.geographic)
         OSRGetAngularUnits(crs, &name);

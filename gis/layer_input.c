@@ -148,15 +148,14 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     OGRFeatureH feature = gis_source_feature(input->source, i);
     char who[512];
     gis_feature_name(input, i, who, sizeof who);
-    /* Formats without nulls have empty texts instead: no symbol is written so, so they count as null. */
-    const char *text = field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
-    if (text[strspn(text, " ")] == '\0') {
+    if (field < 0 || gis_field_is_blank(feature, field)) {
         if (common)
             return place_symbol(input, i, common, who, error);
         return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
                         input->options->text[OPT_SYMBOL_FIELD]);
     }
     sunder_shape *own;
+    const char *text = OGR_F_GetFieldAsString(feature, field);
     if (!gis_shape_is_text(text))
         return gis_fail(error, "%s: %s in %s is no symbol; expected WKT, disc:R[:N], inside-disc:R[:N], square:SIDE or "
                         "rectangle:WxH", who, text, input->options->text[OPT_SYMBOL_FIELD]);

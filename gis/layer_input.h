@@ -28,6 +28,9 @@ void gis_layer_input_clear(gis_layer_input *input);
 /* "layer buildings, FID 12", with the user's own id if there is one. */
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size);
 
+/* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
+bool gis_field_is_blank(OGRFeatureH feature, int field);
+
 /* The stages, in this order: shapes (layer_input.c) and rules (layer_rules.c). */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error);
 bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-where, --fixed-where */

@@ -5,6 +5,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool gis_field_is_blank(OGRFeatureH feature, int field)
+{
+    if (!OGR_F_IsFieldSetAndNotNull(feature, field))
+        return true;
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString)
+        return false;
+    const char *text = OGR_F_GetFieldAsString(feature, field);
+    return text[strspn(text, " ")] == '\0';
+}
+
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
 {
     const gis_options *options = input->options;
@@ -138,7 +148,7 @@ static bool weigh_by_field(gis_layer_input *input, const char *name, gis_error *
         return gis_fail(error, "--weight-field: layer %s has no field %s", gis_source_name(input->source), name);
     for (size_t i = 0; i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (input->feature[i].ignored || !OGR_F_IsFieldSetAndNotNull(feature, field))
+        if (input->feature[i].ignored || gis_field_is_blank(feature, field))
             continue;
         double weight = OGR_F_GetFieldAsDouble(feature, field);
         if (!(weight > 0) || !isfinite(weight)) {

@@ -8,11 +8,13 @@
 #include <string.h>
 
 /* Metres in a unit as numerator / denominator, both exact doubles. */
-static const struct {
+typedef struct unit {
     const char *suffix;
     gis_length_unit unit;
     double numerator, denominator;
-} units[] = {
+} unit;
+
+static const unit units[] = {
     {"", GIS_LAYER_UNIT, 1, 1},       {"m", GIS_METRE, 1, 1},           {"km", GIS_KILOMETRE, 1000, 1},
     {"ft", GIS_FOOT, 3048, 10000},  {"us-ft", GIS_US_FOOT, 1200, 3937}, {"mm", GIS_SHEET_MILLIMETRE, 1, 1000},
 };
@@ -73,6 +75,13 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
     return false;
 }
 
+/* Is the unit of so many metres? */
+static bool is_unit(const unit *candidate, double metres)
+{
+    double own = candidate->numerator / candidate->denominator;
+    return fabs(own - metres) <= same_unit * own;
+}
+
 bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, const char *what, double *out,
                                gis_error *error)
 {
@@ -95,18 +104,18 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
         return gis_fail(error, "%s: there is no CRS that would tell its unit; give the length without a unit, or "
                         "give the layer a CRS (--input-crs), or reproject it first", what);
     }
-    size_t u = 0;
-    while (units[u].unit != given->unit)
-        u++;
+    size_t from = 0, to = 0;
+    while (units[from].unit != given->unit)
+        from++;
+    while (to < N_UNITS && !is_unit(&units[to], rule->unit_metres))
+        to++;
     double value = given->value;
     if (given->unit == GIS_SHEET_MILLIMETRE)
         value *= rule->scale;
-    double metres = units[u].numerator / units[u].denominator;
-    if (fabs(metres - rule->unit_metres) > same_unit * metres) {
-        value = value * units[u].numerator / units[u].denominator;
-        if (rule->unit_metres != 1)
-            value /= rule->unit_metres;
-    }
+    if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
+        value = value * units[from].numerator / units[from].denominator / rule->unit_metres;
+    else if (units[to].numerator * units[from].denominator != units[from].numerator * units[to].denominator)
+        value = value * (units[from].numerator * units[to].denominator) / (units[from].denominator * units[to].numerator);
     if (!isfinite(value)) {
         return gis_fail(error, "%s: too long for a double", what);
     }

@@ -112,7 +112,7 @@ static bool check_crs(const gis_operands *operands)
 {
     OGRSpatialReferenceH p = operands->p_source ? gis_source_crs(operands->p_source) : NULL;
     OGRSpatialReferenceH q = operands->q_source ? gis_source_crs(operands->q_source) : NULL;
-    return !p || !q || OSRIsSame(p, q);
+    return !gis_crs_is_known(p) || !gis_crs_is_known(q) || OSRIsSame(p, q);
 }
 
 /* Sources first: their CRS gives lengths in the other operand their meaning. */
@@ -130,7 +130,7 @@ bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error 
             continue;
         any_source = true;
         ok = gis_shape_from_source(options, options->operand[i], names[i], source[i], shape[i], error);
-        if (ok && !read.crs)
+        if (ok && !gis_crs_is_known(read.crs))
             read.crs = gis_source_crs(*source[i]);
     }
     if (ok && !check_crs(&read))

@@ -13,9 +13,11 @@ gis_invalid gis_options_invalid(const gis_options *options);
 /* The request that the options of "which features" make. */
 gis_source_request gis_options_source(const gis_options *options, const char *path, unsigned takes);
 
-/* What the CRS says of lengths; `crs` may be NULL. A Mercator projection, whose lengths are not lengths on the ground, and
+/* What the CRS says of lengths; `crs` may be NULL, or one of the names that
+ * GeoPackage has for not knowing it. A Mercator projection, whose lengths are not lengths on the ground, and
  * degrees are warned of, with the name of the layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local scale
  * is measured. */
+bool gis_crs_is_known(OGRSpatialReferenceH crs);
 gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options);
 void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
 

@@ -5,8 +5,18 @@
 #include <math.h>
 #include <string.h>
 
+/* A GeoPackage layer without a CRS is written, and read, with one called undefined (srs_id 0 or -1); that GDAL calls the
+ * first one geographic says nothing about the coordinates. */
+bool gis_crs_is_known(OGRSpatialReferenceH crs)
+{
+    const char *name = crs ? OSRGetName(crs) : NULL;
+    return crs && !(name && EQUALN(name, "undefined", 9));
+}
+
 gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options)
 {
+    if (!gis_crs_is_known(crs))
+        crs = NULL;
     gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = options->number[OPT_SCALE]};
     if (crs) {
         rule.geographic = OSRIsGeographic(crs) != 0;
@@ -55,7 +65,7 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
 
 void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
 {
-    if (!crs)
+    if (!gis_crs_is_known(crs))
         return;
     if (OSRIsGeographic(crs))
         gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no lengths on "

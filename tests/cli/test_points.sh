@@ -1,0 +1,66 @@
+# shellcheck shell=bash disable=SC1091
+# Points with symbols: one for all, each its own, coincident ones, several points in one feature; curves.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+layer p.gpkg trees POINT <<'X'
+id,sym,WKT
+1,,POINT(451005 5411005)
+2,disc:3:12,POINT(451005 5411005)
+3,"POLYGON((0 0,4 0,0 4,0 0))",POINT(451006 5411006)
+4,square:1m,POINT(451050 5411050)
+5,,POINT EMPTY
+X
+expect 0 separate p.gpkg o.gpkg --symbol disc:2m:8 --symbol-field sym --gap 1 --stats s.json
+same "$(jq -c '[.conflicts.before.overlap + .conflicts.before.contained, .conflicts.after, .moved, .skipped, .null, .verified]' s.json)" \
+    '[3,{"overlap":0,"too_close":0,"barrier":0,"contained":0,"duplicate":0,"inside_blocks":0},3,1,1,true]'
+same "$(count o.gpkg trees) $(count o.gpkg trees_symbols) $(count o.gpkg trees_displacement)" '5 5 3'
+same "$(value o.gpkg trees_symbols 2 sym)" 'disc:3:12' "attributes of the symbols"
+# The symbols as drawn are apart, whoever looks at them; and moved as far as their points.
+expect 0 check o.gpkg -l trees_symbols --gap 1 --no-blocks
+expect 0 check o.gpkg -l trees --symbol disc:2:8 --symbol-field sym --gap 1 --no-blocks
+expect 3 check p.gpkg --symbol disc:2:8 --symbol-field sym --gap 1
+same "$(geometry o.gpkg trees_symbols 4)" '  POLYGON ((451049.5 5411049.5,451050.5 5411049.5,451050.5 5411050.5,451049.5 5411050.5,451049.5 5411049.5))'
+
+layer same.gpkg same POINT <<'X'
+id,WKT
+1,POINT(451005.3 5411005.7)
+2,POINT(451005.3 5411005.7)
+3,POINT(451005.3 5411005.7)
+X
+expect 0 separate same.gpkg s.gpkg --symbol square:4 --stats s.json # of coincident symbols none is left on another
+same "$(jq -c '[.conflicts.before.duplicate,.conflicts.after.duplicate,.conflicts.after.overlap]' s.json)" '[3,0,0]'
+expect 0 separate same.gpkg b.gpkg --symbol square:4 --contained block --stats s.json
+same "$(jq -c '[.blocks,.moved]' s.json)" '[1,0]'
+
+layer multi.gpkg m MULTIPOINT <<'X'
+id,WKT
+1,"MULTIPOINT((0 0),(10 0))"
+2,"MULTIPOINT((1 0),(30 0))"
+X
+expect 0 separate multi.gpkg mo.gpkg --symbol inside-disc:2 -q
+same "$(geometry mo.gpkg m_symbols 1 | cut -c1-16)" '  MULTIPOLYGON ('
+expect 0 check mo.gpkg -l m_symbols --no-blocks
+
+refused 1 'polygon' separate p.gpkg never.gpkg # points, and no symbol
+refused 1 'FID 1' separate p.gpkg never.gpkg --symbol-field sym # its symbol is null, and there is no other
+refused 1 'no field nothing' separate p.gpkg never.gpkg --symbol-field nothing
+refused 2 '--symbol' separate p.gpkg never.gpkg --symbol disc:0
+refused 2 '--symbol' separate p.gpkg never.gpkg --symbol circle
+refused 2 '--symbol' separate p.gpkg never.gpkg --symbol 'POINT (0 0)'
+layer wrong.gpkg wrong POINT <<'X'
+id,sym,WKT
+1,disc:1,POINT(0 0)
+2,disc:-1,POINT(9 0)
+X
+refused 1 'FID 2' separate wrong.gpkg never.gpkg --symbol-field sym
+
+# Arcs: computed on polylines grown by what they are off, and the control points are moved.
+layer arcs.gpkg arcs CURVEPOLYGON <<'X'
+id,WKT
+1,"CURVEPOLYGON(CIRCULARSTRING(0 0,5 5,10 0,5 -5,0 0))"
+2,"CURVEPOLYGON(CIRCULARSTRING(9 0,14 5,19 0,14 -5,9 0))"
+X
+expect 0 separate arcs.gpkg ao.gpkg --stats s.json
+same "$(geometry ao.gpkg arcs 1 | cut -c1-29)" '  CURVEPOLYGON (CIRCULARSTRIN'
+jq -e '.displacement.total > 1 and .displacement.total < 1.05' s.json >/dev/null || fail "arcs: $(jq -c .displacement s.json)"
+finish

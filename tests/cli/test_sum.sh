@@ -1,0 +1,69 @@
+# shellcheck shell=bash disable=SC1091
+# sunder sum: keys and their order, canonical rings, exact numbers, degenerate holes, layers.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+ell='POLYGON ((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))'
+frame='POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0), (3 3, 7 3, 7 7, 3 7, 3 3))'
+
+keys='["command","algorithm","decomposition","order","p","q","result","operations","seconds","peak_rss_bytes"'
+expect 0 sum "$ell" square:2
+[ ! -s err ] || fail "stderr is not empty"
+same "$(json 'keys_unsorted' out | tr -d ' \n')" "$keys,\"polygons\",\"degenerate_segments\",\"degenerate_points\"]"
+same "$(jq -c '.p,.q,.result' out | tr '\n' ' ')" '{"polygons":1,"vertices":6} {"polygons":1,"vertices":4} {"polygons":1,"holes":0,"vertices":6,"degenerate_segments":0,"degenerate_points":0,"area":"21","max_deviation":null} '
+same "$(jq -c '.operations|keys_unsorted' out)" '["comparisons","orientation_tests","segment_intersections","exact_fallbacks","phases"]'
+same "$(jq -c '.seconds|keys_unsorted' out)" '["read","decompose","subsums","union","write","compute","total"]'
+same "$(jq -c '[.command,.algorithm,.decomposition,.order]' out)" '["sum","convolution",null,null]'
+same "$(jq -c '.polygons' out)" '[{"outer":[[-1,-1],[4,-1],[4,2],[2,2],[2,4],[-1,4]],"holes":[]}]'
+
+expect 0 sum "$ell" square:2 --stats -
+same "$(json 'keys_unsorted' out | tr -d ' \n')" "$keys]" "--stats -"
+expect 0 sum "$ell" square:2 --stats s.json --algorithm auto --seed 7
+same "$(json 'keys_unsorted' s.json | tr -d ' \n')" "$keys]" "--stats FILE"
+same "$(jq -c '.polygons|length' out)" 1
+
+# The peg that exactly fits, and the passage exactly as wide as the robot.
+expect 0 sum "$frame" square:4
+same "$(jq -c '.degenerate_points' out)" '[[5,5]]'
+expect 0 sum --reflect --exact 'POLYGON ((0 0, 9 0, 9 9, 5 9, 5 3, 4 3, 4 9, 0 9, 0 0))' 'POLYGON ((0 0, 1 0, 1 1, 0 1))'
+same "$(jq -c '.degenerate_segments' out)" '[[["4","3"],["4","9"]]]' "the slide"
+expect 0 sum 'POLYGON ((0 0, 2 0, 0 1))' 'POLYGON ((0 0, 2 0, 0 1))' --reflect
+same "$(jq -c '.result.area' out)" '"6"'
+
+# Rationals in lowest terms, as strings; decimals that read back.
+expect 0 sum --exact 'POLYGON ((0 0, 0.1 0, 0 0.5))' 'POLYGON ((0 0, 1 0, 0 1))'
+same "$(jq -c '.polygons[0].outer[1]' out)" '["39631676720860365/36028797018963968","0"]'
+expect 0 sum 'POLYGON ((0 0, 0.1 0, 0 0.5))' 'POLYGON ((0 0, 1 0, 0 1))'
+same "$(sed -n 's/.*"outer": \[\[0, 0\], \[\([^]]*\)\].*/\1/p' out)" '1.1, 0'
+
+# Beyond the range of doubles: an error for decimals and layers, fine with --exact.
+huge='POLYGON ((0 0, 1.7e308 0, 1.7e308 1.7e308, 0 1.7e308))'
+refused 1 'range of doubles' sum "$huge" "$huge"
+refused 1 'range of doubles' sum "$huge" "$huge" o.gpkg
+expect 0 sum --exact "$huge" "$huge"
+same "$(jq -r '.polygons[0].outer[2][0]|length' out)" 309 "digits of 3.4e308"
+expect 0 sum "$huge" "$huge" --stats -
+
+# Layers, with what they are off by; all of them, empty ones too.
+expect 0 sum "$frame" square:4 o.gpkg --stats o.json
+[ ! -s out ] || fail "something on stdout beside the layers"
+same "$(count o.gpkg sum) $(count o.gpkg sum_degenerate_segments) $(count o.gpkg sum_degenerate_points)" '1 0 1'
+same "$(geometry o.gpkg sum_degenerate_points 1)" '  POINT (5 5)'
+same "$(jq -c '.result.max_deviation' o.json)" 0
+expect 0 sum "$frame" disc:1.3 o.gpkg -overwrite -nln obstacle --stats o.json
+same "$(count o.gpkg obstacle) $(count o.gpkg obstacle_degenerate_points) $(count o.gpkg sum)" '1 0 1'
+jq -e '.result.max_deviation > 0 and .result.max_deviation < 4e-15' o.json >/dev/null || fail "max_deviation: $(jq -c .result o.json)"
+refused 1 'o.gpkg' sum "$frame" square:4 o.gpkg
+expect 0 sum "$frame" square:4 /vsistdout/ --of GeoJSON
+same "$(jq -r '.features[0].geometry.type' out)" Polygon
+expect 0 sum "$frame" square:4 o.shp
+for f in o.shp o_degenerate_segments.shp o_degenerate_points.shp; do [ -s $f ] || fail "no $f"; done
+
+# Vertices that rounding takes off the edges that they lie on: the layer is valid all the same (GEOS judges).
+if ogrinfo -q :memory: -dialect sqlite -sql 'SELECT ST_IsValid(ST_GeomFromText("POLYGON((0 0,1 0,1 1,0 0))")) AS valid' 2>/dev/null | grep -q '= 1'; then
+    for q in 'POLYGON ((0 0, 0.3 0.1, 0.1 0.3))' 'POLYGON ((0 0, 0.7 0, 0.3 0.9), (0.2 0.1, 0.4 0.1, 0.3 0.3))' disc:0.7:7; do
+        expect 0 sum 'MULTIPOLYGON (((0.1 0.1, 1.3 0.2, 0.7 0.9)), ((1.3 0.2, 2.1 0.7, 1.7 1.9)), ((0.7 0.9, 1.7 1.9, 0.3 2.7)))' \
+            "$q" v.gpkg --overwrite
+        same "$(ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT min(ST_IsValid(geom)) AS valid FROM sum' | sed -n 's/.*valid.* = //p')" 1 "valid"
+    done
+fi
+finish
