@@ -16,6 +16,7 @@
 #define STUBBORN_SPLITS_FEW 3
 #define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
+#define MANY_SIDES 500
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */
 typedef struct approx_side {
@@ -325,6 +326,13 @@ static void filter_subsum(builder *b, half h[2], const uint32_t *side, const ent
     if (!miss1) filter_one(b, &h[1], side, source, i, n1, hx, hy);
 }
 
+/* A cell with many sides that splits well is split on, across its longer axis, without a closer look. */
+static size_t halve(cell *c, const half *h)
+{
+    c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
+    return h->sides_n;
+}
+
 /* What is left of a half when its lists are made: a cell to split further, or settled. */
 static void settle_half(builder *b, const cell *parent, const half *h)
 {
@@ -343,8 +351,8 @@ static void settle_half(builder *b, const cell *parent, const half *h)
         b->done += c.share;
         return;
     }
-    const size_t lines = shrink(b, &c, &h->b);
     c.stubborn = 10 * h->sides_n < 9 * (parent->side_to - parent->side_from) ? 0 : parent->stubborn + 1;
+    const size_t lines = h->sides_n > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
     const bool leaf =
         h->entries_n <= LEAF_SUBSUMS || lines * (h->entries_n - 1) <= LEAF_PAIRS || c.stubborn >= patience;
