@@ -306,6 +306,7 @@ bool gis_sink_takes_more(const gis_sink *sink)
 static void free_layer(gis_sink_layer *layer)
 {
     gis_sink_forget_sent(layer);
+    gis_boxes_clear(&layer->boxes);
     CPLFree(layer->name);
     CPLFree(layer->file);
     CPLFree(layer->field_map);
@@ -340,6 +341,8 @@ bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_lay
 {
     gis_sink_layer *previous = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
     if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error))
+        return false;
+    if (!gis_sink_flush(sink, error))
         return false;
     gis_sink_layer **layers = realloc(sink->layers, (sink->n_layers + 1) * sizeof *layers);
     if (layers)

@@ -180,6 +180,16 @@ static bool write_styles(gis_sink *sink, gis_error *error)
     return true;
 }
 
+static bool write_indexes(gis_sink *sink, gis_error *error)
+{
+    for (size_t i = 0; i < sink->n_layers; i++) {
+        gis_sink_layer *layer = sink->layers[i];
+        if (!gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error))
+            return false;
+    }
+    return true;
+}
+
 static bool close_all(gis_sink *sink, gis_error *error)
 {
     for (size_t i = 0; i < sink->n_layers; i++)
@@ -192,11 +202,13 @@ bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     gis_sink_result seen = {true, 0};
     if (sink->place == GIS_PLACE_DATABASE) {
+        if (!gis_sink_flush(sink, error))
+            return false;
         inspect_database(sink, &seen);
         if (!apply_strict(sink, error) || !close_all(sink, error))
             return false;
     } else {
-        if (!write_styles(sink, error) || !close_all(sink, error) || !inspect(sink, &seen, error) ||
+        if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error) || !inspect(sink, &seen, error) ||
             !apply_strict(sink, error))
             return false;
         bool placed = sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, sink->request.overwrite, error)

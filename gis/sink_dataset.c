@@ -210,6 +210,23 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
         sink->dataset = NULL;
 }
 
+bool gis_sink_flush(gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *last = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
+    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer)
+        return true;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALFlushCache(sink->dataset);
+    gis_listen_end();
+    bool done = !listener.failures;
+    if (!done)
+        gis_fail(error, "%s, layer %s: writing failed: %s", sink->request.path, last->name,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    gis_listener_clear(&listener);
+    return done;
+}
+
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
 {
     if (!sink->in_transaction)

@@ -11,6 +11,7 @@
 #define GIS_SINK_INTERNAL_H
 
 #include "format.h"
+#include "rtree.h"
 #include "sink.h"
 #include "stage.h"
 
@@ -37,6 +38,7 @@ struct gis_sink_layer {
     char **created;            /* names of the layer's fields, by field of the source; "" where not written */
     bool can_measure, can_curve;
     size_t written;
+    gis_boxes boxes; /* for the spatial index of a GeoPackage */
     bool keep_sent;
     gis_sent *sent;
     size_t n_sent, capacity;
@@ -73,6 +75,8 @@ char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
+/* A database may have put off rows of the last layer written: sends them, and hears what it thinks of them. */
+bool gis_sink_flush(gis_sink *sink, gis_error *error);
 /* Commits the transaction of the common dataset, if one is open. */
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error);
 /* Closes the dataset of a layer that has its own, or with NULL the common one; errors of closing fail. */

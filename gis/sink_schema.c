@@ -270,6 +270,8 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
             copy_metadata(layer);
         create_source_fields(layer);
         create_own_fields(layer);
+        if (sink->format.geopackage)
+            gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
     } else {

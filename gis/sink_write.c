@@ -96,6 +96,8 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
     bool done = OGR_L_CreateFeature(layer->layer, to) == OGRERR_NONE && !listener.failures;
     gis_listen_end();
     if (done)
+        done = gis_rtree_add(&layer->boxes, to, error);
+    if (done)
         layer->written++;
     else if (feature)
         gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path, layer->name,

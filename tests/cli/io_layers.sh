@@ -36,7 +36,8 @@ nr,wkt,name_of_the_building,kind,height,key,small,yes,f32,json,day,time
 13,POLYGON EMPTY,empty geometry,w,,5,,,,,,
 CSV
     cat >rich.vrt <<'VRT'
-<OGRVRTDataSource><OGRVRTLayer name="source"><SrcDataSource relativeToVRT="1">rich.csv</SrcDataSource><SrcLayer>rich</SrcLayer>
+<OGRVRTDataSource><OGRVRTLayer name="source"><SrcDataSource relativeToVRT="1">rich.csv</SrcDataSource>
+<OpenOptions><OOI key="EMPTY_STRING_AS_NULL">YES</OOI></OpenOptions><SrcLayer>rich</SrcLayer>
 <FID>nr</FID><GeometryType>wkbPolygonZM</GeometryType><LayerSRS>EPSG:25832</LayerSRS><GeometryField encoding="WKT" field="wkt"/>
 <Field name="name_of_the_building" type="String" width="300"/>
 <Field name="kind" type="String" width="5" nullable="false" default="'w'"/>
@@ -50,7 +51,7 @@ CSV
 <Field name="time" type="DateTime"/>
 </OGRVRTLayer></OGRVRTDataSource>
 VRT
-    GDAL_XML_VALIDATION=NO ogr2ogr -f GPKG rich.gpkg rich.vrt -nln 'Häuser 1' -preserve_fid -oo EMPTY_STRING_AS_NULL=YES \
+    GDAL_XML_VALIDATION=NO ogr2ogr -f GPKG rich.gpkg rich.vrt -nln 'Häuser 1' -preserve_fid \
         -lco FID=nr -lco GEOMETRY_NAME=outline -lco IDENTIFIER='The houses' -lco DESCRIPTION='Words; with "signs"' \
         -mo source='Office & Co'
     # A coded and a range domain, as the GeoPackage schema extension lays them down.

@@ -78,7 +78,7 @@ refused_squares 2 'does not tell the format' squares.gpkg out
 refused_squares 2 'no such format' --of Nonsense squares.gpkg other.gpkg
 
 # ---- a full disk: every format must notice. A limit on the size of files gives the same errors without a device.
-"$SUNDER_BUILD/sunder-town" --buildings 3000 --seed 1 town.gpkg
+"$SUNDER_BUILD/sunder-town" --buildings 3000 --seed 1 town.gpkg >/dev/null
 full() { (trap '' XFSZ; ulimit -f 300; exec "$SUNDER" separate --quiet --input-layer buildings "$@"); }
 for each in gpkg shp geojson fgb sqlite csv; do
     refused 1 "full.$each" full town.gpkg "full.$each"
