@@ -70,6 +70,7 @@ bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t
 
 typedef enum sunder_i_fault {
     SUNDER_I_SOUND,
+    SUNDER_I_EMPTY,   /* a ring without vertices; vertex is then the number of the raw ring */
     SUNDER_I_FEW,     /* under three distinct vertices */
     SUNDER_I_FLAT,    /* no area */
     SUNDER_I_SPIKE,   /* an edge that runs back along the one before */

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* The bits of two 16-bit numbers in turn [Mor66]. */
+/* The bits of two 16-bit numbers in turn (Morton order). */
 static uint32_t interleave(uint32_t x, uint32_t y)
 {
     const uint32_t mask[4] = {0x00ff00ff, 0x0f0f0f0f, 0x33333333, 0x55555555};

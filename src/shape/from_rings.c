@@ -49,6 +49,14 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
                                        [SUNDER_I_OVERLAPS] = "shares a piece of edge with",
                                        [SUNDER_I_OUTSIDE] = "the hole lies outside",
                                        [SUNDER_I_NESTED] = "the hole lies inside"};
+    if (p->fault == SUNDER_I_EMPTY) {
+        /* vertex is the number of the raw ring here: it has no vertex to point at. */
+        size_t polygon = 0;
+        while (in->poly_end[polygon] <= p->vertex) polygon++;
+        const size_t ring = p->vertex - (polygon ? in->poly_end[polygon - 1] : 0);
+        return sunder_i_fail_at(err, SUNDER_EINVALID, polygon, ring, SIZE_MAX, "polygon %zu, ring %zu: the ring is empty",
+                                polygon, ring);
+    }
     const sunder_i_place_name at = sunder_i_name_vertex(in, p->vertex);
     char place[160], rest[80] = "";
     const double *xy = in->xy + 2 * (size_t)p->vertex;
@@ -89,6 +97,10 @@ static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const su
     for (size_t ring = ring_lo; ring < ring_hi; ring++) {
         const uint32_t lo = ring ? (uint32_t)in->ring_end[ring - 1] : 0, hi = (uint32_t)in->ring_end[ring];
         const uint32_t begin = r->vertices;
+        if (lo == hi) {
+            *problem = (sunder_i_problem){SUNDER_I_EMPTY, (uint32_t)ring, SUNDER_I_NONE};
+            return true;
+        }
         const uint32_t n = sunder_i_clean_ring(r->lattice, in->xy, at, lo, hi, r->source + begin, problem);
         if (problem->fault) return true;
         r->vertices = begin + n;

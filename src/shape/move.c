@@ -49,7 +49,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     return SUNDER_OK;
 }
 
-/* Is x + d a double? The rounding error of the sum is a double itself [Knu97, 4.2.2] and found exactly. */
+/* Is x + d a double? The rounding error of the sum is a double itself (Knuth, two-sum) and found exactly. */
 static bool sum_is_exact(double x, double d)
 {
     const double s = x + d, back = s - x;

@@ -1,9 +1,13 @@
 /* Polygonal sets, as the algorithms see them.
  *
  * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes clockwise, so
- * that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes. Rings may touch
- * at points, themselves too. Coordinates are doubles, taken exactly, or, for a shape repaired by the even-odd rule, integers over
- * one common denominator.
+ * that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes. Coordinates are doubles,
+ * taken exactly, or, for a shape repaired by the even-odd rule, integers over one common denominator, which is odd.
+ *
+ * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from the edge that
+ * leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are disjoint. So where touching
+ * cuts an interior in two there are two polygons; where a hole touches its outer ring they are one ring; and where a vertex touches
+ * an edge from inside, the edge has a vertex of its own there (both are `shared`). A vertex may touch an edge from outside.
  *
  * The convex pieces are a decomposition of each member without added vertices (triangulation, merged after Hertel and
  * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex; interiors of pieces of one member are disjoint, and the closure of
@@ -64,8 +68,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
                              sunder_i_placed *out, sunder_error *err);
 void sunder_i_placed_free(sunder_i_placed *placed);
 
-/* Is vertex v of the shape a corner of edge kind? Number of the edge's tail: the edge (v, next[v]) is a boundary edge of the shape;
- * a side (u, v) of a piece is one exactly when next[u] == v, else it is a diagonal. */
+/* The edges of the shape are (v, next[v]), each a side of exactly one piece. A side (u, v) of a piece is one of them exactly when
+ * next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
 static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, uint32_t v)
 {
     return shape->next[u] == v;

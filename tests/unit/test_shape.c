@@ -72,6 +72,33 @@ static void test_refusals(void **state)
             "polygon 0, ring 2, vertex 0 (2 2): the hole lies inside ring 1", 2, 0);
 }
 
+/* Rings without vertices, which no WKT has: first, last, alone. */
+static void test_empty_rings(void **state)
+{
+    (void)state;
+    static const double xy[] = {0, 0, 9, 0, 0, 9};
+    static const size_t ends[3][2] = {{0, 3}, {3, 3}, {0, 0}};
+    for (size_t i = 0; i < 3; i++) {
+        const size_t poly_end[] = {2};
+        sunder_shape *s = NULL;
+        sunder_error err;
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_STRICT, &s, &err), SUNDER_EINVALID);
+        assert_int_equal(err.ring, i == 1);
+        assert_true(err.vertex == SIZE_MAX);
+        assert_string_equal(err.message, i == 1 ? "polygon 0, ring 1: the ring is empty" : "polygon 0, ring 0: the ring is empty");
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_EVEN_ODD, &s, &err), SUNDER_OK);
+        assert_true(sunder_shape_area(s) == (i == 2 ? 0 : 40.5));
+        assert_true(sunder_shape_repaired(s));
+        sunder_shape_free(s);
+    }
+    /* A polygon without rings among others is no fault. */
+    const size_t ring_end[] = {3}, poly_end[] = {0, 1, 1};
+    sunder_shape *s = NULL;
+    assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 3, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_polygons(s), 1);
+    sunder_shape_free(s);
+}
+
 static void test_not_finite(void **state)
 {
     (void)state;
@@ -362,7 +389,8 @@ static void test_translate(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refusals),  cmocka_unit_test(test_not_finite),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refusals),  cmocka_unit_test(test_empty_rings),
+                                       cmocka_unit_test(test_not_finite),
                                        cmocka_unit_test(test_cleaning),  cmocka_unit_test(test_touching),
                                        cmocka_unit_test(test_repairs),   cmocka_unit_test(test_empty),
                                        cmocka_unit_test(test_disc),      cmocka_unit_test(test_rectangle),
