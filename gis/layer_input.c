@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const unsigned growth_segments = 16;
 
@@ -218,6 +219,15 @@ static bool point_shapes(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
+/* Who writes OUTPUT INPUT, as with ogr2ogr, is told so. */
+static bool hint_at_order(const gis_options *options, gis_error *error)
+{
+    const char *input = options->operand[0], *output = options->operand[1];
+    if (output && strstr(error->message, "no such file") && access(input, F_OK) != 0 && access(output, F_OK) == 0)
+        return gis_fail(error, "%s: no such file, but %s exists: the order is INPUT OUTPUT", input, output);
+    return false;
+}
+
 static bool open_source(gis_layer_input *input, gis_error *error)
 {
     const gis_options *options = input->options;
@@ -225,7 +235,7 @@ static bool open_source(gis_layer_input *input, gis_error *error)
     gis_source_request request =
         gis_options_source(options, options->operand[0], input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS);
     if (!gis_source_open(&request, &input->source, error))
-        return false;
+        return hint_at_order(options, error);
     input->n = gis_source_count(input->source);
     if (options->given[OPT_ID_FIELD]) {
         input->id_field = gis_source_field(input->source, options->text[OPT_ID_FIELD]);
