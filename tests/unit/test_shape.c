@@ -184,6 +184,38 @@ static void test_touching(void **state)
     }
 }
 
+/* The checker has to find what is broken. Each fault is undone before the next. */
+static void test_check_finds(void **state)
+{
+    (void)state;
+    sunder_shape *s = sound("POLYGON((0 0,9 0,9 9,4 4,0 9),(4 0,5 1,4 2))");
+    double *const xy = s->xy;
+    const double keep = xy[1];
+    xy[1] = -1;
+    assert_non_null(sunder_i_shape_check(s)); /* out of its box, no longer at a shared place */
+    xy[1] = keep;
+    s->shared[1] = !s->shared[1];
+    assert_non_null(sunder_i_shape_check(s));
+    s->shared[1] = !s->shared[1];
+    const uint32_t corner = s->piece_vertex[0];
+    s->piece_vertex[0] = s->piece_vertex[1];
+    assert_non_null(sunder_i_shape_check(s));
+    s->piece_vertex[0] = corner;
+    const uint32_t pieces = s->pieces;
+    s->pieces--;
+    assert_non_null(sunder_i_shape_check(s));
+    s->pieces = pieces;
+    const uint32_t next = s->next[0];
+    s->next[0] = s->next[next];
+    assert_non_null(sunder_i_shape_check(s));
+    s->next[0] = next;
+    s->box[2] = 8;
+    assert_non_null(sunder_i_shape_check(s));
+    s->box[2] = 9;
+    assert_null(sunder_i_shape_check(s));
+    sunder_shape_free(s);
+}
+
 static void repaired_to(const char *wkt, size_t polygons, size_t vertices, double area, bool rational)
 {
     sunder_shape *s = NULL;
@@ -394,6 +426,7 @@ int main(void)
                                        cmocka_unit_test(test_cleaning),  cmocka_unit_test(test_touching),
                                        cmocka_unit_test(test_repairs),   cmocka_unit_test(test_empty),
                                        cmocka_unit_test(test_disc),      cmocka_unit_test(test_rectangle),
+                                       cmocka_unit_test(test_check_finds),
                                        cmocka_unit_test(test_reflect),   cmocka_unit_test(test_translate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

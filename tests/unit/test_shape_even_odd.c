@@ -90,7 +90,47 @@ static int even_odd(const polyset *set, size_t ring_lo, size_t ring_hi, int64_t 
     return inside;
 }
 
-/* The polygon of even-odd sets: inside any of them. */
+/* How often a ring winds round a point that is on none of its edges. */
+static int winding(const polyset *set, size_t ring, int64_t x, int64_t y)
+{
+    const size_t lo = ring ? set->ring_end[ring - 1] : 0, hi = set->ring_end[ring];
+    int n = 0;
+    for (size_t i = lo, j = hi - 1; i < hi; j = i++) {
+        const int64_t ax = (int64_t)set->xy[2 * j] * DEN, ay = (int64_t)set->xy[2 * j + 1] * DEN;
+        const int64_t bx = (int64_t)set->xy[2 * i] * DEN, by = (int64_t)set->xy[2 * i + 1] * DEN;
+        if ((ay > y) == (by > y)) continue;
+        const int64_t cross = (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+        if ((cross > 0) == (by > ay)) n += by > ay ? 1 : -1;
+    }
+    return n;
+}
+
+/* What a sound polygon shows at any point: every ring winds round it once or not at all, always the same way round; at most one
+ * hole holds it, and then the outer ring does too. */
+static bool looks_sound(const polyset *set, rng *g)
+{
+    int way[64] = {0};
+    assert_true(set->rings <= 64);
+    for (int k = 0; k < POINTS; k++) {
+        const int64_t x = rng_int(g, 0, 9 * DEN), y = rng_int(g, 0, 9 * DEN);
+        for (size_t p = 0, ring = 0; p < set->polygons; ring = set->poly_end[p++]) {
+            if (even_odd(set, ring, set->poly_end[p], x, y) < 0) continue;
+            int holes = 0, outer = 0;
+            for (size_t r = ring; r < set->poly_end[p]; r++) {
+                const int w = winding(set, r, x, y);
+                if (w == 0) continue;
+                if (w < -1 || w > 1 || w == -way[r]) return false;
+                way[r] = w;
+                holes += r > ring;
+                outer += r == ring;
+            }
+            if (holes > outer) return false;
+        }
+    }
+    return true;
+}
+
+/* A set of polygons, each by the even-odd rule: inside any of them. */
 static int in_set(const polyset *set, int64_t x, int64_t y)
 {
     int inside = 0;
@@ -218,6 +258,7 @@ static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
         explain(set, i, "strict and even-odd do not agree on validity");
     if (status == SUNDER_OK) {
         ++*strict;
+        if (!looks_sound(set, g)) explain(set, i, "an unsound polygon was accepted");
         fault = sunder_i_shape_check(t);
         if (fault) explain(set, i, fault);
         if (sunder_shape_area(s) != sunder_shape_area(t)) explain(set, i, "strict and even-odd differ in area");
