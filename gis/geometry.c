@@ -317,22 +317,22 @@ static bool same_point(sunder_point p, sunder_point q)
     return p.x == q.x && p.y == q.y;
 }
 
-/* +1 counter-clockwise, -1 clockwise, 0 where the smallest vertex is a spike or all is one point. The smallest vertex
- * lies on the hull, so the turn there is the turn of the ring, if the ring is simple. n vertices, the closing one left
- * out. */
+/* +1 counter-clockwise, -1 clockwise, 0 where the lowest vertex is a spike or all is one point. The lowest vertex (of
+ * several the rightmost) lies on the hull, so the turn there is the turn of the ring, if the ring is simple; of a ring
+ * that crosses itself it is what GDAL's reader of Shapefiles takes for it. n vertices, the closing one left out. */
 static int ring_turn(OGRGeometryH ring, int n)
 {
-    int smallest = 0;
+    int lowest = 0;
     for (int i = 1; i < n; i++) {
-        sunder_point p = point_at(ring, i), q = point_at(ring, smallest);
-        if (p.x < q.x || (p.x == q.x && p.y < q.y))
-            smallest = i;
+        sunder_point p = point_at(ring, i), q = point_at(ring, lowest);
+        if (p.y < q.y || (p.y == q.y && p.x > q.x))
+            lowest = i;
     }
-    sunder_point at = point_at(ring, smallest), before = at, after = at;
+    sunder_point at = point_at(ring, lowest), before = at, after = at;
     for (int i = 1; i < n && same_point(before, at); i++) /* repeated vertices are no neighbours */
-        before = point_at(ring, (smallest + n - i) % n);
+        before = point_at(ring, (lowest + n - i) % n);
     for (int i = 1; i < n && same_point(after, at); i++)
-        after = point_at(ring, (smallest + i) % n);
+        after = point_at(ring, (lowest + i) % n);
     return sunder_orient(&before, &at, &after);
 }
 

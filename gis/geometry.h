@@ -50,7 +50,7 @@ bool gis_geometry_is_finite(OGRGeometryH geometry);
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error);
 
 /* Turns the rings of all polygons (not curved ones) so that outer rings run clockwise and holes counter-clockwise, as
- * Shapefiles want them; the direction is taken at the lexicographically smallest vertex, exactly. Z and M go along. */
+ * Shapefiles want them; the direction is taken at the lowest vertex, exactly. Z and M go along. */
 bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error);
 
 /* New geometries for layers that the program makes; the caller owns them (gis_sink_write takes them over). NULL if

@@ -253,8 +253,9 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     if (layer->promote)
         layer->type = OGR_GT_SetModifier(wkbMultiPolygon, OGR_GT_HasZ(layer->type), OGR_GT_HasM(layer->type));
     /* shapelib, asked to turn the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it comes
-     * back filled): so with Z the rings are turned here, and shapelib is told to keep them. */
-    layer->wind = sink->format.shapefile && OGR_GT_HasZ(layer->type);
+     * back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
+     * holes: they are turned before, and shapelib is told to keep them. */
+    layer->wind = sink->format.shapefile;
     if (layer->wind && !CPLGetConfigOption("SHAPE_REWIND_ON_WRITE", NULL)) {
         CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");
         sink->set_rewind = true;
