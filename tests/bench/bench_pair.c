@@ -1,5 +1,5 @@
-/* bench_pair FILE COUNT: microseconds a pair for the least translation of Q off P, from doubles in memory, for the first COUNT pairs
- * of a file with P and Q on alternating lines (0: all). Prints pairs, microseconds (median of three passes), and the sum of the
+/* bench_pair FILE [COUNT [reflect]]: microseconds a pair for the least translation of Q off P, from doubles in memory, for the
+ * first COUNT pairs of a file with P and Q on alternating lines (0: all), or with P and -Q (reflect). Prints pairs, microseconds (median of three passes), and the sum of the
  * lengths, by which two programs can be compared. */
 #include "sunder.h"
 #include "wkt_input.h"
@@ -29,12 +29,13 @@ int main(int argc, char **argv)
 {
     FILE *f = argc > 1 ? fopen(argv[1], "r") : NULL;
     const size_t most = argc > 2 ? strtoul(argv[2], NULL, 10) : 0;
+    const int reflect = argc > 3 && strcmp(argv[3], "reflect") == 0;
     bench_set *set = NULL;
     size_t n = 0;
     double t[3], total = 0;
     sunder_error err = {0};
     if (!f) {
-        fprintf(stderr, "usage: bench_pair FILE [COUNT]\n");
+        fprintf(stderr, "usage: bench_pair FILE [COUNT [reflect]]\n");
         return 2;
     }
     for (char *line; (!most || n < 2 * most) && (line = bench_line(f)); free(line)) {
@@ -43,6 +44,8 @@ int main(int argc, char **argv)
             fprintf(stderr, "bench_pair: line %zu cannot be read\n", n);
             return 1;
         }
+        if (reflect && n % 2 == 0)
+            for (size_t i = 0; i < 2 * set[n - 1].vertices; i++) set[n - 1].xy[i] = -set[n - 1].xy[i];
     }
     fclose(f);
     for (int k = 0; k < 3; k++) {

@@ -1,6 +1,6 @@
-// cgal_pair FILE COUNT: microseconds a pair for the least translation of Q off P by CGAL with exact constructions: reduced
+// cgal_pair FILE [COUNT [reflect]]: microseconds a pair for the least translation of Q off P by CGAL with exact constructions: reduced
 // convolution of P and -Q, both already built, then the boundary point nearest to the origin, exactly. The first COUNT pairs of a file with
-// P and Q on alternating lines (0: all). Prints pairs, microseconds (median of three passes), the sum of the lengths, and
+// P and Q on alternating lines (0: all), or with P and -Q (reflect). Prints pairs, microseconds (median of three passes), the sum of the lengths, and
 // how many pairs CGAL could not do. Degenerate holes are lost on the way: where they matter the lengths are too large.
 #include "wkt_input.h"
 
@@ -73,11 +73,12 @@ int main(int argc, char **argv)
         std::fprintf(stderr, "usage: cgal_pair FILE [COUNT]\n");
         return 2;
     }
+    const double sign = argc > 3 && std::strcmp(argv[3], "reflect") == 0 ? 1 : -1;
     std::vector<Holed> set;
     for (char *line; (!most || set.size() < 2 * most) && (line = bench_line(f)); std::free(line)) {
         bench_set s;
         if (!bench_set_read(&s, line)) return 1;
-        set.push_back(build(s, set.size() % 2 ? -1 : 1));
+        set.push_back(build(s, set.size() % 2 ? sign : 1));
         bench_set_free(&s);
     }
     std::fclose(f);

@@ -96,18 +96,23 @@ sums() {
   done
 }
 
+# The second lines of pairs_fit hold the mover turned by half a turn: reflected, the pieces overlap their plates, and the exact fits
+# are the nearest places for many of them. As the file stands nothing overlaps; both are measured.
 pairs() {
-  local name line ours theirs
+  local row name turn line ours theirs
   printf '\nLeast separating translations, microseconds a pair (%s pairs; all: every pair of the file, Sunder alone)\n' "$count"
   printf '%-18s %10s %10s %10s %7s  %s\n' input all sunder cgal ratio 'sum of lengths: sunder, cgal (pairs it could not do)'
-  for name in pairs_buildings pairs_fit; do
+  for row in 'pairs_buildings as-is' 'pairs_fit reflect' 'pairs_fit as-is'; do
+    read -r name turn <<<"$row"
     if [[ ! -r $input/$name.txt.gz ]]; then echo "$name: no $input/$name.txt.gz"; continue; fi
     gzip -dc "$input/$name.txt.gz" >"$scratch/$name.txt"
-    line=$("$build/bench_pair" "$scratch/$name.txt" 0)
-    read -r -a ours <<<"$("$build/bench_pair" "$scratch/$name.txt" "$count")"
+    line=$("$build/bench_pair" "$scratch/$name.txt" 0 "$turn")
+    read -r -a ours <<<"$("$build/bench_pair" "$scratch/$name.txt" "$count" "$turn")"
+    if [[ $turn == reflect ]]; then name+=' (P, -Q)'; fi
     printf '%-18s %10.2f %10.2f' "$name" "$(cut -d' ' -f2 <<<"$line")" "${ours[1]}"
     if [[ -x $build/cgal_pair ]]; then
-      if read -r -a theirs <<<"$(timeout 600 "$build/cgal_pair" "$scratch/$name.txt" "$count" 2>/dev/null)" && [[ ${#theirs[@]} -eq 4 ]]; then
+      if read -r -a theirs <<<"$(timeout 600 "$build/cgal_pair" "$scratch/${name%% *}.txt" "$count" "$turn" 2>/dev/null)" &&
+         [[ ${#theirs[@]} -eq 4 ]]; then
         printf ' %10.2f %7.1f  %s, %s (%s)' "${theirs[1]}" "$(awk -v a="${theirs[1]}" -v b="${ours[1]}" 'BEGIN { print a / b }')" \
           "${ours[2]}" "${theirs[2]}" "${theirs[3]}"
       else
@@ -118,6 +123,12 @@ pairs() {
   done
 }
 
+for program in bench_sum bench_pair; do
+  if [[ ! -x $build/$program ]]; then
+    echo "run.sh: no $build/$program; build the target bench, or set SUNDER_BUILD" >&2
+    exit 1
+  fi
+done
 header
 if [[ ! -d $input ]]; then
   echo "no $input: nothing to measure (SUNDER_BENCH_INPUT names another folder)"
