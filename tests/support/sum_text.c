@@ -163,8 +163,14 @@ static void read_rational(mpq_t r, const json *text)
     mpq_canonicalize(r);
 }
 
+/* Times factor * 2^scale, plus (by[0], by[1]). */
+typedef struct motion {
+    long factor, scale;
+    double by[2];
+} motion;
+
 /* Copies a text; strings are coordinates, the axis told by their place in a pair. */
-static void put_moved(FILE *f, const json *v, long scale, const double by[2], int axis)
+static void put_moved(FILE *f, const json *v, const motion *m, int axis)
 {
     mpq_t r, d;
     switch (v->kind) {
@@ -172,7 +178,7 @@ static void put_moved(FILE *f, const json *v, long scale, const double by[2], in
         fputc('{', f);
         for (size_t i = 0; i < v->n; i++) {
             fprintf(f, "%s\"%s\": ", i ? ", " : "", v->item[i].name);
-            put_moved(f, &v->item[i], scale, by, 0);
+            put_moved(f, &v->item[i], m, 0);
         }
         fputc('}', f);
         break;
@@ -180,34 +186,47 @@ static void put_moved(FILE *f, const json *v, long scale, const double by[2], in
         fputc('[', f);
         for (size_t i = 0; i < v->n; i++) {
             if (i) fputs(", ", f);
-            put_moved(f, &v->item[i], scale, by, (int)(i & 1));
+            put_moved(f, &v->item[i], m, (int)(i & 1));
         }
         fputc(']', f);
         break;
     default:
         mpq_inits(r, d, NULL);
         read_rational(r, v);
-        if (scale >= 0) mpq_mul_2exp(r, r, (mp_bitcnt_t)scale);
-        else mpq_div_2exp(r, r, (mp_bitcnt_t)-scale);
-        mpq_set_d(d, by[axis]);
+        if (m->scale >= 0) mpq_mul_2exp(r, r, (mp_bitcnt_t)m->scale);
+        else mpq_div_2exp(r, r, (mp_bitcnt_t)-m->scale);
+        mpq_set_si(d, m->factor, 1);
+        mpq_mul(r, r, d);
+        mpq_set_d(d, m->by[axis]);
         mpq_add(r, r, d);
         put_rational(f, r);
         mpq_clears(r, d, NULL);
     }
 }
 
-char *sum_text_moved(const char *text, long scale, double dx, double dy)
+static char *moved(const char *text, const motion *m)
 {
     json *v = json_read(text);
-    const double by[2] = {dx, dy};
-    char *moved = NULL;
+    char *out = NULL;
     size_t size;
-    FILE *f = open_memstream(&moved, &size);
+    FILE *f = open_memstream(&out, &size);
     if (!f || !v) abort();
-    put_moved(f, v, scale, by, 0);
+    put_moved(f, v, m, 0);
     fclose(f);
     json_free(v);
-    return moved;
+    return out;
+}
+
+char *sum_text_moved(const char *text, long scale, double dx, double dy)
+{
+    const motion m = {1, scale, {dx, dy}};
+    return moved(text, &m);
+}
+
+char *sum_text_times(const char *text, long k)
+{
+    const motion m = {k, 0, {0, 0}};
+    return moved(text, &m);
 }
 
 /* ---- Hulls: Andrew's monotone chain in rationals ---- */

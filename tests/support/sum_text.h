@@ -14,6 +14,9 @@ char *library_sum_text(const polyset *p, const polyset *q);
 /* Every coordinate of a canonical text times 2^scale, plus (dx, dy), in rationals. */
 char *sum_text_moved(const char *text, long scale, double dx, double dy);
 
+/* Every coordinate times an integer k > 0. */
+char *sum_text_times(const char *text, long k);
+
 /* Is the point, given by rational texts, covered: inside a polygon of the canonical text and on no degenerate segment or point? */
 bool sum_text_covers(const char *text, const char *x, const char *y);
 
