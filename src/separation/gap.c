@@ -21,7 +21,15 @@ static bool find_centers(sunder_i_gap_problem *p)
             key[n++] = (uint64_t)u << 32 | v;
         }
     }
-    if (!sunder_i_sort_keys(key, n)) return false;
+    if (n <= 64) {
+        for (size_t i = 1; i < n; i++) {
+            const uint64_t v = key[i];
+            size_t k = i;
+            for (; k > 0 && key[k - 1] > v; k--) key[k] = key[k - 1];
+            key[k] = v;
+        }
+    } else if (!sunder_i_sort_keys(key, n))
+        return false;
     sunder_i_point *center = sunder_i_arena_alloc(arena, n + 1, sizeof *center);
     if (!center) return false;
     for (size_t i = 0; i < n; i++) {
@@ -55,11 +63,14 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
             *memory = false;
             return false;
         }
-        /* In doubles first: on the far side of a side's line by more than the gap. */
-        bool far = false;
-        for (uint32_t i = 0; i < s->sides && !far; i++)
-            far = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i] < -s->bound[i] - r * hypot(s->sx[i], s->sy[i]) * (1 + 0x1p-50);
-        if (!far && sunder_i_gap_cmp(p, s, &origin) < 0) return false;
+        /* In doubles first: inside; or on the far side of a side's line by more than the gap. */
+        bool far = false, inside = true;
+        for (uint32_t i = 0; i < s->sides && !far; i++) {
+            const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
+            far = turn < -s->bound[i] - r * (1 + 0x1p-40) * sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
+            inside = inside && turn > s->bound[i];
+        }
+        if (inside || (!far && sunder_i_gap_cmp(p, s, &origin) < 0)) return false;
     }
     return true;
 }

@@ -58,6 +58,10 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curv
                         sunder_i_rational *out);
 /* Is the distance of the point from the (closed) subsum below, equal to or above the gap? -1, 0, 1. Exact. */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_rational *at);
+/* The same for side k alone, from its first corner (included) to its second (not): the gap is kept from the subsum if it is from
+ * all of its sides and the point is outside of one (*outside, if not NULL: or on its line). */
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
+                          const sunder_i_rational *at, bool *outside);
 /* Order of the distances of two points from the origin, then lexicographic. *tie: the distances are equal. */
 int sunder_i_rational_cmp(sunder_i_pairing *pairing, const sunder_i_rational *a, const sunder_i_rational *b);
 /* The same place, nearly, in units. */

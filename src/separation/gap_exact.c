@@ -169,24 +169,29 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *
     return finish(out, sub(p, mul(p, m.c, n.n.y), mul(p, n.c, m.n.y)), sub(p, mul(p, n.c, m.n.x), mul(p, m.c, n.n.x)), w);
 }
 
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k,
+                          const sunder_i_rational *at, bool *outside)
+{
+    const sunder_i_big gw = mul(p, gap_of(p), at->w), limit = mul(p, gw, gw);
+    const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
+    const vec v = {sub(p, at->x, mul(p, c.x, at->w)), sub(p, at->y, mul(p, c.y, at->w))};
+    const sunder_i_big turn = cross(p, d, v), along = dot(p, d, v), square = dot(p, d, d);
+    if (outside) *outside = sunder_i_big_sign(turn) <= 0;
+    /* The corner, or the inside of the side where the foot falls there. The other end is the next side's corner. */
+    if (sunder_i_big_sign(along) > 0 && sunder_i_big_cmp(along, mul(p, square, at->w)) < 0)
+        return sunder_i_big_cmp(mul(p, turn, turn), mul(p, limit, square));
+    return sunder_i_big_cmp(dot(p, v, v), limit);
+}
+
 int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_rational *at)
 {
-    const sunder_i_big g = gap_of(p), gw = mul(p, g, at->w), limit = mul(p, gw, gw);
     bool inside = true;
     int least = 1;
     for (uint32_t k = 0; k < s->sides && least >= 0; k++) {
-        const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
-        const vec v = {sub(p, at->x, mul(p, c.x, at->w)), sub(p, at->y, mul(p, c.y, at->w))};
-        const sunder_i_big turn = cross(p, d, v);
-        if (sunder_i_big_sign(turn) <= 0) inside = false;
-        /* The corner, and the inside of the side where the foot falls there. */
-        int order = sunder_i_big_cmp(dot(p, v, v), limit);
+        bool outside;
+        const int order = sunder_i_gap_cmp_side(p, s, k, at, &outside);
         if (order < least) least = order;
-        const sunder_i_big along = dot(p, d, v), square = dot(p, d, d);
-        if (sunder_i_big_sign(along) > 0 && sunder_i_big_cmp(along, mul(p, square, at->w)) < 0) {
-            order = sunder_i_big_cmp(mul(p, turn, turn), mul(p, limit, square));
-            if (order < least) least = order;
-        }
+        inside = inside && !outside;
     }
     return inside ? -1 : least;
 }
