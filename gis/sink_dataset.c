@@ -181,6 +181,8 @@ static bool begin_transaction(gis_sink *sink, gis_error *error)
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
+    if (sink->stage && !gis_stage_make(sink->stage, error))
+        return false;
     if (layer->file) {
         supersede_existing(sink, layer->file);
         return create(sink, layer->file, &layer->dataset, error);

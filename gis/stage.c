@@ -45,18 +45,32 @@ bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error)
         CPLFree(stage->directory);
         stage->directory = CPLStrdup(path[0] == '/' ? "/" : ".");
     }
-    char *inside = join(stage->directory, ".sunder-XXXXXX");
-    if (mkdtemp(inside)) {
-        stage->inside = inside;
+    CPLFree(path);
+    bool done = gis_stage_make(stage, error);
+    if (done) {
+        rmdir(stage->inside);
+        CPLFree(stage->inside);
+        stage->inside = NULL;
         *out = stage;
     } else {
-        gis_fail(error, "%s: cannot write in %s: %s", final_path, stage->directory, strerror(errno));
-        CPLFree(inside);
         gis_stage_free(stage);
-        stage = NULL;
     }
-    CPLFree(path);
-    return stage != NULL;
+    return done;
+}
+
+bool gis_stage_make(gis_stage *stage, gis_error *error)
+{
+    if (stage->inside)
+        return true;
+    char *inside = join(stage->directory, ".sunder-XXXXXX");
+    if (!mkdtemp(inside)) {
+        gis_fail(error, "%s/%s: cannot write in %s: %s", stage->directory, stage->main, stage->directory,
+                 strerror(errno));
+        CPLFree(inside);
+        return false;
+    }
+    stage->inside = inside;
+    return true;
 }
 
 void gis_stage_free(gis_stage *stage)

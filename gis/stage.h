@@ -11,8 +11,10 @@
 typedef struct gis_stage gis_stage;
 
 /* A stage for files beside final_path (a symbolic link there is followed). Fails if the directory is missing or not
- * writable. */
+ * writable, which is tried; the stage itself is not there yet, so that a run that is killed at its work leaves none. */
 bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error);
+/* Makes it, if it is not there; before anything is put in. */
+bool gis_stage_make(gis_stage *stage, gis_error *error);
 void gis_stage_free(gis_stage *stage);
 
 /* The place where a file of this base name is made, and where it will be; freed with CPLFree(). */
