@@ -1,8 +1,9 @@
 /* The arrangement of the edges of a polygon, as arcs between its points.
  *
- * Where two edges meet is found by all candidate pairs of the tree of boxes; the points (vertices and crossings) are sorted
- * exactly and numbered lexicographically, equal ones the same, and from then on the order along an edge is the order of numbers.
- * Coincident arcs cancel in pairs: a place is inside by the even-odd rule as often as arcs are crossed on the way to it. */
+ * Where two edges meet is found by all candidate pairs of the tree of boxes; the points (vertices and crossings) are
+ * sorted exactly and numbered lexicographically, equal ones the same, and from then on the order along an edge is the
+ * order of numbers. Coincident arcs cancel in pairs: a place is inside by the even-odd rule as often as arcs are
+ * crossed on the way to it. */
 #include "shape/even_odd.h"
 
 #include "number/sort.h"
@@ -154,7 +155,8 @@ static sunder_i_arc *cut_edges(finder *f, sunder_i_arena *arena, const uint32_t 
 }
 
 /* Keeps one arc of each odd number of coincident ones, in their final order. */
-static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunder_i_arc *arc, size_t n, sunder_i_arcs *out)
+static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunder_i_arc *arc, size_t n,
+                     sunder_i_arcs *out)
 {
     uint32_t *order = sunder_i_arena_alloc(arena, n, sizeof *order);
     out->arc = sunder_i_arena_alloc(arena, n, sizeof *out->arc);

@@ -1,10 +1,11 @@
 /* Candidate pairs of edges by a tree of boxes over the edges in ring order.
  *
- * The tree is the perfect binary tree over blocks of SUNDER_I_LEAF_EDGES consecutive edges; a node's box is the union of its
- * children's. It is joined with itself from the top. Consecutive edges are near each other, so on coasts, outlines and combs
- * the boxes of distant nodes rarely meet, and nothing needs sorting; many small rings come in any order, so they are
- * first sorted along a space-filling curve. That order, like all of this, decides what is looked at first and nothing else: boxes
- * are closed and their coordinates monotone images of the exact ones, so edges that meet are always candidates. */
+ * The tree is the perfect binary tree over blocks of SUNDER_I_LEAF_EDGES consecutive edges; a node's box is the union
+ * of its children's. It is joined with itself from the top. Consecutive edges are near each other, so on coasts,
+ * outlines and combs the boxes of distant nodes rarely meet, and nothing needs sorting; many small rings come in any
+ * order, so they are first sorted along a space-filling curve. That order, like all of this, decides what is looked at
+ * first and nothing else: boxes are closed and their coordinates monotone images of the exact ones, so edges that meet
+ * are always candidates. */
 #include "shape/build.h"
 
 #include <math.h>
@@ -27,7 +28,10 @@ static void sort_rings(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_
         for (uint32_t e = first[list[k]]; e < r->ring_end[ring_lo + list[k]]; e++) tree->edge[n++] = e;
 }
 
-static uint32_t edge_at(const sunder_i_box_tree *tree, uint32_t i) { return tree->edge ? tree->edge[i] : tree->first + i; }
+static uint32_t edge_at(const sunder_i_box_tree *tree, uint32_t i)
+{
+    return tree->edge ? tree->edge[i] : tree->first + i;
+}
 
 static void include(double box[4], const double *at)
 {
@@ -126,7 +130,8 @@ bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings
     return true;
 }
 
-void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit, void *user)
+void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit,
+                             void *user)
 {
     uint32_t stack[64];
     int n = 0;

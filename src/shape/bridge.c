@@ -1,10 +1,12 @@
 /* Holes joined to the outer ring by bridges, so that a polygon becomes one closed walk.
  *
  *        f                  h is the lexicographically smallest corner of a hole, e and f the edges of the polygon
- *    ---------------        just below and above it. Of the corners between them, left of h, and the left ends of e and f,
+ *    ---------------        just below and above it. Of the corners between them, left of h, and the left ends of e and
+ * f,
  *       u .   /\            the lexicographically greatest, u, is joined to h: nothing can stand between them, for it
  *           ' h \           would have a corner that is greater. These are the diagonals that a sweep puts in at split
- *    --------\__/---        vertices [BKOS08, section 3.2]: each lies in one trapezoid of the vertical decomposition, so
+ *    --------\__/---        vertices [BKOS08, section 3.2]: each lies in one trapezoid of the vertical decomposition,
+ * so
  *        e                  no two of them cross, and u < h makes them a tree rooted at the outer ring.
  *
  * All bridges are found from the edges of the rings alone and then put in one by one. At the places of u and h several
@@ -110,7 +112,8 @@ static void look(view *w, sunder_i_edge_visitor see, const sunder_i_box_tree *tr
 }
 
 /* The corner to join h to, among the vertices lo .. hi of the polygon. NONE only where memory is out. */
-static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi, uint32_t h)
+static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi,
+                             uint32_t h)
 {
     const double x = r->xy[2 * (size_t)h];
     view w = {r, h, SUNDER_I_NONE, {SUNDER_I_NONE, 0}, {SUNDER_I_NONE, 0}, {x, -INFINITY, x, INFINITY}};
@@ -128,8 +131,8 @@ static bool faces(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t n
     return sunder_i_in_wedge(r, walk->vertex[node], walk->vertex[walk->next[node]], walk->vertex[walk->prev[node]], d);
 }
 
-/* The node at the place of vertex v whose sector the direction to vertex d runs through. Nearly always it is the vertex's own
- * first node; else another at the place. lo: the vertex of node 0. */
+/* The node at the place of vertex v whose sector the direction to vertex d runs through. Nearly always it is the
+ * vertex's own first node; else another at the place. lo: the vertex of node 0. */
 static uint32_t facing_node(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t lo, uint32_t v, uint32_t d)
 {
     if (faces(r, walk, v - lo, d)) return v - lo;

@@ -18,8 +18,8 @@
 
 /* Rings on a lattice. Vertex numbers run along the rings in order.
  *
- * xy holds the coordinates as doubles: exact ones, or (rounded) the nearest doubles of rationals. Rounding is monotone, so
- * xy[i] < xy[j] always decides the order; equality decides it only where nothing was rounded. */
+ * xy holds the coordinates as doubles: exact ones, or (rounded) the nearest doubles of rationals. Rounding is monotone,
+ * so xy[i] < xy[j] always decides the order; equality decides it only where nothing was rounded. */
 typedef struct sunder_i_rings {
     sunder_i_lattice *lattice;
     uint32_t vertices, rings, polygons;
@@ -62,8 +62,8 @@ static inline int sunder_i_rings_orient(const sunder_i_rings *r, uint32_t a, uin
     return sunder_i_orient(r->lattice, r->at[a], r->at[b], r->at[c]);
 }
 
-/* Does the direction from p to d point into the open wedge that opens counter-clockwise from p->u to p->w? Directions that
- * agree with u or w are not inside. u and w may agree: the wedge is then all the rest of the circle. */
+/* Does the direction from p to d point into the open wedge that opens counter-clockwise from p->u to p->w? Directions
+ * that agree with u or w are not inside. u and w may agree: the wedge is then all the rest of the circle. */
 bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w, uint32_t d);
 
 /* ---- clean.c ---- */
@@ -86,14 +86,15 @@ typedef struct sunder_i_problem {
     uint32_t vertex, other;
 } sunder_i_problem;
 
-/* Corners of the raw ring lo..hi into keep (room for hi - lo): neither repeated nor collinear vertices. Returns how many;
- * fewer than three or a spike is reported in problem. */
+/* Corners of the raw ring lo..hi into keep (room for hi - lo): neither repeated nor collinear vertices. Returns how
+ * many; fewer than three or a spike is reported in problem. */
 uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
                              uint32_t hi, uint32_t *keep, sunder_i_problem *problem);
 
 /* ---- curve.c, box_tree.c ---- */
 
-/* Sorts a list of n numbers along a space-filling curve; number i stands at vertex[i]. The arena says if memory is out. */
+/* Sorts a list of n numbers along a space-filling curve; number i stands at vertex[i]. The arena says if memory is
+ * out. */
 void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *list, size_t n, sunder_i_arena *arena);
 
 /* A binary tree of boxes over edges in the order of the rings (rings that are many are first put in order along a
@@ -116,18 +117,19 @@ typedef bool (*sunder_i_pair_visitor)(void *user, uint32_t e, uint32_t f);
 bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
                              void *user);
 
-/* Calls visit for the edges whose boxes may meet a closed box (x0 y0 x1 y1), and some others. The visitor may shrink the box on
- * the way: what no longer meets it is left out. */
+/* Calls visit for the edges whose boxes may meet a closed box (x0 y0 x1 y1), and some others. The visitor may shrink
+ * the box on the way: what no longer meets it is left out. */
 typedef void (*sunder_i_edge_visitor)(void *user, uint32_t e);
-void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit, void *user);
+void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit,
+                             void *user);
 
 /* Fewer edges than this are looked at one by one; from here on a tree pays. */
 #define SUNDER_I_TREE_FROM 40
 
 /* ---- contact.c, nesting.c ---- */
 
-/* Do the rings ring_lo .. ring_hi (one polygon) cross or share a piece of edge? *touches: some meet in points, and so may
- * need the arrangement to be told apart. tree may be NULL for few edges. */
+/* Do the rings ring_lo .. ring_hi (one polygon) cross or share a piece of edge? *touches: some meet in points, and so
+ * may need the arrangement to be told apart. tree may be NULL for few edges. */
 void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
                            sunder_i_problem *problem, bool *touches);
 
@@ -163,7 +165,8 @@ typedef struct sunder_i_walk {
 
 #define SUNDER_I_BRIDGE 0x80000000u
 
-/* Joins the holes ring_lo + 1 .. ring_hi of one polygon, already linked cycles in walk, to its outer ring by bridges. */
+/* Joins the holes ring_lo + 1 .. ring_hi of one polygon, already linked cycles in walk, to its outer ring by
+ * bridges. */
 void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_walk *walk,
                            sunder_i_arena *arena);
 /* Removes diagonals while the pieces stay strictly convex. */

@@ -1,5 +1,5 @@
-/* sunder_i_shape_check(): every invariant of shape.h, from the definitions and by looking at all pairs. Slow on purpose: it
- * shares the predicates with the code that it checks, and nothing else. */
+/* sunder_i_shape_check(): every invariant of shape.h, from the definitions and by looking at all pairs. Slow on
+ * purpose: it shares the predicates with the code that it checks, and nothing else. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -212,7 +212,8 @@ static const char *check_areas(checker *c)
 static const char *check_numbers(checker *c)
 {
     const sunder_shape *s = c->s;
-    if (s->rational && (sunder_i_big_sign(s->den) <= 0 || sunder_i_big_twos(s->den) != 0)) return "the denominator is not odd";
+    if (s->rational && (sunder_i_big_sign(s->den) <= 0 || sunder_i_big_twos(s->den) != 0))
+        return "the denominator is not odd";
     for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) {
         if (s->rational && sunder_i_big_ratio(&c->arena, s->num[i], s->den, s->exponent) != s->xy[i])
             return "a coordinate is not the nearest double";

@@ -1,10 +1,10 @@
 /* Where the rings of one polygon meet each other and themselves.
  *
- * Two edges that follow each other meet in their common corner and nowhere else (clean.c has seen to spikes). Any others
- * may be apart, cross (an error), share a piece (an error), or touch: an end of one on the other. A touch is fine if the
- * two passages through the point stay on their sides of each other, and an error if they change sides; that is decided
- * locally, from the four directions at the point. Each touch is looked at where the tail of one edge takes part in it, so
- * that all are seen and few are seen twice. */
+ * Two edges that follow each other meet in their common corner and nowhere else (clean.c has seen to spikes). Any
+ * others may be apart, cross (an error), share a piece (an error), or touch: an end of one on the other. A touch is
+ * fine if the two passages through the point stay on their sides of each other, and an error if they change sides; that
+ * is decided locally, from the four directions at the point. Each touch is looked at where the tail of one edge takes
+ * part in it, so that all are seen and few are seen twice. */
 #include "shape/build.h"
 
 bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w, uint32_t d)

@@ -1,5 +1,5 @@
-/* Order along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees over it have small
- * boxes. Only speed depends on it; doubles are good enough. */
+/* Order along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees over it
+ * have small boxes. Only speed depends on it; doubles are good enough. */
 #include "shape/build.h"
 
 #include "number/sort.h"

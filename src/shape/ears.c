@@ -1,23 +1,24 @@
 /* Ears cut off a closed walk until nothing is left.
  *
  * What makes the ear test exact on rings that touch. Each vertex of the cleaned form stands for one sector of the
- * interior; several may stand at one place, their sectors disjoint. A vertex touches the inside of an edge only if it is
- * an end of it. Then a corner b between a and c is an ear exactly when a, b, c turn left and no corner that is not
+ * interior; several may stand at one place, their sectors disjoint. A vertex touches the inside of an edge only if it
+ * is an end of it. Then a corner b between a and c is an ear exactly when a, b, c turn left and no corner that is not
  * strictly convex lies in the open triangle or inside the side ca:
  *   - a boundary edge that reaches into the open triangle has an end there, since it cannot cross ab or bc, and of the
  *     corners in the triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex;
- *   - other corners at the places of a, b, c have sectors of their own, so an edge of theirs that enters the triangle is of
- *     that kind, and the corners themselves need no look;
+ *   - other corners at the places of a, b, c have sectors of their own, so an edge of theirs that enters the triangle
+ *     is of that kind, and the corners themselves need no look;
  *   - a corner inside ca would touch the new edge from inside, so it forbids the cut; if its sector does not face the
  *     triangle, the triangle is not interior there and another corner forbids it;
  *   - corners on ab or bc touch from outside and do not matter.
- * Cutting keeps all this true of what remains, and a polygon with more than three corners has an ear [Mei75]. Corners may
- * become straight; they are no ears, but block others, until they become convex.
+ * Cutting keeps all this true of what remains, and a polygon with more than three corners has an ear [Mei75]. Corners
+ * may become straight; they are no ears, but block others, until they become convex.
  *
- * Convex corners take turns in rounds; in one round no two neighbours are cut, so that triangles do not fan out from one
- * vertex. Corners that are not convex cost nothing until they become so, and never come back. While they last they stand in a
- * list, or for many in a tree of boxes, built anew whenever half of them have gone; a triangle is
- * compared with boxes by its own box and by the lines of its sides, so that long thin triangles find their few candidates too. */
+ * Convex corners take turns in rounds; in one round no two neighbours are cut, so that triangles do not fan out from
+ * one vertex. Corners that are not convex cost nothing until they become so, and never come back. While they last they
+ * stand in a list, or for many in a tree of boxes, built anew whenever half of them have gone; a triangle is
+ * compared with boxes by its own box and by the lines of its sides, so that long thin triangles find their few
+ * candidates too. */
 #include "shape/ears.h"
 
 #include <float.h>
@@ -94,8 +95,9 @@ static bool blocks(const cutter *c, const triangle *t, uint32_t node)
     return turn(c, t->c, t->a, node) >= 0;
 }
 
-/* Is a box certainly on the right of the line p -> q? Its corner that is farthest to the left decides. The determinant of doubles is
- * wrong by at most (3 + 16 e) e of its two products, e = 2^-53 [She96]; DBL_MIN stands in for what underflows. */
+/* Is a box certainly on the right of the line p -> q? Its corner that is farthest to the left decides. The determinant
+ * of doubles is wrong by at most (3 + 16 e) e of its two products, e = 2^-53 [She96]; DBL_MIN stands in for what
+ * underflows. */
 static bool right_of(const double box[4], const double *p, const double *q)
 {
     const double dx = q[0] - p[0], dy = q[1] - p[1];

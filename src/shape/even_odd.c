@@ -1,17 +1,18 @@
 /* The even-odd set of a polygon's rings.
  *
- * arcs.c turns the edges into arcs that meet in their ends only, each with odd multiplicity: so exactly one side of each is
- * inside. A sweep over the points, lexicographically, keeps the arcs that it crosses in order from bottom to top; the
- * number below an arc tells its inner side. Arcs are then directed with the inside on the left. Around a point
+ * arcs.c turns the edges into arcs that meet in their ends only, each with odd multiplicity: so exactly one side of
+ * each is inside. A sweep over the points, lexicographically, keeps the arcs that it crosses in order from bottom to
+ * top; the number below an arc tells its inner side. Arcs are then directed with the inside on the left. Around a point
  * inside and outside alternate,
  *
- *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc clockwise goes
+ *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc clockwise
+ * goes
  *      o  \   i   /  o          out: the two bound one sector of the interior, and the boundary goes on from one to
  *           \   /               the other. So rings touch in points only, and a vertex stands for one sector.
  *             p
  *
- * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point; the ring is an outer one if
- * the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */
+ * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point; the ring
+ * is an outer one if the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */
 #include "shape/even_odd.h"
 
 #include <string.h>
@@ -108,8 +109,8 @@ typedef struct ring {
     uint32_t next_hole;
 } ring;
 
-/* Do two arcs that follow each other lie on one line? Then there is no corner between them: they do not run back along each
- * other, for no two arcs coincide. */
+/* Do two arcs that follow each other lie on one line? Then there is no corner between them: they do not run back along
+ * each other, for no two arcs coincide. */
 static bool is_straight(const sweep *s, uint32_t arc, uint32_t then)
 {
     const sunder_i_rings *r = s->r;

@@ -4,8 +4,8 @@
 
 #include "shape/build.h"
 
-/* The closure of the set, as polygons in the cleaned form of shape.h: one polygon for each component of the interior, its
- * outer ring first. */
+/* The closure of the set, as polygons in the cleaned form of shape.h: one polygon for each component of the interior,
+ * its outer ring first. */
 typedef struct sunder_i_even_odd {
     uint32_t points;       /* corners of the rings, one after the other */
     uint32_t *point;       /* a vertex of the rings given, or SUNDER_I_MADE + the number of a crossing point */
@@ -15,12 +15,12 @@ typedef struct sunder_i_even_odd {
     uint32_t makes;
 } sunder_i_even_odd;
 
-/* r holds the rings of one polygon, in any state but without repeated vertices in a row and of at least two vertices each.
- * Everything goes to the arena. False if memory is out. */
+/* r holds the rings of one polygon, in any state but without repeated vertices in a row and of at least two vertices
+ * each. Everything goes to the arena. False if memory is out. */
 bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out);
 
-/* The parts, in the order of work; see even_odd.c. An arc is a piece of edge between neighbouring points of the arrangement,
- * by point numbers lo < hi; points are numbered lexicographically. */
+/* The parts, in the order of work; see even_odd.c. An arc is a piece of edge between neighbouring points of the
+ * arrangement, by point numbers lo < hi; points are numbered lexicographically. */
 typedef struct sunder_i_arc {
     uint32_t lo, hi, parent; /* parent: the edge whose line it lies on */
 } sunder_i_arc;

@@ -11,8 +11,8 @@ static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
     return at;
 }
 
-static size_t lay_out(sunder_shape *s, unsigned char *block, size_t raw_vertices, size_t raw_rings, const sunder_shape *n,
-                      uint32_t corners)
+static size_t lay_out(sunder_shape *s, unsigned char *block, size_t raw_vertices, size_t raw_rings,
+                      const sunder_shape *n, uint32_t corners)
 {
     size_t used = (sizeof *s + 15) & ~(size_t)15;
     s->raw_xy = carve(block, &used, 2 * raw_vertices, sizeof *s->raw_xy);
@@ -37,7 +37,8 @@ static void copy(void *to, const void *from, size_t n, size_t size)
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    const size_t raw_rings = polygons ? poly_end[polygons - 1] : 0, raw_vertices = raw_rings ? ring_end[raw_rings - 1] : 0;
+    const size_t raw_rings = polygons ? poly_end[polygons - 1] : 0,
+                 raw_vertices = raw_rings ? ring_end[raw_rings - 1] : 0;
     sunder_shape head = {.raw_polygons = polygons, .vertices = r->vertices, .rings = r->rings, .polygons = r->polygons,
                          .pieces = pieces->pieces};
     const size_t bytes = lay_out(&head, NULL, raw_vertices, raw_rings, &head, pieces->corners);
@@ -70,7 +71,8 @@ void sunder_i_shape_measure(sunder_shape *s)
 
 static bool same_place(const sunder_shape *s, uint32_t i, uint32_t j)
 {
-    if (s->xy[2 * (size_t)i] != s->xy[2 * (size_t)j] || s->xy[2 * (size_t)i + 1] != s->xy[2 * (size_t)j + 1]) return false;
+    if (s->xy[2 * (size_t)i] != s->xy[2 * (size_t)j] || s->xy[2 * (size_t)i + 1] != s->xy[2 * (size_t)j + 1])
+        return false;
     if (!s->rational) return true;
     return sunder_i_big_cmp(s->num[2 * (size_t)i], s->num[2 * (size_t)j]) == 0 &&
            sunder_i_big_cmp(s->num[2 * (size_t)i + 1], s->num[2 * (size_t)j + 1]) == 0;

@@ -1,8 +1,8 @@
 /* sunder_shape_from_rings(): raw coordinates -> a shape. Rings are cleaned, turned, and checked exactly, polygon by
  * polygon; then come the convex pieces, and all of it moves into one block of memory.
  *
- * Most input is tiny and there is much of it, so the plain path allocates twice: one arena for the work, one block for the
- * shape. */
+ * Most input is tiny and there is much of it, so the plain path allocates twice: one arena for the work, one block for
+ * the shape. */
 #include "shape/from_rings.h"
 
 #include "shape/rational.h"
@@ -54,14 +54,14 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
         size_t polygon = 0;
         while (in->poly_end[polygon] <= p->vertex) polygon++;
         const size_t ring = p->vertex - (polygon ? in->poly_end[polygon - 1] : 0);
-        return sunder_i_fail_at(err, SUNDER_EINVALID, polygon, ring, SIZE_MAX, "polygon %zu, ring %zu: the ring is empty",
-                                polygon, ring);
+        return sunder_i_fail_at(err, SUNDER_EINVALID, polygon, ring, SIZE_MAX,
+                                "polygon %zu, ring %zu: the ring is empty", polygon, ring);
     }
     const sunder_i_place_name at = sunder_i_name_vertex(in, p->vertex);
     char place[160], rest[80] = "";
     const double *xy = in->xy + 2 * (size_t)p->vertex;
-    snprintf(place, sizeof place, "polygon %zu, ring %zu, vertex %zu (%.10g %.10g)", at.polygon, at.ring, at.vertex, xy[0],
-             xy[1]);
+    snprintf(place, sizeof place, "polygon %zu, ring %zu, vertex %zu (%.10g %.10g)", at.polygon, at.ring, at.vertex,
+             xy[0], xy[1]);
     if (p->other != SUNDER_I_NONE) {
         const sunder_i_place_name o = sunder_i_name_vertex(in, p->other);
         const bool ring_only = p->fault == SUNDER_I_OUTSIDE || p->fault == SUNDER_I_NESTED;
@@ -72,7 +72,8 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
         else
             snprintf(rest, sizeof rest, " segment %zu of ring %zu", o.vertex, o.ring);
     }
-    return sunder_i_fail_at(err, SUNDER_EINVALID, at.polygon, at.ring, at.vertex, "%s: %s%s", place, what[p->fault], rest);
+    return sunder_i_fail_at(err, SUNDER_EINVALID, at.polygon, at.ring, at.vertex, "%s: %s%s", place, what[p->fault],
+                            rest);
 }
 
 /* Counts that fit our 32-bit vertex numbers, with room for bridges and half-edges. */
@@ -82,7 +83,8 @@ static sunder_status read_input(sunder_i_input *in, sunder_error *err)
     in->vertices = rings ? in->ring_end[rings - 1] : 0;
     in->rings = rings;
     if (in->vertices > UINT32_MAX / 32 || rings > UINT32_MAX / 32)
-        return sunder_i_fail(err, SUNDER_ERANGE, "a shape of %zu vertices in %zu rings is too large", in->vertices, rings);
+        return sunder_i_fail(err, SUNDER_ERANGE, "a shape of %zu vertices in %zu rings is too large", in->vertices,
+                             rings);
     return finite_all(in, err) ? SUNDER_OK : SUNDER_EINVALID;
 }
 
@@ -118,8 +120,8 @@ static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const su
     return true;
 }
 
-/* Is the polygon of the last rings, from ring_lo on, as it should be? Crossings first, while the rings still run as they were
- * given, so that the tail of an edge names its segment; then they are turned. */
+/* Is the polygon of the last rings, from ring_lo on, as it should be? Crossings first, while the rings still run as
+ * they were given, so that the tail of an edge names its segment; then they are turned. */
 static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *arena, sunder_i_problem *problem,
                           bool *touches)
 {
@@ -202,7 +204,8 @@ static bool complete(builder *b, sunder_shape *s)
     s->repaired = b->repaired;
     if (b->made.rational) {
         const sunder_i_rationals *q = &b->rationals;
-        if (!sunder_i_shape_set_rational(s, q->num, q->den, q->exponent) || !sunder_i_shape_measure_rational(s)) return false;
+        if (!sunder_i_shape_set_rational(s, q->num, q->den, q->exponent) || !sunder_i_shape_measure_rational(s))
+            return false;
     } else {
         sunder_i_shape_measure(s);
     }

@@ -13,8 +13,8 @@ bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; 
 void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, shape->box, sizeof shape->box); }
 
 /* Twice the area of a closed walk on the lattice, exactly: sum of cross products taken from its first corner. */
-static sunder_i_big twice_area(sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at, const uint32_t *corner,
-                               uint32_t n)
+static sunder_i_big twice_area(sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at,
+                               const uint32_t *corner, uint32_t n)
 {
     sunder_i_big sum = {NULL, 0};
     for (uint32_t i = 1; i + 1 < n; i++) {
@@ -37,7 +37,8 @@ double sunder_shape_area(const sunder_shape *shape)
     sunder_i_arena_init(&arena);
     sunder_i_big sum = {NULL, 0};
     for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++])
-        sum = sunder_i_big_add(&arena, sum, twice_area(l, &arena, placed.p, shape->piece_vertex + at, shape->piece_end[i] - at));
+        sum = sunder_i_big_add(&arena, sum,
+                               twice_area(l, &arena, placed.p, shape->piece_vertex + at, shape->piece_end[i] - at));
     const sunder_i_big den = sunder_i_big_mul(&arena, l->denominator, l->denominator);
     const double area = sunder_i_big_ratio(&arena, sum, den, 2 * l->exponent - 1);
     sunder_i_arena_free(&arena);

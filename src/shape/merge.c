@@ -1,6 +1,7 @@
 /* Hertel and Mehlhorn's merging [HM83]: a diagonal goes if the pieces on its two sides together are convex at both its
  * ends. At most four times as many pieces are left as the best decomposition without added vertices has; on buildings
- * hardly more than it. Strictly convex: a straight corner is not accepted, since it may be needed as an end of edges. */
+ * hardly more than it. Strictly convex: a straight corner is not accepted, since it may be needed as an end of
+ * edges. */
 #include "shape/build.h"
 
 /* Would the corner at the origin of h be strictly convex without the edge h? g is its twin. */

@@ -1,5 +1,5 @@
-/* Reflected and translated copies. Both keep the cleaned form and the pieces where every coordinate stays exact: nothing is
- * validated or decomposed again. */
+/* Reflected and translated copies. Both keep the cleaned form and the pieces where every coordinate stays exact:
+ * nothing is validated or decomposed again. */
 #include "shape/build.h"
 
 #include "shape/rational.h"
@@ -12,8 +12,10 @@ static sunder_shape *copy_shape(const sunder_shape *s)
 {
     const sunder_i_rings r = {.vertices = s->vertices, .rings = s->rings, .polygons = s->polygons, .xy = s->xy,
                               .ring_end = s->ring_end, .poly_end = s->poly_end, .next = s->next, .prev = s->prev};
-    const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, s->piece_end, s->piece_vertex};
-    sunder_shape *c = sunder_i_shape_assemble(s->raw_xy, s->raw_ring_end, s->raw_poly_end, s->raw_polygons, &r, &pieces);
+    const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, s->piece_end,
+                                    s->piece_vertex};
+    sunder_shape *c =
+        sunder_i_shape_assemble(s->raw_xy, s->raw_ring_end, s->raw_poly_end, s->raw_polygons, &r, &pieces);
     if (!c) return NULL;
     if (s->vertices) memcpy(c->shared, s->shared, s->vertices * sizeof *s->shared);
     c->repaired = s->repaired;
@@ -112,12 +114,12 @@ static sunder_status move_rounded(const sunder_shape *shape, const double d[2], 
     for (size_t i = 0; i < 2 * n && !status; i++) {
         xy[i] = shape->raw_xy[i] + d[i & 1];
         if (!isfinite(xy[i]))
-            status = sunder_i_fail(err, SUNDER_ERANGE, "moved by (%.17g %.17g) the shape leaves the range of doubles", d[0],
-                                   d[1]);
+            status = sunder_i_fail(err, SUNDER_ERANGE, "moved by (%.17g %.17g) the shape leaves the range of doubles",
+                                   d[0], d[1]);
     }
     if (!status)
-        status = sunder_shape_from_rings(xy, shape->raw_ring_end, shape->raw_poly_end, shape->raw_polygons, SUNDER_EVEN_ODD,
-                                         out, err);
+        status = sunder_shape_from_rings(xy, shape->raw_ring_end, shape->raw_poly_end, shape->raw_polygons,
+                                         SUNDER_EVEN_ODD, out, err);
     sunder_i_free(xy);
     return status;
 }

@@ -1,10 +1,10 @@
 /* Orientation of rings, and whether the holes lie where holes may.
  *
- * The rings neither cross nor overlap, so each ring by itself has winding number 0 or +-1 everywhere. Take the lowest place of
- * a ring (of several the leftmost) and there the direction d that comes first counter-clockwise from the positive x axis.
- * The point q just left of d, infinitely near the place, is inside the ring. So the ring is counter-clockwise exactly
- * when d leaves the place; and with outer ring and holes turned the right way, the polygon is sound exactly when the
- * winding number of all rings together at q is 1 for the outer ring and 0 for each hole: it is
+ * The rings neither cross nor overlap, so each ring by itself has winding number 0 or +-1 everywhere. Take the lowest
+ * place of a ring (of several the leftmost) and there the direction d that comes first counter-clockwise from the
+ * positive x axis. The point q just left of d, infinitely near the place, is inside the ring. So the ring is
+ * counter-clockwise exactly when d leaves the place; and with outer ring and holes turned the right way, the polygon is
+ * sound exactly when the winding number of all rings together at q is 1 for the outer ring and 0 for each hole: it is
  * [q in the outer ring] - (holes that contain q), and a hole contains its own q.
  *
  * q is counted by a ray to the right at the height just above the place, which no vertex has; edges through the place
@@ -102,7 +102,8 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
 }
 
 /* Which rule is broken, for the message: by looking at the rings one by one. */
-static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, uint32_t ring, sunder_i_problem *problem)
+static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, uint32_t ring,
+                    sunder_i_problem *problem)
 {
     const uint32_t outer = ring_begin(r, ring_lo);
     for (uint32_t hole = ring == ring_lo ? ring_lo + 1 : ring; hole < ring_hi; hole++) {

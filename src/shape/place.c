@@ -1,8 +1,8 @@
 /* Shapes on a lattice.
  *
- * A point of an operand with exact shift s stands at x + s - o for the origin o. On a narrow lattice o - s is split into a double c
- * and an exact remainder d (two-sum), so that x - c is small and all integers fit; the remainder's size is part of what
- * the lattice is asked to hold. On a wide lattice the three are simply added. */
+ * A point of an operand with exact shift s stands at x + s - o for the origin o. On a narrow lattice o - s is split
+ * into a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit; the remainder's size
+ * is part of what the lattice is asked to hold. On a wide lattice the three are simply added. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -53,7 +53,8 @@ static sunder_i_extent extent_union(const sunder_i_extent *a, const sunder_i_ext
     return u;
 }
 
-/* What the remainder of o - s may be: at most an ulp of what lies between. Symmetric, so that its own origin is zero. */
+/* What the remainder of o - s may be: at most an ulp of what lies between. Symmetric, so that its own origin is
+ * zero. */
 static void remainder_extent(const sunder_i_extent *shifted, const double *s, sunder_i_extent *extra)
 {
     for (int k = 0; k < 2; k++) {
@@ -109,7 +110,8 @@ static sunder_i_big units_of(sunder_i_lattice *l, double v)
     int e;
     const sunder_i_big m = sunder_i_big_double(&l->arena, v, &e);
     if (m.size == 0) return m;
-    return sunder_i_big_mul(&l->arena, sunder_i_big_shl(&l->arena, m, (unsigned long)(e - l->exponent)), l->denominator);
+    return sunder_i_big_mul(&l->arena, sunder_i_big_shl(&l->arena, m, (unsigned long)(e - l->exponent)),
+                            l->denominator);
 }
 
 static void place_rational(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, sunder_i_point *out)
@@ -218,7 +220,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
     double origin[4][2];
     bool overflow = false;
     for (int i = 0; i < 3; i++) overflow |= !clamp_extent(&extent[i]);
-    sunder_i_lattice_init(&out->lattice, extent, 4, !overflow && !rational, origin, o->force_wide || overflow || rational);
+    sunder_i_lattice_init(&out->lattice, extent, 4, !overflow && !rational, origin,
+                          o->force_wide || overflow || rational);
     if (rational) {
         choose_rational(&out->lattice, shape, shift, o);
         place_rational(&out->lattice, p, shift[0], out->p);

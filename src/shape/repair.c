@@ -1,6 +1,6 @@
-/* An invalid polygon gives way to the even-odd set of its rings; so does a valid one whose rings touch, which changes its
- * rings but not the set: they are traced anew so that each vertex stands for one sector of the interior, and an edge that a
- * vertex touches from inside is split there. */
+/* An invalid polygon gives way to the even-odd set of its rings; so does a valid one whose rings touch, which changes
+ * its rings but not the set: they are traced anew so that each vertex stands for one sector of the interior, and an
+ * edge that a vertex touches from inside is split there. */
 #include "shape/repair.h"
 
 #include "shape/even_odd.h"
@@ -101,8 +101,8 @@ static void reduce(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, lo
 }
 
 /* A crossing point of the arrangement as a made point; its nearest doubles into xy. */
-static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const double origin[2], sunder_i_made_points *made,
-                       double xy[2], sunder_i_arena *arena)
+static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const double origin[2],
+                       sunder_i_made_points *made, double xy[2], sunder_i_arena *arena)
 {
     if (!sunder_i_reserve(&made->point, &made->capacity, made->n + 1, sizeof *made->point)) return false;
     sunder_i_made *m = &made->point[made->n++];
@@ -118,8 +118,8 @@ static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const doub
     return !arena->failed;
 }
 
-bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at, const double origin[2],
-                             size_t p, sunder_i_made_points *made, sunder_i_arena *arena)
+bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at,
+                             const double origin[2], size_t p, sunder_i_made_points *made, sunder_i_arena *arena)
 {
     sunder_i_rings raw = {.lattice = r->lattice};
     sunder_i_even_odd set;
@@ -225,7 +225,8 @@ bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, 
     r->lattice = lattice;
     r->rounded = made->rational;
     if (made->rational) {
-        *rationals = (sunder_i_rationals){.num = sunder_i_arena_alloc(arena, 2 * (size_t)r->vertices, sizeof(sunder_i_big))};
+        *rationals =
+            (sunder_i_rationals){.num = sunder_i_arena_alloc(arena, 2 * (size_t)r->vertices, sizeof(sunder_i_big))};
         if (!rationals->num) return false;
         choose_unit(r, made, rationals, arena);
         over_one_denominator(r, made, rationals, arena);

@@ -1,17 +1,19 @@
 /* Polygonal sets, as the algorithms see them.
  *
- * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes clockwise, so
- * that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes. Coordinates are doubles,
- * taken exactly, or, for a shape repaired by the even-odd rule, integers over one common denominator, which is odd.
+ * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes
+ * clockwise, so that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes.
+ * Coordinates are doubles, taken exactly, or, for a shape repaired by the even-odd rule, integers over one common
+ * denominator, which is odd.
  *
- * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from the edge that
- * leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are disjoint. So where touching
- * cuts an interior in two there are two polygons; where a hole touches its outer ring they are one ring; and where a vertex touches
- * an edge from inside, the edge has a vertex of its own there (both are `shared`). A vertex may touch an edge from outside.
+ * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from
+ * the edge that leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are
+ * disjoint. So where touching cuts an interior in two there are two polygons; where a hole touches its outer ring they
+ * are one ring; and where a vertex touches an edge from inside, the edge has a vertex of its own there (both are
+ * `shared`). A vertex may touch an edge from outside.
  *
  * The convex pieces are a decomposition of each member without added vertices (triangulation, merged after Hertel and
- * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex; interiors of pieces of one member are disjoint, and the closure of
- * their union is the member. Different members may overlap. */
+ * Mehlhorn): counter-clockwise lists of vertex numbers, strictly convex; interiors of pieces of one member are
+ * disjoint, and the closure of their union is the member. Different members may overlap. */
 #ifndef SUNDER_I_SHAPE_H
 #define SUNDER_I_SHAPE_H
 
@@ -57,7 +59,7 @@ typedef struct sunder_i_placed {
 typedef struct sunder_i_place_options {
     bool reflect_q;
     bool common_origin;      /* one origin for both (then origin_q = origin_p, or its negative if reflected) */
-    const double *extra;     /* further doubles that must be lattice multiples (a gap), n of them; magnitudes count too */
+    const double *extra; /* further doubles that must be lattice multiples (a gap), n of them; magnitudes count too */
     size_t extra_n;
     const double *shift_p, *shift_q; /* NULL, or an exact translation of the operand (before reflection): two doubles */
     bool force_wide;         /* for tests */
@@ -68,8 +70,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
                              sunder_i_placed *out, sunder_error *err);
 void sunder_i_placed_free(sunder_i_placed *placed);
 
-/* The edges of the shape are (v, next[v]), each a side of exactly one piece. A side (u, v) of a piece is one of them exactly when
- * next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
+/* The edges of the shape are (v, next[v]), each a side of exactly one piece. A side (u, v) of a piece is one of them
+ * exactly when next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
 static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, uint32_t v)
 {
     return shape->next[u] == v;

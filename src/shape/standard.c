@@ -1,9 +1,10 @@
 /* Standard shapes: discs and rectangles about the origin.
  *
- * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational directions: the
- * corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least the radius away
- * from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps. Corners are
- * mirrored from as few computed ones as the number of segments allows, so that the polygon is symmetric exactly. */
+ * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational
+ * directions: the corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least
+ * the radius away from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps.
+ * Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is symmetric
+ * exactly. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -20,8 +21,8 @@ static sunder_status from_ring(const double *xy, size_t n, sunder_shape **out, s
     return sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_STRICT, out, err);
 }
 
-/* Corner i of n on the circle of radius one, the first on the x axis. The angle i / n of a turn is reduced to the first octant
- * in integers, so that corners that are mirror images have the same digits. */
+/* Corner i of n on the circle of radius one, the first on the x axis. The angle i / n of a turn is reduced to the first
+ * octant in integers, so that corners that are mirror images have the same digits. */
 static void unit_corner(unsigned i, unsigned n, double xy[2])
 {
     const uint64_t turns = 8 * (uint64_t)i; /* in 1 / (8 n) of a turn; an octant is n of them */
@@ -110,8 +111,8 @@ static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_
         if (good) return SUNDER_OK;
     }
     /* Only where doubles are too coarse, at the very bottom of their range. */
-    return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", d->radius,
-                         d->n);
+    return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles",
+                         d->radius, d->n);
 }
 
 sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, sunder_shape **out, sunder_error *err)
@@ -128,19 +129,22 @@ sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, s
     sunder_i_arena_free(&arena);
     if (!status) status = from_ring(d.xy, segments, out, err);
     sunder_i_free(d.xy);
-    return status == SUNDER_EINVALID ? sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too "
-                                                     "small for doubles", radius, segments) : status;
+    /* Doubles at the very bottom of their range may fall together. */
+    if (status != SUNDER_EINVALID) return status;
+    return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", radius,
+                         segments);
 }
 
 sunder_status sunder_shape_rectangle(double width, double height, sunder_shape **out, sunder_error *err)
 {
     if (!(width > 0) || !isfinite(width) || !(height > 0) || !isfinite(height))
-        return sunder_i_fail(err, SUNDER_EARG, "the sides of a rectangle must be positive and finite, not %.17g x %.17g",
-                             width, height);
+        return sunder_i_fail(err, SUNDER_EARG,
+                             "the sides of a rectangle must be positive and finite, not %.17g x %.17g", width, height);
     const double x = width / 2, y = height / 2;
     /* Halves of the least doubles are not doubles. */
     if (x + x != width || y + y != height)
-        return sunder_i_fail(err, SUNDER_ERANGE, "a rectangle of %.17g x %.17g is too small for doubles", width, height);
+        return sunder_i_fail(err, SUNDER_ERANGE, "a rectangle of %.17g x %.17g is too small for doubles", width,
+                             height);
     const double xy[8] = {-x, -y, x, -y, x, y, -x, y};
     return from_ring(xy, 4, out, err);
 }

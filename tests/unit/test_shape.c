@@ -51,23 +51,29 @@ static void test_refusals(void **state)
 {
     (void)state;
     refused("POLYGON((0 0,4 4,4 0,0 4,0 0))", "polygon 0, ring 0, vertex 2 (4 0): crosses segment 0", 0, 2);
-    refused("POLYGON((0 0,1 0,0 0))", "polygon 0, ring 0, vertex 0 (0 0): the ring has under three distinct vertices", 0, 0);
-    refused("POLYGON((5 5,5 5,5 5,5 5))", "polygon 0, ring 0, vertex 0 (5 5): the ring has under three distinct vertices", 0, 0);
+    refused("POLYGON((0 0,1 0,0 0))", "polygon 0, ring 0, vertex 0 (0 0): the ring has under three distinct vertices",
+            0, 0);
+    refused("POLYGON((5 5,5 5,5 5,5 5))",
+            "polygon 0, ring 0, vertex 0 (5 5): the ring has under three distinct vertices", 0, 0);
     refused("POLYGON((0 0,1 1,2 2,0 0))", "polygon 0, ring 0, vertex 0 (0 0): the ring has no area", 0, 0);
-    refused("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", "polygon 0, ring 0, vertex 2 (6 0): a spike: the ring runs back along itself",
-            0, 2);
-    refused("POLYGON((0 0,4 0,4 4,0 4,0 8,0 4))", "polygon 0, ring 0, vertex 4 (0 8): a spike: the ring runs back along itself",
+    refused("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))",
+            "polygon 0, ring 0, vertex 2 (6 0): a spike: the ring runs back along itself", 0, 2);
+    refused("POLYGON((0 0,4 0,4 4,0 4,0 8,0 4))",
+            "polygon 0, ring 0, vertex 4 (0 8): a spike: the ring runs back along itself", 0, 4);
+    refused("POLYGON((0 0,9 0,9 9,6 9,6 0,3 0,3 9,0 9))",
+            "polygon 0, ring 0, vertex 4 (6 0): shares a piece of edge with "
+            "segment 0",
             0, 4);
-    refused("POLYGON((0 0,9 0,9 9,6 9,6 0,3 0,3 9,0 9))", "polygon 0, ring 0, vertex 4 (6 0): shares a piece of edge with "
-            "segment 0", 0, 4);
-    refused("POLYGON((0 0,9 0,9 9,0 9),(2 2,4 2,4 12,2 12))", "polygon 0, ring 1, vertex 1 (4 2): crosses segment 2 of ring 0",
-            1, 1);
+    refused("POLYGON((0 0,9 0,9 9,0 9),(2 2,4 2,4 12,2 12))",
+            "polygon 0, ring 1, vertex 1 (4 2): crosses segment 2 of ring 0", 1, 1);
     refused("POLYGON((0 0,9 0,9 9,0 9),(0 2,4 2,4 4,0 4))",
             "polygon 0, ring 1, vertex 0 (0 2): shares a piece of edge with segment 3 of ring 0", 1, 0);
-    refused("POLYGON((0 0,9 0,9 9,0 9),(10 2,14 2,14 4,10 4))", "polygon 0, ring 1, vertex 0 (10 2): the hole lies outside "
-            "ring 0", 1, 0);
-    refused("POLYGON((2 2,4 2,4 4,2 4),(0 0,9 0,9 9,0 9))", "polygon 0, ring 1, vertex 0 (0 0): the hole lies outside ring 0",
+    refused("POLYGON((0 0,9 0,9 9,0 9),(10 2,14 2,14 4,10 4))",
+            "polygon 0, ring 1, vertex 0 (10 2): the hole lies outside "
+            "ring 0",
             1, 0);
+    refused("POLYGON((2 2,4 2,4 4,2 4),(0 0,9 0,9 9,0 9))",
+            "polygon 0, ring 1, vertex 0 (0 0): the hole lies outside ring 0", 1, 0);
     refused("POLYGON((0 0,9 0,9 9,0 9),(1 1,8 1,8 8,1 8),(2 2,3 2,3 3,2 3))",
             "polygon 0, ring 2, vertex 0 (2 2): the hole lies inside ring 1", 2, 0);
 }
@@ -85,7 +91,8 @@ static void test_empty_rings(void **state)
         assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_STRICT, &s, &err), SUNDER_EINVALID);
         assert_int_equal(err.ring, i == 1);
         assert_true(err.vertex == SIZE_MAX);
-        assert_string_equal(err.message, i == 1 ? "polygon 0, ring 1: the ring is empty" : "polygon 0, ring 0: the ring is empty");
+        assert_string_equal(err.message,
+                            i == 1 ? "polygon 0, ring 1: the ring is empty" : "polygon 0, ring 0: the ring is empty");
         assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_EVEN_ODD, &s, &err), SUNDER_OK);
         assert_true(sunder_shape_area(s) == (i == 2 ? 0 : 40.5));
         assert_true(sunder_shape_repaired(s));
@@ -111,8 +118,9 @@ static void test_not_finite(void **state)
                 sunder_shape *s = NULL;
                 sunder_error err;
                 xy[k] = bad[i];
-                assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 1, (sunder_validity)validity, &s, &err),
-                                 SUNDER_EINVALID);
+                assert_int_equal(
+                    sunder_shape_from_rings(xy, ring_end, poly_end, 1, (sunder_validity)validity, &s, &err),
+                    SUNDER_EINVALID);
                 assert_null(s);
                 assert_int_equal(err.ring, k / 6);
                 assert_int_equal(err.vertex, k % 6 / 2);
@@ -274,8 +282,8 @@ static void test_empty(void **state)
     sunder_shape_free(NULL);
 }
 
-/* The distance of the line through two points from the origin against the radius, in long doubles: their 11 more bits are
- * enough to see a fault of an ulp of the radius, and the proof itself is checked for truth, not for tightness. */
+/* The distance of the line through two points from the origin against the radius, in long doubles: their 11 more bits
+ * are enough to see a fault of an ulp of the radius, and the proof itself is checked for truth, not for tightness. */
 static void check_disc(double radius, unsigned n, bool inside)
 {
     sunder_shape *s = NULL;

@@ -50,8 +50,8 @@ static void nasty_set(polyset *set, rng *g)
     }
 }
 
-/* Long walks along the eight directions of a small board: crossings on half-integers only, edges covered many times, dozens of
- * passages through one place. Large enough for the grids and trees that small rings do without. */
+/* Long walks along the eight directions of a small board: crossings on half-integers only, edges covered many times,
+ * dozens of passages through one place. Large enough for the grids and trees that small rings do without. */
 static void walk_set(polyset *set, rng *g)
 {
     static const int step[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
@@ -105,8 +105,8 @@ static int winding(const polyset *set, size_t ring, int64_t x, int64_t y)
     return n;
 }
 
-/* What a sound polygon shows at any point: every ring winds round it once or not at all, always the same way round; at most one
- * hole holds it, and then the outer ring does too. */
+/* What a sound polygon shows at any point: every ring winds round it once or not at all, always the same way round; at
+ * most one hole holds it, and then the outer ring does too. */
 static bool looks_sound(const polyset *set, rng *g)
 {
     int way[64] = {0};
@@ -221,7 +221,8 @@ static void check_members(const polyset *set, const sunder_shape *s, rng *g, uin
     free_coordinates(at, s);
 }
 
-/* The same set, flat and far wider than a narrow lattice holds: everything is decided in big integers, with the same result. */
+/* The same set, flat and far wider than a narrow lattice holds: everything is decided in big integers, with the same
+ * result. */
 static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
 {
     polyset thin;

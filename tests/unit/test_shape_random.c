@@ -1,6 +1,7 @@
-/* shape: random valid sets of every kind the generators know (touching holes, pinched rings, map coordinates, ragged and huge
- * ones) are accepted however they are written, and sound in every respect; on a wide lattice too. Placing two shapes
- * on one lattice keeps every coordinate, shifts and reflections included. Memory that runs out is reported and nothing leaks. */
+/* shape: random valid sets of every kind the generators know (touching holes, pinched rings, map coordinates, ragged
+ * and huge ones) are accepted however they are written, and sound in every respect; on a wide lattice too. Placing two
+ * shapes on one lattice keeps every coordinate, shifts and reflections included. Memory that runs out is reported and
+ * nothing leaks. */
 #include "failing.h"
 #include "generate.h"
 #include "gmp_numbers.h"
@@ -44,7 +45,8 @@ static void test_valid_sets(void **state)
         sunder_shape *s = build(&p, i);
         random_dress(&p, &g);
         sunder_shape *t = build(&p, i);
-        if (sunder_shape_area(s) != sunder_shape_area(t)) explain(&p, i, "another way to write the set has another area");
+        if (sunder_shape_area(s) != sunder_shape_area(t))
+            explain(&p, i, "another way to write the set has another area");
         sunder_shape_free(s);
         sunder_shape_free(t);
         sunder_shape_free(build(&q, i));
@@ -65,7 +67,13 @@ static void gear(polyset *set, rng *g)
     const int n = (int)rng_int(g, 0, 6);
     for (int k = 0; k < n * n; k++) {
         const double x = -30 + 60.0 / n * (k % n), y = -30 + 60.0 / n * (k / n), size = 50.0 / n;
-        const double hole[] = {x, y, x + size, y + size * rng_unit(g) / 2, x + size * rng_unit(g), y + size, x + size / 4,
+        const double hole[] = {x,
+                               y,
+                               x + size,
+                               y + size * rng_unit(g) / 2,
+                               x + size * rng_unit(g),
+                               y + size,
+                               x + size / 4,
                                y + size * rng_unit(g)};
         polyset_ring(set, hole, 4);
     }
@@ -219,7 +227,8 @@ static bool attempt(void *user)
     sunder_shape *s = NULL, *r = NULL, *t = NULL, *d = NULL;
     sunder_error err;
     bool exact;
-    sunder_status status = sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, c->validity, &s, &err);
+    sunder_status status =
+        sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, c->validity, &s, &err);
     if (!status) status = sunder_shape_reflect(s, &r, &err);
     if (!status) status = sunder_shape_translate(s, 1.5, 0.1, &t, &exact, &err);
     if (!status) {
