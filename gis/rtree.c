@@ -1,10 +1,10 @@
 /* rtree.c: packing a SQLite R-tree.
  *
- * The tree is three tables (SQLite's documentation of its R*Tree module, "Shadow Tables"): _node holds the nodes as blobs,
- * _rowid tells the leaf of each row, _parent the parent of each node but the root, which is node 1. A node is, big-endian:
- * two bytes of depth (in the root only), two bytes that count its cells, then cells of 24 bytes: the row or child in 8 and
- * four floats. Leaves are filled with consecutive boxes along a Hilbert curve through their centres [KF93: Kamel and
- * Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
+ * The tree is three tables (SQLite's documentation of its R*Tree module, "Shadow Tables"): _node holds the nodes as
+ * blobs, _rowid tells the leaf of each row, _parent the parent of each node but the root, which is node 1. A node is,
+ * big-endian: two bytes of depth (in the root only), two bytes that count its cells, then cells of 24 bytes: the row or
+ * child in 8 and four floats. Leaves are filled with consecutive boxes along a Hilbert curve through their centres
+ * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
 #include "rtree.h"
 
 #include <cpl_conv.h>
@@ -274,9 +274,10 @@ typedef struct packing {
     GIntBig next;    /* number of the next node */
 } packing;
 
-/* One node of consecutive cells; gives its number and box in *made. The root is node 1. */
-static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool leaf, int root_depth, struct gis_box *made,
-                       gis_error *error)
+/* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
+ * node 1. */
+static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool leaf, int root_depth,
+                       struct gis_box *made, gis_error *error)
 {
     bool root = root_depth >= 0;
     made->fid = root ? 1 : all->next++;

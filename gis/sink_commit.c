@@ -208,8 +208,9 @@ bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error)
         if (!apply_strict(sink, error) || !close_all(sink, error))
             return false;
     } else {
-        if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error) || !inspect(sink, &seen, error) ||
-            !apply_strict(sink, error))
+        if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error))
+            return false;
+        if (!inspect(sink, &seen, error) || !apply_strict(sink, error))
             return false;
         bool placed = sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, sink->request.overwrite, error)
                                                     : publish_memory(sink, error);

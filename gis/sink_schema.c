@@ -39,18 +39,30 @@ static bool any_field_is(const gis_sink_layer *layer, const char *name)
     return is_own(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
 }
 
-/* The FID and geometry columns keep their names. A layer without such names gets the format's usual ones, unless an
- * ordinary field has that name: then another. */
-static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *usual, const char *other)
+/* What drivers call these columns unless told; lists end with NULL. */
+static const char *const usual_fid[] = {"fid", "ogc_fid", "OBJECTID", NULL};
+static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry", "SHAPE", NULL};
+
+/* The FID and geometry columns keep their names. A layer without such names leaves the choice to the driver (NULL),
+ * unless an ordinary field has a name that the driver might choose: then the first name that is free. */
+static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual)
 {
     if (wanted && wanted[0] && !any_field_is(layer, wanted))
         return wanted;
-    if (!any_field_is(layer, usual))
-        return NULL;
-    const char *name = other;
-    for (int i = 1; any_field_is(layer, name); i++)
-        name = CPLSPrintf("%s_%d", other, i);
-    return name;
+    bool taken = false;
+    const char *found = NULL;
+    for (const char *const *each = usual; *each; each++) {
+        if (any_field_is(layer, *each))
+            taken = true;
+        else if (!found)
+            found = *each;
+    }
+    for (int i = 1; taken && !found; i++) {
+        const char *numbered = CPLSPrintf("%s_%d", usual[0], i);
+        if (!any_field_is(layer, numbered))
+            found = numbered;
+    }
+    return taken ? found : NULL;
 }
 
 static bool identifier_taken(const gis_sink *sink, const char *identifier)
@@ -89,11 +101,11 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
 {
     OGRLayerH source = gis_source_layer(layer->sink->source);
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source);
-    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), "fid", "ogc_fid"));
+    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid));
     if (OGR_FD_GetGeomFieldCount(definition) > 0) {
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
         options = offer(layer, options, "GEOMETRY_NAME",
-                        free_name(layer, OGR_GFld_GetNameRef(geometry), "geom", "shape"));
+                        free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
         if (!OGR_GFld_IsNullable(geometry))
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
@@ -120,7 +132,7 @@ static char **layer_options(const gis_sink_layer *layer)
     if (layer->request.like_source && sink->source)
         options = offer_source_names(layer, options);
     else
-        options = offer(layer, options, "FID", free_name(layer, NULL, "fid", "ogc_fid"));
+        options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid));
     options = offer(layer, options, "LAUNDER", "NO");
     options = offer(layer, options, "GEOMETRY", "AS_WKT");
     if (!sink->to_stdout)
