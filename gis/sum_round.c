@@ -99,8 +99,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
         sunder_sum_vertex(sum, vertex[i], xy);
         if (deviation > out->deviation)
             out->deviation = deviation;
-        const double *last = out->set.xy + 2 * (out->set.vertices - 1);
-        if (out->set.vertices > first && same_vertex(last, xy))
+        if (out->set.vertices > first && same_vertex(out->set.xy + 2 * (out->set.vertices - 1), xy))
             continue;
         if (!gis_polygons_vertex(&out->set, xy[0], xy[1], error))
             return false;
@@ -236,7 +235,7 @@ bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
         size_t first = rounded.set.rings, rings = sunder_sum_rings(sum, p);
         bool kept = true;
         for (size_t r = 0; ok && kept && r < rings; r++) {
-            bool ring_kept;
+            bool ring_kept = false;
             ok = append_ring(sum, p, r, &rounded, &ring_kept, error);
             if (r == 0)
                 kept = ring_kept; /* without its outer ring, a polygon and its holes are gone */

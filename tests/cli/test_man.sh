@@ -1,0 +1,62 @@
+# shellcheck shell=bash disable=SC1091
+# The manual page, --help and the parser know the same options, with the same values, spellings and defaults; the examples
+# of the manual page run.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+page=$SUNDER_SOURCE/gis/sunder.1
+
+# "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", a line each.
+sed -n '/^\.SH OPTIONS/,/^\.SH LAYERS/ s/^\.B \(\\-.*\)/\1/p' "$page" | sed 's/\\//g' | sort >page.txt
+for command in separate check sum pair; do
+    "$SUNDER" $command --help >help
+    # A line each, two blanks or more before the words; or several a line, with commas.
+    sed -n '/^Options/,/^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
+    while read -r option; do
+        fallback=$(grep -F -- "  $option " help | sed -n 's/.*\( \[[^]]*\]\)$/\1/p')
+        echo "$option$fallback"
+    done <own
+    # Commas part options, but not within the brackets that hold other spellings.
+    sed -n '/^Which/,/^P, Q\|^Lengths/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
+        depth = 0; entry = ""
+        for (i = 1; i <= length($0); i++) {
+            c = substr($0, i, 1)
+            depth += (c == "(") - (c == ")")
+            if (c == "," && !depth && substr($0, i + 1, 3) == " --") { print entry; entry = ""; i++ } else entry = entry c
+        }
+        print entry }'
+done | sort -u >help.txt
+cmp -s page.txt help.txt || fail "manual page and --help differ: $(diff page.txt help.txt | head -8)"
+[ "$(wc -l <page.txt)" -gt 40 ] || fail "only $(wc -l <page.txt) options were compared"
+
+# Every spelling is known to the parser of every command that lists it.
+for command in separate check sum pair; do
+    "$SUNDER" $command --help >help
+    for name in $(tr ' ,()' '\n\n\n\n' <help | sed -n 's/^\(-[a-z_][a-z_-]*\|--[a-z-]*\)\(\[=plain\]\)\{0,1\}$/\1/p' | sort -u); do
+        case $name in --help | -h) continue ;; esac
+        run $command "$name"
+        [ "$status" -eq 2 ] && ! grep -q 'unknown option' err || fail "$command does not know $name"
+    done
+done
+
+for section in NAME SYNOPSIS DESCRIPTION OPTIONS 'EXIT STATUS' EXAMPLES; do
+    grep -q "^\.SH $section" "$page" || fail "no section $section"
+done
+if command -v man >/dev/null; then
+    same "$(man --warnings -l "$page" 2>&1 >/dev/null)" '' "troff says"
+fi
+
+cp "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" .
+PATH=$work/bin:$PATH
+mkdir bin
+ln -s "$SUNDER" bin/sunder
+sed -n '/^\.SH EXAMPLES/,/^\.SH SEE/ p' "$page" | sed 's/\\//g' | grep '^sunder ' >examples
+[ "$(wc -l <examples)" -ge 5 ] || fail "only $(wc -l <examples) examples"
+while read -r line; do
+    status=0
+    bash -c "$line" >out 2>err || status=$?
+    case "$status $line" in
+    0\ * | "3 sunder separate"* | "3 sunder check"*) ;;
+    *) fail "example with status $status: $line" ;;
+    esac
+done <examples
+[ -s separated.gpkg ] && [ -s conflicts.gpkg ] || fail "examples without results"
+finish
