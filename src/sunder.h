@@ -92,11 +92,12 @@ typedef enum sunder_validity {
  * polygons   how many; 0 gives the empty set.
  * validity   SUNDER_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
  *            they may touch at points, never cross or share a piece of edge. Members may touch and overlap: their
- *            union is meant. SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its
+ *            union is meant. A polygon whose interior falls apart where its rings touch counts as several. SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its
  *            rings enclose by the even-odd rule, with exact rational vertices; sunder_shape_repaired() tells.
  *            A polygon that encloses nothing vanishes.
  * Fails      SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
  *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
+ *            SUNDER_ERANGE    more than 2^27 vertices
  * Cost       O(n log n) where edges are short beside the whole, as on maps. */
 SUNDER_API sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end,
                                                  size_t polygons, sunder_validity validity, sunder_shape **out,
@@ -115,7 +116,8 @@ SUNDER_API sunder_status sunder_shape_rectangle(double width, double height, sun
 SUNDER_API sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 
 /* S + (dx, dy), exactly as doubles hold it: each coordinate is the nearest double to x + dx; *exact tells whether none
- * was rounded. If rounding breaks the shape it is taken by the even-odd rule. */
+ * was rounded. If rounding breaks the shape it is taken by the even-odd rule. SUNDER_EARG for a move that is not finite,
+ * SUNDER_ERANGE where a coordinate leaves the range of doubles. */
 SUNDER_API sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, double dy, sunder_shape **out,
                                                 bool *exact, sunder_error *err);
 
