@@ -107,8 +107,9 @@ static void print_summary(const check_run *run)
 {
     const sunder_conflict_counts *counts = &run->summary.before;
     printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, duplicate %zu, "
-           "inside blocks %zu\n", gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested,
-           counts->overlap, counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
+           "inside blocks %zu\n",
+           gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
+           counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
 }
 
 static bool write_stats(const check_run *run, const char *path, gis_error *error)

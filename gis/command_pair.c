@@ -77,7 +77,8 @@ static bool write_pair(const gis_options *options, const gis_operands *operands,
     gis_sink_request request = gis_options_sink(options, options->operand[2], "pair");
     gis_sink *sink;
     gis_sink_result result;
-    if (!gis_sink_open(&request, operands->p_source ? operands->p_source : operands->q_source, &sink, error))
+    if (!gis_operands_spare(operands, options, options->operand[2], error) ||
+        !gis_sink_open(&request, gis_operands_source(operands), &sink, error))
         return false;
     bool ok = add_translation(sink, operands, answer, error) && gis_output_finish(sink, &result, error);
     gis_sink_free(sink);

@@ -236,17 +236,21 @@ static void print_summary(const separate_run *run)
     const struct {
         const char *name;
         size_t before, after;
-    } rows[] = {{"overlap", before->overlap, after->overlap},       {"too close", before->too_close, after->too_close},
-                {"barrier", before->barrier, after->barrier},       {"contained", before->contained, after->contained},
-                {"duplicate", before->duplicate, after->duplicate}, {"inside blocks", before->inside_blocks, after->inside_blocks}};
-    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source), run->input.n,
-           summary->vertices, summary->blocks, summary->clusters);
+    } rows[] = {{"overlap", before->overlap, after->overlap},
+                {"too close", before->too_close, after->too_close},
+                {"barrier", before->barrier, after->barrier},
+                {"contained", before->contained, after->contained},
+                {"duplicate", before->duplicate, after->duplicate},
+                {"inside blocks", before->inside_blocks, after->inside_blocks}};
+    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
+           run->input.n, summary->vertices, summary->blocks, summary->clusters);
     printf("conflicts           before      after\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
-    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved, summary->blocked,
-           summary->skipped, run->input.invalid, run->input.null, summary->rounded);
-    printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean, summary->max);
+    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved,
+           summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
+    printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean,
+           summary->max);
     if (summary->max_feature < run->input.n)
         printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,

@@ -12,6 +12,8 @@ typedef struct sum_run {
     gis_operands operands;
     sunder_shape *reflected; /* -Q, with --reflect */
     sunder_sum *sum;
+    gis_sink_request request; /* the sink borrows it */
+    gis_sink *sink;           /* NULL: no layers are written */
     double max_deviation; /* of layers; NaN: none are written */
     double read, compute, write, start;
 } sum_run;
@@ -230,22 +232,25 @@ static bool print_json(const sum_run *run, const char *path, const char *geometr
     return ok;
 }
 
-static bool write_layers(sum_run *run, const char *path, gis_error *error)
+/* Opened before the work is done: what can be refused is refused at once. */
+static bool open_sink(sum_run *run, const char *path, gis_error *error)
 {
     static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", NULL};
-    gis_sink_request request = gis_options_sink(run->options, path, "sum");
-    request.suffixes = suffixes;
-    const gis_source *source = run->operands.p_source ? run->operands.p_source : run->operands.q_source;
-    gis_sink *sink;
+    run->request = gis_options_sink(run->options, path, "sum");
+    run->request.suffixes = suffixes;
+    return gis_operands_spare(&run->operands, run->options, path, error) &&
+           gis_sink_open(&run->request, gis_operands_source(&run->operands), &run->sink, error);
+}
+
+static bool write_layers(sum_run *run, gis_error *error)
+{
     gis_sink_result result;
-    if (!gis_sink_open(&request, source, &sink, error))
+    if (!gis_write_sum(run->sink, run->sum, run->operands.crs, &run->max_deviation, error) ||
+        !gis_output_finish(run->sink, &result, error))
         return false;
-    bool ok = gis_write_sum(sink, run->sum, run->operands.crs, &run->max_deviation, error) &&
-              gis_output_finish(sink, &result, error);
-    gis_sink_free(sink);
-    if (ok && !result.exact)
+    if (!result.exact)
         run->max_deviation += result.deviation;
-    return ok;
+    return true;
 }
 
 static bool report(sum_run *run, gis_error *error)
@@ -257,7 +262,7 @@ static bool report(sum_run *run, gis_error *error)
         return false;
     gis_json geometry = {.need_comma = true};
     if (output)
-        ok = write_layers(run, output, error);
+        ok = write_layers(run, error);
     else if (!taken)
         ok = json_geometry(&geometry, run, error) && (gis_json_text(&geometry) || gis_no_memory(error));
     run->write = gis_clock() - begin;
@@ -276,7 +281,9 @@ int gis_command_sum(const gis_options *options)
     bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error);
     ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
     run.read = gis_clock() - run.start;
+    ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));
     ok = ok && compute(&run, &error) && report(&run, &error);
+    gis_sink_free(run.sink);
     sunder_sum_free(run.sum);
     sunder_shape_free(run.reflected);
     gis_operands_clear(&run.operands);

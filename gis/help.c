@@ -1,5 +1,5 @@
-/* help.c: --help, made from the table of options. It fits a screen: options of our own have a line each, those known from
- * ogr2ogr are listed by name, wrapped, with their defaults. */
+/* help.c: --help, made from the table of options. It fits a screen: options of our own have a line each, those known
+ * from ogr2ogr are listed by name, wrapped, with their defaults. */
 #include "options.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/* layer_input.c: from features to shapes. Polygons are taken as they are, arcs as polylines grown by what they may be off,
- * points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid skip) has no
- * shape and passes through as skipped. */
+/* layer_input.c: from features to shapes. Polygons are taken as they are, arcs as polylines grown by what they may be
+ * off, points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid
+ * skip) has no shape and passes through as skipped. */
 #include "layer_input.h"
 
 #include "message.h"
@@ -37,8 +37,8 @@ static bool core_failed(const char *who, const sunder_error *why, gis_error *err
     return gis_fail(error, "%s: %s", who, why->message);
 }
 
-/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. Rounding the sum to doubles takes it in by
- * less than four units in the last place: the radius is increased by eight. */
+/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. Rounding the sum to doubles takes it in
+ * by less than four units in the last place: the radius is increased by eight. */
 static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
 {
     double box[4], most = 0;
@@ -121,7 +121,8 @@ static bool append_translate(const sunder_shape *symbol, const double at[2], gis
 }
 
 /* The symbol at every point of the feature; of several their union. */
-static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *symbol, const char *who, gis_error *error)
+static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *symbol, const char *who,
+                         gis_error *error)
 {
     double *at;
     size_t n;
@@ -195,10 +196,12 @@ static bool point_shapes(gis_layer_input *input, gis_error *error)
     bool ok = true;
     if (options->given[OPT_SYMBOL]) {
         if (!gis_shape_is_text(options->text[OPT_SYMBOL]))
-            return gis_fail_usage(error, "--symbol %s: expected WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or "
-                                  "rectangle:WxH", options->text[OPT_SYMBOL]);
-        ok = gis_shape_from_text(options->text[OPT_SYMBOL], "--symbol", &input->rule, gis_options_invalid(options), &common,
-                                 error);
+            return gis_fail_usage(error,
+                                  "--symbol %s: expected WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or "
+                                  "rectangle:WxH",
+                                  options->text[OPT_SYMBOL]);
+        ok = gis_shape_from_text(options->text[OPT_SYMBOL], "--symbol", &input->rule, gis_options_invalid(options),
+                                 &common, error);
     }
     if (ok && options->given[OPT_SYMBOL_FIELD]) {
         field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);

@@ -19,12 +19,14 @@ bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen
         while (k < 4 && (strlen(names[k]) != n || memcmp(names[k], list, n) != 0))
             k++;
         if (k == 4)
-            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n, list);
+            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
+                                  list);
         *chosen |= 1u << k;
         list = list[n] ? list + n + 1 : NULL;
     }
     *chosen &= apply;
-    return *chosen || gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", options->text[OPT_LAYERS]);
+    return *chosen ||
+           gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", options->text[OPT_LAYERS]);
 }
 
 static gis_value block_value(const sunder_report *report, size_t feature)
@@ -35,8 +37,11 @@ static gis_value block_value(const sunder_report *report, size_t feature)
 
 bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
 {
-    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},  {"sunder_dy", OFTReal, 0}, {"sunder_len", OFTReal, 0},
-                                       {"sunder_st", OFTString, 7}, {"sunder_blk", OFTInteger64, 0}};
+    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
+                                       {"sunder_dy", OFTReal, 0},
+                                       {"sunder_len", OFTReal, 0},
+                                       {"sunder_st", OFTString, 7},
+                                       {"sunder_blk", OFTInteger64, 0}};
     const gis_layer_request request = {.suffix = "", .like_source = true, .as_source = true, .fields = fields,
                                        .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_STATUS};
     gis_sink_layer *layer;
@@ -86,8 +91,12 @@ static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, con
     gis_value id;
     if (!gis_id_value(input, i, &scratch.id[0], &id, error))
         return false;
-    const gis_value values[] = {gis_fid_value(input, i), id, {GIS_REAL, {.real = move[0]}}, {GIS_REAL, {.real = move[1]}},
-                                {GIS_REAL, {.real = hypot(move[0], move[1])}}, block_value(report, i)};
+    const gis_value values[] = {gis_fid_value(input, i),
+                                id,
+                                {GIS_REAL, {.real = move[0]}},
+                                {GIS_REAL, {.real = move[1]}},
+                                {GIS_REAL, {.real = hypot(move[0], move[1])}},
+                                block_value(report, i)};
     const double to[2] = {from[0] + move[0], from[1] + move[1]};
     OGRGeometryH line = gis_geometry_line(from, to);
     bool ok = line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
@@ -99,8 +108,11 @@ bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const 
 {
     const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(input), 0}, {"dx", OFTReal, 0},
                                 {"dy", OFTReal, 0},       {"len", OFTReal, 0},           {"block", OFTInteger64, 0}};
-    const gis_layer_request request = {.suffix = "displacement", .type = wkbLineString, .crs = gis_source_crs(input->source),
-                                       .fields = fields, .n_fields = sizeof fields / sizeof *fields,
+    const gis_layer_request request = {.suffix = "displacement",
+                                       .type = wkbLineString,
+                                       .crs = gis_source_crs(input->source),
+                                       .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields,
                                        .style = GIS_STYLE_DISPLACEMENT};
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error))

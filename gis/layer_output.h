@@ -19,7 +19,8 @@ bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen
 /* LAYER: every feature, moved, with sunder_dx, sunder_dy, sunder_len, sunder_st, sunder_blk. */
 bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 /* LAYER_displacement: a line for each feature that moved. */
-bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report,
+                            gis_error *error);
 /* LAYER_conflicts. The layer is called MAIN_suffix, or MAIN if suffix is "". */
 bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, const char *suffix,
                          gis_error *error);
@@ -28,13 +29,13 @@ bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunde
 
 /* The FID as a value; null if there is none. */
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
-/* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with NULL,
- * free at the end). */
+/* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with
+ * NULL, free at the end). */
 OGRFieldType gis_id_type(const gis_layer_input *input);
 bool gis_id_value(const gis_layer_input *input, size_t feature, char **copy, gis_value *value, gis_error *error);
 
-/* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the same
- * scratch, which starts zeroed and is cleared at the end. */
+/* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
+ * same scratch, which starts zeroed and is cleared at the end. */
 enum {
     COLUMN_FID_A, COLUMN_ID_A, COLUMN_FID_B, COLUMN_ID_B, COLUMN_BARRIER, COLUMN_BARR_FID, COLUMN_KIND, COLUMN_REASON,
     COLUMN_DISTANCE, COLUMN_BEFORE, COLUMN_DEPTH, COLUMN_REQUIRED, COLUMN_BLOCKED_BY, N_CONFLICT_COLUMNS

@@ -25,8 +25,8 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
     } lengths[] = {{OPT_GAP, "--gap", &input->gap}, {OPT_MAX_SHIFT, "--max-shift", &input->max_shift},
                    {OPT_TOUCH_TOLERANCE, "--touch-tolerance", &input->tolerance}};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++)
-        if (options->given[lengths[i].id] &&
-            !gis_length_in_layer_units(&options->length[lengths[i].id], &input->rule, lengths[i].name, lengths[i].to, error))
+        if (options->given[lengths[i].id] && !gis_length_in_layer_units(&options->length[lengths[i].id], &input->rule,
+                                                                        lengths[i].name, lengths[i].to, error))
             return false;
     if (input->gap > 0 && input->tolerance >= input->gap)
         return gis_fail_usage(error, "--touch-tolerance %s: must be less than the gap, %s",

@@ -115,7 +115,8 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
     if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
         value = value * units[from].numerator / units[from].denominator / rule->unit_metres;
     else if (units[to].numerator * units[from].denominator != units[from].numerator * units[to].denominator)
-        value = value * (units[from].numerator * units[to].denominator) / (units[from].denominator * units[to].numerator);
+        value =
+            value * (units[from].numerator * units[to].denominator) / (units[from].denominator * units[to].numerator);
     if (!isfinite(value)) {
         return gis_fail(error, "%s: too long for a double", what);
     }

@@ -101,8 +101,8 @@ int main(int argc, char **argv)
     } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         gis_help_program();
     } else {
-        gis_fail_usage(&error, "unknown %s %s; `sunder --help` lists the commands", *first == '-' ? "option" : "command",
-                       first);
+        gis_fail_usage(&error, "unknown %s %s; `sunder --help` lists the commands",
+                       *first == '-' ? "option" : "command", first);
         status = gis_say_failure(&error);
     }
     return close_stdout(status);

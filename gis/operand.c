@@ -6,6 +6,7 @@
 #include <cpl_conv.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 gis_invalid gis_options_invalid(const gis_options *options)
 {
@@ -43,7 +44,8 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
     char who[512];
     snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
     if (rings->linearised > 0)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, rings->linearised);
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        rings->linearised);
     sunder_shape *alone = NULL;
     bool invalid;
     gis_error reason;
@@ -135,7 +137,8 @@ bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error 
     }
     if (ok && !check_crs(&read))
         ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
-    static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX, OPT_INPUT_CRS, OPT_IF, OPT_OO};
+    static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX,
+                                               OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
     for (size_t i = 0; ok && !any_source && i < sizeof of_sources / sizeof *of_sources; i++)
         if (options->given[of_sources[i]])
             ok = gis_fail_usage(error, "%.*s selects from a data source, and neither P nor Q is one",
@@ -151,6 +154,22 @@ bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error 
     else
         gis_operands_clear(&read);
     return ok;
+}
+
+const gis_source *gis_operands_source(const gis_operands *operands)
+{
+    return operands->p_source ? operands->p_source : operands->q_source;
+}
+
+bool gis_operands_spare(const gis_operands *operands, const gis_options *options, const char *output, gis_error *error)
+{
+    struct stat out, in;
+    const gis_source *sources[] = {operands->p_source, operands->q_source};
+    for (int i = 0; i < 2; i++)
+        if (sources[i] && !options->given[OPT_UPDATE] && stat(output, &out) == 0 &&
+            stat(gis_source_path(sources[i]), &in) == 0 && out.st_dev == in.st_dev && out.st_ino == in.st_ino)
+            return gis_fail(error, "%s is an input; give another output, or --update with new layer names", output);
+    return true;
 }
 
 void gis_operands_clear(gis_operands *operands)

@@ -15,8 +15,8 @@ gis_source_request gis_options_source(const gis_options *options, const char *pa
 
 /* What the CRS says of lengths; `crs` may be NULL, or one of the names that
  * GeoPackage has for not knowing it. A Mercator projection, whose lengths are not lengths on the ground, and
- * degrees are warned of, with the name of the layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local scale
- * is measured. */
+ * degrees are warned of, with the name of the layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local
+ * scale is measured. */
 bool gis_crs_is_known(OGRSpatialReferenceH crs);
 gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options);
 void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
@@ -30,7 +30,8 @@ bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);
 
-/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` opens messages. A repair is warned of. */
+/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` opens messages. A repair is warned
+ * of. */
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, gis_error *error);
 
@@ -47,6 +48,10 @@ typedef struct gis_operands {
 } gis_operands;
 
 bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error *error);
+/* The source that the output is compared with and takes its CRS from; NULL if both operands are texts. */
+const gis_source *gis_operands_source(const gis_operands *operands);
+/* False, with an error, if writing the output would replace one of the sources. */
+bool gis_operands_spare(const gis_operands *operands, const gis_options *options, const char *output, gis_error *error);
 void gis_operands_clear(gis_operands *operands);
 
 #endif

@@ -1,6 +1,6 @@
-/* options.c: the parser. An option's value follows it or is joined by '=' (`--gap 3`, `--gap=3`); `--` ends the options;
- * operands and options may mix. Single-dash spellings are those of ogr2ogr. A word that starts with '-' and is no option
- * is an error, never an operand, so that a misspelt option cannot become a file name. */
+/* options.c: the parser. An option's value follows it or is joined by '=' (`--gap 3`, `--gap=3`); `--` ends the
+ * options; operands and options may mix. Single-dash spellings are those of ogr2ogr. A word that starts with '-' and is
+ * no option is an error, never an operand, so that a misspelt option cannot become a file name. */
 #include "options.h"
 
 #include <math.h>
@@ -126,7 +126,8 @@ static bool read_scale(const char *value, double *number, gis_error *error)
     const char *text = strncmp(value, "1:", 2) == 0 ? value + 2 : value;
     double read;
     if (!gis_length_parse_number(text, strlen(text), &read) || read <= 0)
-        return gis_fail_usage(error, "--scale %s: not a scale; expected N > 0 of a map 1:N, as in --scale 25000", value);
+        return gis_fail_usage(error, "--scale %s: not a scale; expected N > 0 of a map 1:N, as in --scale 25000",
+                              value);
     *number = read;
     return true;
 }
@@ -218,8 +219,8 @@ static bool finish(gis_options *out, gis_error *error)
             out->operand[out->n_operands++] = out->text[OPT_OUTPUT];
     }
     if (out->n_operands < command->least)
-        return gis_fail_usage(error, "sunder %s needs %s; `sunder %s --help` tells more", command->name, command->operands,
-                              command->name);
+        return gis_fail_usage(error, "sunder %s needs %s; `sunder %s --help` tells more", command->name,
+                              command->operands, command->name);
     if (out->given[OPT_OGR_OVERWRITE])
         out->given[OPT_UPDATE] = out->given[OPT_OVERWRITE_LAYER] = true;
     if (out->given[OPT_OVERWRITE] && out->given[OPT_UPDATE])

@@ -84,7 +84,7 @@ extern const size_t gis_n_commands;
 struct gis_options {
     const gis_command *command;
     bool given[OPT_N];
-    const char *text[OPT_N];  /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
+    const char *text[OPT_N]; /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
     const char **list[OPT_N]; /* of LIST and PAIRS: NULL-terminated, or NULL */
     gis_length length[OPT_N];
     double number[OPT_N];     /* of COUNT, SCALE */
@@ -95,8 +95,8 @@ struct gis_options {
     size_t n_owned;
 };
 
-/* Reads the arguments after the command's name. Strings are borrowed. With --help among them, given[OPT_HELP] is set and
- * nothing else is asked of them. Failures are GIS_USAGE. Clear in any case. */
+/* Reads the arguments after the command's name. Strings are borrowed. With --help among them, given[OPT_HELP] is set
+ * and nothing else is asked of them. Failures are GIS_USAGE. Clear in any case. */
 bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error);
 void gis_options_clear(gis_options *options);
 

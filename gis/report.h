@@ -27,8 +27,8 @@ bool gis_any_conflict(const sunder_conflict_counts *counts);
  * once is wrong usage. */
 bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error);
 
-/* From here on SIGINT and SIGTERM do not end the process but make gis_interrupted() true (and the next one ends it), so that
- * temporary files go. */
+/* From here on SIGINT and SIGTERM do not end the process but make gis_interrupted() true (and the next one ends it), so
+ * that temporary files go. */
 void gis_catch_signals(void);
 bool gis_interrupted(void);
 

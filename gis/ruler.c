@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A GeoPackage layer without a CRS is written, and read, with one called undefined (srs_id 0 or -1); that GDAL calls the
- * first one geographic says nothing about the coordinates. */
+/* A GeoPackage layer without a CRS is written, and read, with one called undefined (srs_id 0 or -1); that GDAL calls
+ * the first one geographic says nothing about the coordinates. */
 bool gis_crs_is_known(OGRSpatialReferenceH crs)
 {
     const char *name = crs ? OSRGetName(crs) : NULL;
@@ -60,7 +60,8 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
         gis_say_warning("%s: on this Mercator projection lengths are about %.4g times those on the ground (at latitude "
                         "%.2f); reproject for lengths in true units", layer, factor, latitude);
     else
-        gis_say_warning("%s: on a Mercator projection lengths are not those on the ground; reproject for true units", layer);
+        gis_say_warning("%s: on a Mercator projection lengths are not those on the ground; reproject for true units",
+                        layer);
 }
 
 void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
@@ -68,8 +69,10 @@ void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *b
     if (!gis_crs_is_known(crs))
         return;
     if (OSRIsGeographic(crs))
-        gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no lengths on "
-                        "the ground", layer);
+        gis_say_warning(
+            "%s: the coordinates are degrees; distances and moves are measured in them, which are no lengths on "
+            "the ground",
+            layer);
     else
         warn_mercator(crs, layer, box);
 }

@@ -31,7 +31,8 @@ bool gis_shape_is_text(const char *text)
     return gis_wkt_looks_like(text) && access(text, F_OK) != 0;
 }
 
-static bool read_length(const char *text, size_t n, const char *who, const gis_ruler *rule, double *out, gis_error *error)
+static bool read_length(const char *text, size_t n, const char *who, const gis_ruler *rule, double *out,
+                        gis_error *error)
 {
     gis_length length;
     const char *why;
@@ -160,9 +161,9 @@ static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, 
     gis_polygons set = {0};
     bool invalid = false;
     gis_error reason;
-    bool ok = gis_wkt_read(text, who, &set, error) &&
-              gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, policy, who, out, &invalid, &reason,
-                                    error);
+    bool ok =
+        gis_wkt_read(text, who, &set, error) && gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons,
+                                                                      policy, who, out, &invalid, &reason, error);
     if (ok && invalid)
         gis_say_warning("%s: %s; taken as what its rings enclose by the even-odd rule", who, reason.message);
     gis_polygons_clear(&set);

@@ -6,8 +6,8 @@
 #include "sunder.h"
 #include "wkt.h"
 
-/* The polygons of a sum in doubles. Every ring is what STRICT validity asks, checked by the core; where rounding broke a
- * ring it has been mended. deviation: no point of the exact boundary is farther than this from the rounded one. */
+/* The polygons of a sum in doubles. Every ring is what STRICT validity asks, checked by the core; where rounding broke
+ * a ring it has been mended. deviation: no point of the exact boundary is farther than this from the rounded one. */
 typedef struct gis_rounded {
     gis_polygons set;
     double deviation;
@@ -22,6 +22,7 @@ void gis_rounded_clear(gis_rounded *rounded);
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error);
 
 /* The layers MAIN, MAIN_degenerate_segments and MAIN_degenerate_points; the largest deviation of all. */
-bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation, gis_error *error);
+bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,
+                   gis_error *error);
 
 #endif

@@ -1,14 +1,15 @@
 /* sum_round.c: a sum in doubles that is valid.
  *
- * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. That can break a ring in two ways,
- * and both happen on ordinary input:
+ * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. That can break a ring in two
+ * ways, and both happen on ordinary input:
  *
  *  - a hole or a member so small that its vertices fall together: the ring has no area left, and is left out;
- *  - a vertex that lay on an edge of its own polygon, or within an ulp of it (rings of a sum meet in points), and now is on
- *    the wrong side of it. The edge is bent through that vertex (a new vertex there, equal to it), which moves the edge
- *    by as little as the vertex is away from it, and the rings touch again instead of crossing.
+ *  - a vertex that lay on an edge of its own polygon, or within an ulp of it (rings of a sum meet in points), and now
+ * is on the wrong side of it. The edge is bent through that vertex (a new vertex there, equal to it), which moves the
+ * edge by as little as the vertex is away from it, and the rings touch again instead of crossing.
  *
- * The core's exact validation says whether a polygon is well, before and after; what cannot be mended so is an error. */
+ * The core's exact validation says whether a polygon is well, before and after; what cannot be mended so is an error.
+ */
 #include "sum_layers.h"
 
 #include <float.h>
@@ -18,8 +19,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. Both ends of the edge
- * and the vertex have moved by half a unit in each coordinate: the sum of the three is below this. */
+/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. Both ends of the
+ * edge and the vertex have moved by half a unit in each coordinate: the sum of the three is below this. */
 static const double near_ulps = 4;
 /* Each round of bending can bring the next vertex over an edge; this many rounds have always been plenty. */
 enum { BENDING_ROUNDS = 8 };
@@ -84,7 +85,8 @@ static bool same_vertex(const double *a, const double *b)
 }
 
 /* Appends one ring of the sum; repeated vertices once. A ring that has fallen together is not appended. */
-static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, bool *kept, gis_error *error)
+static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, bool *kept,
+                        gis_error *error)
 {
     size_t n, first = out->set.vertices;
     const uint32_t *vertex = sunder_sum_ring(sum, polygon, ring, &n);
@@ -104,7 +106,8 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
         if (!gis_polygons_vertex(&out->set, xy[0], xy[1], error))
             return false;
     }
-    if (out->set.vertices > first + 1 && same_vertex(out->set.xy + 2 * first, out->set.xy + 2 * (out->set.vertices - 1)))
+    if (out->set.vertices > first + 1 &&
+        same_vertex(out->set.xy + 2 * first, out->set.xy + 2 * (out->set.vertices - 1)))
         out->set.vertices--;
     const sunder_point *point = (const sunder_point *)out->set.xy; /* pairs of doubles, laid out as points are */
     for (size_t i = first + 2; i < out->set.vertices && !has_area; i++)
@@ -143,7 +146,8 @@ static bool is_valid(const gis_polygons *set, size_t first, size_t last, sunder_
 static bool is_near(const double *a, const double *b, const double *c, double *t, double *distance)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-    double unit = ulp(fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fmax(fabs(a[0]), fabs(b[0])), fmax(fabs(a[1]), fabs(b[1])))));
+    double unit =
+        ulp(fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fmax(fabs(a[0]), fabs(b[0])), fmax(fabs(a[1]), fabs(b[1])))));
     if (!(length2 > 0) || same_vertex(a, c) || same_vertex(b, c))
         return false;
     *t = ((c[0] - a[0]) * dx + (c[1] - a[1]) * dy) / length2;

@@ -1,4 +1,5 @@
-/* wkt.c: see wkt.h. A reader of our own, since GDAL's takes much that is not WKT and says little about what is wrong. */
+/* wkt.c: see wkt.h. A reader of our own, since GDAL's takes much that is not WKT and says little about what is wrong.
+ */
 #include "wkt.h"
 
 #include <ctype.h>

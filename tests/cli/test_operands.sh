@@ -118,4 +118,9 @@ id,WKT
 X
 refused 1 'different CRS' sum metres.gpkg other.gpkg
 refused 1 'different CRS' pair other.gpkg metres.gpkg
+refused 1 'metres.gpkg' sum square:1 metres.gpkg metres.gpkg --overwrite
+cp metres.gpkg m2.gpkg
+refused 1 'm2.gpkg' sum metres.gpkg m2.gpkg m2.gpkg --overwrite
+expect 0 sum metres.gpkg m2.gpkg m2.gpkg --update
+same "$(count m2.gpkg sum) $(count m2.gpkg c)" '1 1'
 finish
