@@ -16,7 +16,13 @@ static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
 {
     if (layer->file || GDALDatasetGetLayerCount(dataset) == 1)
         return GDALDatasetGetLayer(dataset, 0); /* some formats name the layer after the file */
-    return GDALDatasetGetLayerByName(dataset, layer->name);
+    OGRLayerH found = GDALDatasetGetLayerByName(dataset, layer->name);
+    const gis_sink *sink = layer->sink;
+    if (!found && !sink->updating && (size_t)GDALDatasetGetLayerCount(dataset) == sink->n_layers)
+        for (size_t i = 0; i < sink->n_layers; i++) /* others change its name when they write it */
+            if (sink->layers[i] == layer)
+                found = GDALDatasetGetLayer(dataset, (int)i);
+    return found;
 }
 
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error)

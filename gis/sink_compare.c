@@ -223,6 +223,24 @@ static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *wor
     return done || (!moved && gis_no_memory(error));
 }
 
+/* What a geometry has besides X and Y, or all of it, may have been dropped without a word. */
+static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
+{
+    OGRGeometryH geometry = sent->made ? sent->made : sent->feature ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    if (!layer->request.as_source || !geometry || OGR_G_IsEmpty(geometry))
+        return;
+    gis_list *losses = &layer->sink->losses;
+    const char *format = layer->sink->format.name;
+    if (!kept || OGR_G_IsEmpty(kept)) {
+        gis_list_add(losses, "geometries are not written: %s cannot hold them", format);
+        return;
+    }
+    if (OGR_G_Is3D(geometry) && !OGR_G_Is3D(kept))
+        gis_list_add(losses, "Z values are not written: %s has none", format);
+    if (OGR_G_IsMeasured(geometry) && !OGR_G_IsMeasured(kept))
+        gis_list_add(losses, "M values are not written: %s has none", format);
+}
+
 /* ---- Attributes ------------------------------------------------------------------------------------------- */
 
 static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
@@ -291,6 +309,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, change
         if (i < layer->n_sent) {
             const gis_sent *sent = &layer->sent[i];
             done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error);
+            find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
             if (done && changes && sent->feature)
                 compare_attributes(sent->feature, kept, changes, n);
         }

@@ -100,18 +100,6 @@ static void compare_type(gis_sink_layer *layer, OGRLayerH as_written)
                  OGRGeometryTypeToName(sent));
 }
 
-/* A Shapefile knows one type for single and multiple; Z and M of it are told apart. */
-static void compare_dimensions(gis_sink_layer *layer, OGRLayerH as_written)
-{
-    OGRwkbGeometryType kept = OGR_L_GetGeomType(as_written), sent = layer->type;
-    if (!layer->sink->format.shapefile || sent == wkbUnknown)
-        return;
-    if (OGR_GT_HasZ(sent) && !OGR_GT_HasZ(kept))
-        gis_list_add(&layer->sink->losses, "Z values are not written");
-    if (OGR_GT_HasM(sent) && !OGR_GT_HasM(kept))
-        gis_list_add(&layer->sink->losses, "M values are not written");
-}
-
 static const char *crs_name(OGRSpatialReferenceH crs)
 {
     const char *name = crs ? OSRGetName(crs) : NULL;
@@ -139,7 +127,6 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
     gis_listen_begin(&listener);
     compare_fields(layer, OGR_L_GetLayerDefn(as_written));
     compare_type(layer, as_written);
-    compare_dimensions(layer, as_written);
     compare_crs(layer, as_written);
     gis_listen_end();
     gis_listener_clear(&listener);

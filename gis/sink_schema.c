@@ -257,6 +257,18 @@ static void create_own_fields(gis_sink_layer *layer)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }
 
+/* Some formats allow few signs in the name of a layer. One of a layer a file may call it after the file. */
+static void note_name(gis_sink_layer *layer)
+{
+    const char *name = OGR_L_GetName(layer->layer);
+    if (strcmp(name, layer->name) == 0)
+        return;
+    if (!layer->file)
+        gis_list_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
+    CPLFree(layer->name);
+    layer->name = CPLStrdup(name);
+}
+
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink *sink = layer->sink;
@@ -279,6 +291,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     layer->layer = GDALDatasetCreateLayer(layer->dataset, layer->name, crs, layer->type, options);
     bool done = layer->layer != NULL;
     if (done) {
+        note_name(layer);
         if (layer->request.as_source)
             copy_metadata(layer);
         create_source_fields(layer);
