@@ -2,6 +2,8 @@
  * by direction. */
 #include "separation/pairing.h"
 
+#include "number/sort.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -20,13 +22,35 @@ static int nearness(const sunder_i_pairing *g, uint32_t i, uint32_t j, double re
     return touches_disc(box, 2 * g->error) ? 2 : touches_disc(box, reach) ? 1 : 0;
 }
 
+/* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
+static bool sort_by_size(sunder_i_pairing *g)
+{
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    const size_t n = g->subsums;
+    uint64_t *key = sunder_i_arena_alloc(arena, n, sizeof *key);
+    sunder_i_subsum *sorted = sunder_i_arena_alloc(arena, n + 1, sizeof *sorted);
+    if (!key || !sorted) return false;
+    for (size_t k = 0; k < n; k++) {
+        const double *b = g->subsum[k].box;
+        const float size = (float)(fmin(b[2] - b[0], b[3] - b[1]) / g->magnitude);
+        uint32_t bits;
+        memcpy(&bits, &size, sizeof bits); /* ordered like the numbers, which are not negative */
+        key[k] = (uint64_t)~bits << 32 | k;
+    }
+    if (!sunder_i_sort_keys(key, n)) return false;
+    for (size_t k = 0; k < n; k++) sorted[k] = g->subsum[key[k] & UINT32_MAX];
+    g->subsum = sorted;
+    return true;
+}
+
 bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
 {
     const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
     const double reach = radius + 2 * g->error;
     double box[4];
     size_t room = (size_t)m * n, count[3] = {0, 0, 0};
-    if (room > 64) {
+    const bool many = room > 64;
+    if (many) {
         for (uint32_t i = 0; i < m; i++)
             for (uint32_t j = 0; j < n; j++) count[nearness(g, i, j, reach, box)]++;
         room = count[1] + count[2];
@@ -49,7 +73,7 @@ bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
             memcpy(s->box, box, sizeof box);
         }
     g->subsums = all;
-    return true;
+    return !many || sort_by_size(g);
 }
 
 /* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
