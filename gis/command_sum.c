@@ -31,8 +31,9 @@ static bool compute(sum_run *run, gis_error *error)
     }
     sunder_sum_options how = {.progress = gis_progress_call, .progress_user = &progress};
     double begin = gis_clock();
-    if (sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+    sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
     run->compute = gis_clock() - begin;
     gis_progress_done(&progress);
     return true;
