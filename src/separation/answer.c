@@ -4,10 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static bool fits(const sunder_i_i256 *v)
-{
-    return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0;
-}
+static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
 static bool plain(const sunder_i_lattice *l)
 {
@@ -61,8 +58,8 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
     return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
 }
 
-/* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at most half
- * an ulp of the format (2^-64 relative), four steps in all. */
+/* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
+ * most half an ulp of the format (2^-64 relative), four steps in all. */
 static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *nearest, double *down)
 {
     if (LDBL_MANT_DIG < 64 || exponent < -400 || exponent > 400) return false;
@@ -78,7 +75,8 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *
     return true;
 }
 
-/* The same of any size: floor of the root to 70 bits or more, with a sticky bit beneath, rounds like the root itself. */
+/* The same of any size: floor of the root to 70 bits or more, with a sticky bit beneath, rounds like the root itself.
+ */
 static void slow_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long exponent, double *nearest, double *down)
 {
     if (sunder_i_big_sign(n) == 0) {
@@ -247,8 +245,7 @@ sunder_status sunder_i_answer_texts(sunder_i_pairing *g, const sunder_i_vector_e
     out->dx_text = coordinate_text(g, v, 0);
     out->dy_text = coordinate_text(g, v, 1);
     out->distance_squared_text = norm_text(g, v);
-    if (out->dx_text && out->dy_text && out->distance_squared_text && !g->placed.lattice.arena.failed)
-        return SUNDER_OK;
+    if (out->dx_text && out->dy_text && out->distance_squared_text && !g->placed.lattice.arena.failed) return SUNDER_OK;
     sunder_separation_clear(out);
     return sunder_i_no_memory(err);
 }

@@ -1,10 +1,12 @@
-/* From an exact vector on the lattice to what the caller gets: nearest doubles, texts, and whether the doubles would do. */
+/* From an exact vector on the lattice to what the caller gets: nearest doubles, texts, and whether the doubles would
+ * do. */
 #ifndef SUNDER_I_ANSWER_H
 #define SUNDER_I_ANSWER_H
 
 #include "separation/pairing.h"
 
-/* (x / w, y / w) lattice units, w > 0: as 128-bit integers where they fit (`small`: |x|, |y|, w < 2^63), else as big ones. */
+/* (x / w, y / w) lattice units, w > 0: as 128-bit integers where they fit (`small`: |x|, |y|, w < 2^63), else as big
+ * ones. */
 typedef struct sunder_i_vector_exact {
     bool small;
     sunder_i_i128 x, y, w;
@@ -28,7 +30,8 @@ void sunder_i_vector_doubles(sunder_i_pairing *pairing, double dx, double dy, su
 /* Are out->dx and out->dy exactly the vector? */
 bool sunder_i_answer_exact(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, double dx, double dy);
 
-/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far. */
+/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far.
+ */
 bool sunder_i_doubles_free(sunder_i_pairing *pairing, double dx, double dy);
 
 #endif

@@ -1,24 +1,25 @@
-/* Which edges meet which vertices [BL11]. An edge e of one operand at a vertex v of the other can carry boundary only if
- * v is convex and the directions of its two edges enclose that of e: otherwise, near v, the interior at v reaches across e
- * and covers the whole segment. The range is taken closed; with it the ends of the segments are all vertices that can be
- * free: two disjoint cones at a pair of vertices are parted by the line of an edge of one of them.
+/* Which edges meet which vertices [BL11]. An edge e of one operand at a vertex v of the other can carry boundary only
+ * if v is convex and the directions of its two edges enclose that of e: otherwise, near v, the interior at v reaches
+ * across e and covers the whole segment. The range is taken closed; with it the ends of the segments are all vertices
+ * that can be free: two disjoint cones at a pair of vertices are parted by the line of an edge of one of them.
  *
- * A vertex where rings touch, or a ring itself, does not see its true cone through its own ring: it is taken with every edge. Diagonals of
- * the decomposition lie inside an operand, so what they would carry is covered. */
+ * A vertex where rings touch, or a ring itself, does not see its true cone through its own ring: it is taken with every
+ * edge. Diagonals of the decomposition lie inside an operand, so what they would carry is covered. */
 #include "separation/candidates.h"
 
 #include <math.h>
 
-/* A corner that edges of the other operand may meet, in doubles: convex, or one where rings touch (then `in` and `out`, the edges
- * that arrive and leave, are zero, which every edge passes). */
+/* A corner that edges of the other operand may meet, in doubles: convex, or one where rings touch (then `in` and `out`,
+ * the edges that arrive and leave, are zero, which every edge passes). */
 typedef struct corners {
     uint32_t n;
     uint32_t *vertex;
     double *x, *y, *in_x, *in_y, *out_x, *out_y;
 } corners;
 
-/* May reflex vertex v lie inside an edge of its polygon, whose vertices are first .. last - 1? In doubles: a false alarm only
- * costs candidates. (A convex one that does so sees its true cone all the same: no straight edge fits in it.) */
+/* May reflex vertex v lie inside an edge of its polygon, whose vertices are first .. last - 1? In doubles: a false
+ * alarm only costs candidates. (A convex one that does so sees its true cone all the same: no straight edge fits in
+ * it.) */
 static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint32_t first, uint32_t last)
 {
     const sunder_shape *s = g->shape[side];
@@ -39,8 +40,14 @@ static bool make_room(sunder_i_pairing *g, uint32_t n, corners *c)
 {
     double *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 6 * sizeof *block + sizeof *c->vertex);
     if (!block) return false;
-    *c = (corners){0, (uint32_t *)(block + 6 * (size_t)n), block, block + n, block + 2 * (size_t)n, block + 3 * (size_t)n,
-                   block + 4 * (size_t)n, block + 5 * (size_t)n};
+    *c = (corners){0,
+                   (uint32_t *)(block + 6 * (size_t)n),
+                   block,
+                   block + n,
+                   block + 2 * (size_t)n,
+                   block + 3 * (size_t)n,
+                   block + 4 * (size_t)n,
+                   block + 5 * (size_t)n};
     return true;
 }
 
@@ -72,8 +79,8 @@ static bool find_corners(sunder_i_pairing *g, int side, corners *c)
     return true;
 }
 
-/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The distance
- * itself is good to 4 times the pairing's error. */
+/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
+ * distance itself is good to 4 times the pairing's error. */
 static inline double segment_square(double ax, double ay, double dx, double dy, double inverse)
 {
     double t = -(ax * dx + ay * dy) * inverse;
@@ -106,8 +113,8 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
     return false;
 }
 
-/* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is let in,
- * since a superset of the boundary serves as well. */
+/* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is
+ * let in, since a superset of the boundary serves as well. */
 static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double limit, sunder_i_candidates *h)
 {
     const sunder_shape *s = g->shape[side];
@@ -122,12 +129,14 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
         uint32_t n = 0;
         for (uint32_t k = 0; k < c->n; k++) { /* without branches: which corners pass is anyone's guess */
             met[n] = k;
-            n += (uint32_t)((c->in_x[k] * dy - c->in_y[k] * dx >= bound) & (dx * c->out_y[k] - dy * c->out_x[k] >= bound));
+            n += (uint32_t)((c->in_x[k] * dy - c->in_y[k] * dx >= bound) &
+                            (dx * c->out_y[k] - dy * c->out_x[k] >= bound));
         }
         for (uint32_t m = 0; m < n; m++) {
             const uint32_t k = met[m];
             const double square = segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
-            if (square <= reach * reach && !push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
+            if (square <= reach * reach && !push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side}))
+                return false;
         }
         g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n;
     }

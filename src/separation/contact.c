@@ -1,9 +1,9 @@
 /* What kind of place a free point is: from the cones that the subsums leave around it.
  *
- * Every subsum with the point on its boundary covers an open cone there, at most a half-plane. Where their closures leave
- * an angle open, the point is on the boundary of the regularised obstacle: an edge if the open cones make up exactly one
- * open half-plane, else a vertex. Where they leave none, it is degenerate: a point if the open cones cover every direction,
- * a segment if some direction is left. */
+ * Every subsum with the point on its boundary covers an open cone there, at most a half-plane. Where their closures
+ * leave an angle open, the point is on the boundary of the regularised obstacle: an edge if the open cones make up
+ * exactly one open half-plane, else a vertex. Where they leave none, it is degenerate: a point if the open cones cover
+ * every direction, a segment if some direction is left. */
 #include "separation/nearest.h"
 
 typedef struct cone {

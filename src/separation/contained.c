@@ -1,10 +1,10 @@
 /* Does one set lie in another, both closed?
  *
- * P lies in Q exactly when no piece C of P has interior outside Q. If some does, then int C either misses Q altogether or
- * meets the boundary of Q along a stretch of positive length, since a closed set that is the closure of its interior has no
- * boundary without length. So: the interior of C must overlap a piece of Q, and along every boundary edge of a member of Q, as
- * far as it runs inside C, the side that is not the member's own must be covered by other pieces (members may overlap and
- * touch): almost everywhere, which is decided by closed intervals on the edge. */
+ * P lies in Q exactly when no piece C of P has interior outside Q. If some does, then int C either misses Q altogether
+ * or meets the boundary of Q along a stretch of positive length, since a closed set that is the closure of its interior
+ * has no boundary without length. So: the interior of C must overlap a piece of Q, and along every boundary edge of a
+ * member of Q, as far as it runs inside C, the side that is not the member's own must be covered by other pieces
+ * (members may overlap and touch): almost everywhere, which is decided by closed intervals on the edge. */
 #include "separation/pairing.h"
 
 typedef struct interval {
@@ -25,8 +25,9 @@ static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
     return (convex){s->piece_vertex + first, g->at[side], g->piece_box[side] + 4 * (size_t)i, s->piece_end[i] - first};
 }
 
-/* The part of the segment ab (t in [0, 1]) in the convex c; false if it has no length. Along a side of c the interior may lie
- * on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if `right` is false. */
+/* The part of the segment ab (t in [0, 1]) in the convex c; false if it has no length. Along a side of c the interior
+ * may lie on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if `right` is
+ * false. */
 static bool clip(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b, const convex *c, bool right, interval *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -39,7 +40,8 @@ static bool clip(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b, const 
         const int turn = sunder_i_cross_sign(l, s, d);
         if (turn == 0) {
             const int side = sunder_i_orient(l, u, v, a);
-            /* On the line of the side: the convex set is on the side's left, so on the right of ab if they run opposite. */
+            /* On the line of the side: the convex set is on the side's left, so on the right of ab if they run
+             * opposite. */
             if (side < 0 || (side == 0 && !(right && sunder_i_dot_sign(l, s, d) < 0))) return false;
             continue;
         }
@@ -70,7 +72,8 @@ static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const 
     while (grew && sunder_i_fraction_cmp(l, &reached, &want->high) < 0) {
         grew = false;
         for (uint32_t i = 0; i < n; i++)
-            if (sunder_i_fraction_cmp(l, &v[i].low, &reached) <= 0 && sunder_i_fraction_cmp(l, &v[i].high, &reached) > 0) {
+            if (sunder_i_fraction_cmp(l, &v[i].low, &reached) <= 0 &&
+                sunder_i_fraction_cmp(l, &v[i].high, &reached) > 0) {
                 reached = v[i].high;
                 grew = true;
             }

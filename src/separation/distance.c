@@ -24,8 +24,8 @@ static vector between(sunder_i_pairing *g, sunder_i_point to, sunder_i_point fro
     return (vector){sunder_i_approx(l, d.x), sunder_i_approx(l, d.y)};
 }
 
-/* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact cross
- * product over the length. */
+/* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact
+ * cross product over the length. */
 static double to_segment(sunder_i_pairing *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -117,7 +117,8 @@ static void link_ends(sunder_i_pairing *g, const link *k, double on_p[2], double
     on_q[1] = b.y;
 }
 
-/* A point of both pieces i and j: P's is clipped by the sides of Q's, in doubles, and the middle of what is left taken. */
+/* A point of both pieces i and j: P's is clipped by the sides of Q's, in doubles, and the middle of what is left taken.
+ */
 static vector common_point(sunder_i_pairing *g, uint32_t i, uint32_t j, vector *buffer)
 {
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
@@ -188,7 +189,8 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
         sunder_i_lattice *l = &g.placed.lattice;
         d = sqrt(k.square) * g.unit;
         /* Zero exactly where they touch. */
-        if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->next[k.i]], g.at[1][k.j], g.at[1][q->next[k.j]]) != SUNDER_I_APART)
+        if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->next[k.i]], g.at[1][k.j], g.at[1][q->next[k.j]]) !=
+            SUNDER_I_APART)
             d = 0;
         else if (d == 0)
             d = 0x1p-1074;

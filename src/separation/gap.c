@@ -143,12 +143,8 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
                                       sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = o->tp,
-                                              .tq = o->tq,
-                                              .reflect_q = true,
-                                              .force_wide = o->force_wide,
-                                              .extra = &o->gap,
-                                              .extra_n = 1};
+    const sunder_i_pairing_options options = {
+        .tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide, .extra = &o->gap, .extra_n = 1};
     sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
     if (status) return status;
     sunder_i_lattice *l = &g.placed.lattice;

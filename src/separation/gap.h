@@ -1,5 +1,6 @@
-/* Least separating translations that keep a gap g: the obstacle is the union of the subsums, each grown by an open disc of
- * radius g. Its boundary consists of sides moved outward by g and of arcs round corners, so the optimum may be irrational. */
+/* Least separating translations that keep a gap g: the obstacle is the union of the subsums, each grown by an open disc
+ * of radius g. Its boundary consists of sides moved outward by g and of arcs round corners, so the optimum may be
+ * irrational. */
 #ifndef SUNDER_I_GAP_H
 #define SUNDER_I_GAP_H
 
@@ -7,7 +8,8 @@
 #include "separation/candidates.h"
 #include "separation/least.h"
 
-/* A stretch of boundary: the line a + t d moved by the gap to its right (outward), or the circle of radius g about a. */
+/* A stretch of boundary: the line a + t d moved by the gap to its right (outward), or the circle of radius g about a.
+ */
 typedef struct sunder_i_curve {
     bool arc;
     sunder_i_point a, d;
@@ -20,9 +22,9 @@ typedef struct sunder_i_rational {
 
 typedef struct sunder_i_gap_problem {
     sunder_i_pairing *pairing;
-    int64_t gap;        /* on the lattice */
+    int64_t gap; /* on the lattice */
     double gap_units, limit;
-    bool last;          /* no finer arithmetic will be tried: what cannot be told apart is taken as equal */
+    bool last; /* no finer arithmetic will be tried: what cannot be told apart is taken as equal */
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */
     size_t segments;
     const sunder_i_point *center; /* corners that arcs may go round */
@@ -38,8 +40,8 @@ typedef struct sunder_i_gap_answer {
     sunder_contact contact;
 } sunder_i_gap_answer;
 
-/* The search, in floating point whose every conclusion clears an error bound; results are checked exactly. Two instances of one
- * text (gap_search.inc): long double, and 113 bits for what that cannot settle. */
+/* The search, in floating point whose every conclusion clears an error bound; results are checked exactly. Two
+ * instances of one text (gap_search.inc): long double, and 113 bits for what that cannot settle. */
 sunder_status sunder_i_gap_search_long(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out,
                                        sunder_error *err);
 sunder_status sunder_i_gap_search_quad(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out,
@@ -50,16 +52,16 @@ sunder_status sunder_i_gap_search_quad(const sunder_i_gap_problem *problem, sund
 /* The point of the curve's line or circle that is nearest to the origin, if it is rational. */
 bool sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_rational *out);
 /* The common point of two of them nearest to (x, y) units, if it is rational. */
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d, double x,
-                           double y, sunder_i_rational *out);
-/* The point of the curve's moved line that stands `along` units from the foot of the perpendicular from the origin, in the line's
- * direction; false if the line has no such rational point. */
+bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d,
+                           double x, double y, sunder_i_rational *out);
+/* The point of the curve's moved line that stands `along` units from the foot of the perpendicular from the origin, in
+ * the line's direction; false if the line has no such rational point. */
 bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, double along,
                         sunder_i_rational *out);
 /* Is the distance of the point from the (closed) subsum below, equal to or above the gap? -1, 0, 1. Exact. */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_rational *at);
-/* The same for side k alone, from its first corner (included) to its second (not): the gap is kept from the subsum if it is from
- * all of its sides and the point is outside of one (*outside, if not NULL: or on its line). */
+/* The same for side k alone, from its first corner (included) to its second (not): the gap is kept from the subsum if
+ * it is from all of its sides and the point is outside of one (*outside, if not NULL: or on its line). */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_rational *at, bool *outside);
 /* Order of the distances of two points from the origin, then lexicographic. *tie: the distances are equal. */

@@ -1,5 +1,5 @@
-/* Rational points of the boundary of the grown obstacle, and the exact test of the gap. All in big integers: these questions
- * are asked a few times for each answer. */
+/* Rational points of the boundary of the grown obstacle, and the exact test of the gap. All in big integers: these
+ * questions are asked a few times for each answer. */
 #include "separation/gap.h"
 
 #include <math.h>
@@ -8,10 +8,7 @@ typedef struct vec {
     sunder_i_big x, y;
 } vec;
 
-static sunder_i_arena *arena_of(const sunder_i_gap_problem *p)
-{
-    return &p->pairing->placed.lattice.arena;
-}
+static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->pairing->placed.lattice.arena; }
 
 static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
 {
@@ -91,11 +88,11 @@ bool sunder_i_gap_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curv
         return finish(out, mul(p, c.x, k), mul(p, c.y, k), length);
     }
     line m;
-    return moved_line(p, curve, &m) &&
-           finish(out, mul(p, m.n.x, m.c), mul(p, m.n.y, m.c), mul(p, m.length, m.length));
+    return moved_line(p, curve, &m) && finish(out, mul(p, m.n.x, m.c), mul(p, m.n.y, m.c), mul(p, m.length, m.length));
 }
 
-bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *curve, double along, sunder_i_rational *out)
+bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *curve, double along,
+                        sunder_i_rational *out)
 {
     sunder_i_arena *a = arena_of(p);
     line m;
@@ -114,8 +111,8 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *cur
 }
 
 /* Of the two points base + s * turn and base - s * turn (over w), the one nearest to (x, y). */
-static bool choose(const sunder_i_gap_problem *p, vec base, vec turn, sunder_i_big s, sunder_i_big w, double x, double y,
-                   sunder_i_rational *out)
+static bool choose(const sunder_i_gap_problem *p, vec base, vec turn, sunder_i_big s, sunder_i_big w, double x,
+                   double y, sunder_i_rational *out)
 {
     sunder_i_rational r[2];
     double off[2];
@@ -130,8 +127,8 @@ static bool choose(const sunder_i_gap_problem *p, vec base, vec turn, sunder_i_b
     return true;
 }
 
-static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_curve *l, const sunder_i_curve *arc, double x, double y,
-                     sunder_i_rational *out)
+static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_curve *l, const sunder_i_curve *arc, double x,
+                     double y, sunder_i_rational *out)
 {
     line m;
     if (!moved_line(p, l, &m)) return false;
@@ -166,7 +163,8 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *
     line m, n;
     if (!moved_line(p, c, &m) || !moved_line(p, d, &n)) return false;
     const sunder_i_big w = cross(p, m.n, n.n);
-    return finish(out, sub(p, mul(p, m.c, n.n.y), mul(p, n.c, m.n.y)), sub(p, mul(p, n.c, m.n.x), mul(p, m.c, n.n.x)), w);
+    return finish(out, sub(p, mul(p, m.c, n.n.y), mul(p, n.c, m.n.y)), sub(p, mul(p, n.c, m.n.x), mul(p, m.c, n.n.x)),
+                  w);
 }
 
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k,

@@ -18,8 +18,13 @@ static inline sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128
 sunder_i_line sunder_i_line_make(sunder_i_pairing *g, sunder_i_point a, sunder_i_point d)
 {
     const sunder_i_lattice *l = &g->placed.lattice;
-    return (sunder_i_line){a, sunder_i_pairing_add(g, a, d), d, sunder_i_approx(l, a.x), sunder_i_approx(l, a.y),
-                           sunder_i_approx(l, d.x), sunder_i_approx(l, d.y)};
+    return (sunder_i_line){a,
+                           sunder_i_pairing_add(g, a, d),
+                           d,
+                           sunder_i_approx(l, a.x),
+                           sunder_i_approx(l, a.y),
+                           sunder_i_approx(l, d.x),
+                           sunder_i_approx(l, d.y)};
 }
 
 sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *line)

@@ -1,8 +1,8 @@
-/* Best first. Each segment of the reduced convolution starts at its point nearest to the origin; while a subsum covers the
- * point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments come in the
- * order of their distances, and the search ends when the next one is farther than the best free point. */
-#include "separation/candidates.h"
+/* Best first. Each segment of the reduced convolution starts at its point nearest to the origin; while a subsum covers
+ * the point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments
+ * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/nearest.h"
+#include "separation/candidates.h"
 
 #include <math.h>
 
@@ -45,8 +45,7 @@ static bool better(search *s, const sunder_i_line *line, const sunder_i_fraction
     sunder_i_lattice *l = &s->g->placed.lattice;
     *point = sunder_i_hpoint_at(l, line->a, line->b, t);
     *known = true;
-    if (!s->best_point_known)
-        s->best_point = sunder_i_hpoint_at(l, s->best.line.a, s->best.line.b, &s->best.t);
+    if (!s->best_point_known) s->best_point = sunder_i_hpoint_at(l, s->best.line.a, s->best.line.b, &s->best.t);
     s->best_point_known = true;
     const int order = sunder_i_hpoint_cmp(l, point, &s->best_point);
     if (order == 0) return false;

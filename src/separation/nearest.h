@@ -13,8 +13,8 @@ typedef struct sunder_i_nearest {
     double x, y, distance; /* within pairing->error */
 } sunder_i_nearest;
 
-/* limit: in units; what is certainly farther is not looked for (found is false if there is nothing nearer). The pairing has Q
- * reflected. Fails only with SUNDER_ENOMEM. */
+/* limit: in units; what is certainly farther is not looked for (found is false if there is nothing nearer). The pairing
+ * has Q reflected. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_nearest_free(sunder_i_pairing *pairing, double limit, sunder_i_nearest *out, sunder_error *err);
 
 /* How the placement touches: for a point that the search found. */

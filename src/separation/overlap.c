@@ -30,10 +30,7 @@ static bool any_overlap(sunder_i_pairing *g)
     return false;
 }
 
-static bool either_empty(const sunder_shape *p, const sunder_shape *q)
-{
-    return p->pieces == 0 || q->pieces == 0;
-}
+static bool either_empty(const sunder_shape *p, const sunder_shape *q) { return p->pieces == 0 || q->pieces == 0; }
 
 sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                bool *overlap, sunder_error *err)
@@ -72,8 +69,8 @@ static uint32_t *edges_near(sunder_i_pairing *g, int side, double reach, uint32_
     return list;
 }
 
-/* Squared distance of a point and a segment, in doubles. Coordinates are off by at most `error`, so the distance by less
- * than 8 times that. */
+/* Squared distance of a point and a segment, in doubles. Coordinates are off by at most `error`, so the distance by
+ * less than 8 times that. */
 static double end_square(const double p[2], const double a[2], const double b[2])
 {
     const double ux = b[0] - a[0], uy = b[1] - a[1], square = ux * ux + uy * uy;
@@ -92,12 +89,14 @@ static bool edges_close(sunder_i_pairing *g, uint32_t i, uint32_t j, int64_t gap
     if (fmin(a[0], b[0]) > fmax(c[0], d[0]) + reach || fmin(c[0], d[0]) > fmax(a[0], b[0]) + reach ||
         fmin(a[1], b[1]) > fmax(c[1], d[1]) + reach || fmin(c[1], d[1]) > fmax(a[1], b[1]) + reach)
         return false;
-    const double near = fmin(fmin(end_square(a, c, d), end_square(b, c, d)), fmin(end_square(c, a, b), end_square(d, a, b)));
+    const double near =
+        fmin(fmin(end_square(a, c, d), end_square(b, c, d)), fmin(end_square(c, a, b), end_square(d, a, b)));
     /* With disjoint interiors no two edges cross properly, so the least distance is at an end. */
     const double distance = sqrt(near);
     if (distance + 16 * g->error < units) return true;
     if (distance - 16 * g->error > units) return false;
-    return sunder_i_segment_distance_cmp(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn], gap) < 0;
+    return sunder_i_segment_distance_cmp(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn],
+                                         gap) < 0;
 }
 
 static bool any_close(sunder_i_pairing *g, int64_t gap, double units)
@@ -142,8 +141,10 @@ sunder_status sunder_pair_overlap(const sunder_shape *p, const sunder_shape *q, 
     return sunder_i_overlap(p, NULL, q, NULL, overlap, err);
 }
 
-sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart, sunder_error *err)
+sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart,
+                                sunder_error *err)
 {
-    if (!(gap >= 0) || !isfinite(gap)) return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative");
+    if (!(gap >= 0) || !isfinite(gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative");
     return sunder_i_apart(p, NULL, q, NULL, gap, apart, err);
 }

@@ -49,8 +49,7 @@ static sunder_status answer_without_gap(sunder_i_pairing *g, const sunder_i_near
     out->overlap = out->attained = true;
     out->contact = sunder_i_nearest_contact(g, f);
     sunder_i_answer_numbers(g, &v, out);
-    out->rounded_is_free =
-        sunder_i_answer_exact(g, &v, out->dx, out->dy) || sunder_i_doubles_free(g, out->dx, out->dy);
+    out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || sunder_i_doubles_free(g, out->dx, out->dy);
     if (!sunder_i_nearest_verify(g, f) && !l->arena.failed)
         return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: a translation failed its exact check");
     if (l->arena.failed) return sunder_i_no_memory(err);
@@ -61,8 +60,7 @@ static sunder_status least_without_gap(const sunder_shape *p, const sunder_shape
                                        sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_pairing g;
-    const sunder_i_pairing_options options = {
-        .tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide};
+    const sunder_i_pairing_options options = {.tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide};
     sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
     if (status) return status;
     sunder_i_nearest found;
@@ -115,7 +113,8 @@ sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const
 sunder_status sunder_pair_separate(const sunder_shape *p, const sunder_shape *q, double gap, sunder_separation *out,
                                    sunder_error *err)
 {
-    if (!(gap >= 0) || !isfinite(gap)) return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative");
+    if (!(gap >= 0) || !isfinite(gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative");
     const sunder_i_least_options options = {.gap = gap, .upper = INFINITY, .texts = true};
     return sunder_i_least(p, q, &options, out, NULL, err);
 }

@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Doubles of coordinates are within 2^-53 of the magnitude M; a sum of two adds as much again and its own rounding. A point
- * a + t d with t from an exact fraction (its value within 2^-50 of max(1, |t|), t taken in [0, 1]) and |d| <= 4 M is within
- * 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
+/* Doubles of coordinates are within 2^-53 of the magnitude M; a sum of two adds as much again and its own rounding. A
+ * point a + t d with t from an exact fraction (its value within 2^-50 of max(1, |t|), t taken in [0, 1]) and |d| <= 4 M
+ * is within 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
 #define COORDINATE_ERROR 0x1p-45
 
 static void grow_box(double box[4], double x, double y)
@@ -66,10 +66,10 @@ static bool make_room(sunder_i_pairing *g, sunder_i_point **points)
 /* ---- The common case, without detours: doubles that are all below 2^53 units in magnitude ---- */
 
 typedef struct plain {
-    int bit;             /* the unit is 2^bit */
-    double scale, back;  /* 2^-bit, 2^bit */
-    double shift[2][2];  /* of the operands, in units */
-    double origin[2];    /* in units */
+    int bit;            /* the unit is 2^bit */
+    double scale, back; /* 2^-bit, 2^bit */
+    double shift[2][2]; /* of the operands, in units */
+    double origin[2];   /* in units */
 } plain;
 
 static void hold(plain *u, const double *v, size_t n, double *most)
@@ -102,8 +102,8 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
     return true;
 }
 
-/* Integers below 2^53 each, so below 2^55 together: exact on the lattice, and exact as doubles unless the magnitude says that they
- * are not. */
+/* Integers below 2^53 each, so below 2^55 together: exact on the lattice, and exact as doubles unless the magnitude
+ * says that they are not. */
 static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool reflect, sunder_i_point *out)
 {
     const sunder_shape *s = g->shape[side];
@@ -111,7 +111,8 @@ static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool re
     const int64_t add_x = (int64_t)u->shift[side][0] - (int64_t)u->origin[0];
     const int64_t add_y = (int64_t)u->shift[side][1] - (int64_t)u->origin[1];
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const int64_t x = (int64_t)(s->xy[2 * v] * u->scale) + add_x, y = (int64_t)(s->xy[2 * v + 1] * u->scale) + add_y;
+        const int64_t x = (int64_t)(s->xy[2 * v] * u->scale) + add_x,
+                      y = (int64_t)(s->xy[2 * v + 1] * u->scale) + add_y;
         out[v] = reflect ? (sunder_i_point){-x, -y} : (sunder_i_point){x, y};
         xy[2 * v] = (double)out[v].x;
         xy[2 * v + 1] = (double)out[v].y;
@@ -211,10 +212,7 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     return SUNDER_OK;
 }
 
-void sunder_i_pairing_free(sunder_i_pairing *pairing)
-{
-    sunder_i_placed_free(&pairing->placed);
-}
+void sunder_i_pairing_free(sunder_i_pairing *pairing) { sunder_i_placed_free(&pairing->placed); }
 
 /* Is a + s + gap <= b + t for certain? Each double sum is off by at most an ulp of its larger operand. */
 static bool certainly_below(double a, double s, double b, double t, double gap)
@@ -229,7 +227,8 @@ bool sunder_i_boxes_apart(const sunder_shape *p, const double tp[2], const sunde
 {
     for (int k = 0; k < 2; k++) {
         const double s = tp ? tp[k] : 0, t = tq ? tq[k] : 0;
-        if (certainly_below(p->box[k + 2], s, q->box[k], t, gap) || certainly_below(q->box[k + 2], t, p->box[k], s, gap))
+        if (certainly_below(p->box[k + 2], s, q->box[k], t, gap) ||
+            certainly_below(q->box[k + 2], t, p->box[k], s, gap))
             return true;
     }
     return false;

@@ -1,8 +1,9 @@
-/* Two operands on one lattice, with what the searches of this folder ask of them again and again: coordinates as doubles
- * with a bound on their error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made when wanted.
+/* Two operands on one lattice, with what the searches of this folder ask of them again and again: coordinates as
+ * doubles with a bound on their error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made
+ * when wanted.
  *
- * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles only ever settle a question when they
- * clear the bound; else the lattice decides. */
+ * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles only ever settle a question when
+ * they clear the bound; else the lattice decides. */
 #ifndef SUNDER_I_PAIRING_H
 #define SUNDER_I_PAIRING_H
 
@@ -16,7 +17,7 @@ typedef struct sunder_i_subsum {
     double box[4];
     sunder_i_point *corner, *side; /* side[k] = corner[k + 1] - corner[k] */
     double *cx, *cy, *sx, *sy;     /* the same as doubles */
-    double *bound;                 /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
+    double *bound; /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
 } sunder_i_subsum;
 
 /* A convex piece that starts at its lowest corner; the first corner stands again at the end. */

@@ -120,8 +120,8 @@ static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece
 
 /* ---- The merge ---- */
 
-/* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand are
- * never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
+/* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
+ * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
 static uint32_t merge(sunder_i_pairing *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
                       sunder_i_point *side)
 {

@@ -1,5 +1,5 @@
-/* The exact check of a result: asked of the pieces themselves, by separating sides; it shares only the arithmetic with the
- * search. */
+/* The exact check of a result: asked of the pieces themselves, by separating sides; it shares only the arithmetic with
+ * the search. */
 #include "separation/nearest.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Freeness by cutting both sets into vertical slabs, and positions of pairs, for the tests of separation. In rationals; shares no
- * code with the library. */
+/* Freeness by cutting both sets into vertical slabs, and positions of pairs, for the tests of separation. In rationals;
+ * shares no code with the library. */
 #ifndef SUNDER_TESTS_SEPARATION_ORACLE_H
 #define SUNDER_TESTS_SEPARATION_ORACLE_H
 
@@ -85,10 +85,7 @@ static size_t add_crossing(mpq_t *xs, size_t n, const edge *e, const edge *f)
     return n;
 }
 
-static int compare_rationals(const void *a, const void *b)
-{
-    return mpq_cmp(*(const mpq_t *)a, *(const mpq_t *)b);
-}
+static int compare_rationals(const void *a, const void *b) { return mpq_cmp(*(const mpq_t *)a, *(const mpq_t *)b); }
 
 typedef struct crossing {
     mpq_t y;
@@ -100,7 +97,8 @@ static int compare_crossings(const void *a, const void *b)
     return mpq_cmp(((const crossing *)a)->y, ((const crossing *)b)->y);
 }
 
-/* What a vertical line is asked: does it run through both interiors at once; through the first set outside the second? */
+/* What a vertical line is asked: does it run through both interiors at once; through the first set outside the second?
+ */
 typedef enum question { MEET, ESCAPE } question;
 
 /* By parity within each member. */
@@ -174,10 +172,7 @@ static inline bool interiors_meet(const polyset *p, const polyset *q, const mpq_
 }
 
 /* Is some interior point of P outside Q? */
-static inline bool escapes(const polyset *p, const polyset *q)
-{
-    return ask_slabs(p, q, NULL, NULL, ESCAPE);
-}
+static inline bool escapes(const polyset *p, const polyset *q) { return ask_slabs(p, q, NULL, NULL, ESCAPE); }
 
 /* Moves q over p, a few units off. */
 static void bring_together(const polyset *p, polyset *q, rng *r)

@@ -1,8 +1,8 @@
-/* Least translations with a gap: that they keep it, in rationals; that none shorter does, against an enumeration of every place
- * where two stretches of the grown boundary meet, in doubles. Shares no code with the library.
+/* Least translations with a gap: that they keep it, in rationals; that none shorter does, against an enumeration of
+ * every place where two stretches of the grown boundary meet, in doubles. Shares no code with the library.
  *
- * Inputs are small integers, so what is not exactly at the gap is off it by far more than the 1e-9 allowed to doubles, save
- * for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
+ * Inputs are small integers, so what is not exactly at the gap is off it by far more than the 1e-9 allowed to doubles,
+ * save for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
 #include "separation_oracle.h"
 
 #include "separation/least.h"
@@ -60,10 +60,10 @@ static bool inside(const polyset *s, double x, double y)
     return false;
 }
 
-/* Distance of P and Q + (tx, ty), 0 where they meet. Edges that cross are seen by their ends or by the inside tests only where
- * the boundaries do not cross; so crossings are looked for. */
-static double set_distance(const polyset *p, const polyset *q, const side *a, size_t n, const side *b, size_t m, double tx,
-                           double ty, double enough)
+/* Distance of P and Q + (tx, ty), 0 where they meet. Edges that cross are seen by their ends or by the inside tests
+ * only where the boundaries do not cross; so crossings are looked for. */
+static double set_distance(const polyset *p, const polyset *q, const side *a, size_t n, const side *b, size_t m,
+                           double tx, double ty, double enough)
 {
     double least = INFINITY;
     for (size_t i = 0; i < n; i++)
@@ -74,8 +74,10 @@ static double set_distance(const polyset *p, const polyset *q, const side *a, si
             least = fmin(least, d);
             if (least < enough) return least;
             const double ux = a[i].bx - a[i].ax, uy = a[i].by - a[i].ay, vx = s.bx - s.ax, vy = s.by - s.ay;
-            const double c1 = ux * (s.ay - a[i].ay) - uy * (s.ax - a[i].ax), c2 = ux * (s.by - a[i].ay) - uy * (s.bx - a[i].ax);
-            const double c3 = vx * (a[i].ay - s.ay) - vy * (a[i].ax - s.ax), c4 = vx * (a[i].by - s.ay) - vy * (a[i].bx - s.ax);
+            const double c1 = ux * (s.ay - a[i].ay) - uy * (s.ax - a[i].ax),
+                         c2 = ux * (s.by - a[i].ay) - uy * (s.bx - a[i].ax);
+            const double c3 = vx * (a[i].ay - s.ay) - vy * (a[i].ax - s.ax),
+                         c4 = vx * (a[i].by - s.ay) - vy * (a[i].bx - s.ax);
             if (c1 * c2 < 0 && c3 * c4 < 0) return 0;
         }
     /* Boundaries apart: one of a ring inside the other set means that the interiors meet. */
@@ -119,7 +121,8 @@ typedef struct track {
 
 static bool same_track(const track *a, const track *b)
 {
-    return fabs(a->x - b->x) < 1e-9 && fabs(a->y - b->y) < 1e-9 && fabs(a->dx - b->dx) < 1e-9 && fabs(a->dy - b->dy) < 1e-9;
+    return fabs(a->x - b->x) < 1e-9 && fabs(a->y - b->y) < 1e-9 && fabs(a->dx - b->dx) < 1e-9 &&
+           fabs(a->dy - b->dy) < 1e-9;
 }
 
 static void add_track(track *t, size_t *n, track v)
@@ -284,8 +287,9 @@ static void complain(const char *what, const polyset *p, const polyset *q, doubl
                      double truth)
 {
     char *a = polyset_wkt(p), *b = polyset_wkt(q);
-    print_error("%s: gap %g, got (%s, %s), length %.17g, bound %.17g, %s, attained %d; brute force %.17g\n%s\n%s\n", what, gap,
-                s->dx_text, s->dy_text, s->distance, s->lower_bound, sunder_contact_string(s->contact), s->attained, truth, a, b);
+    print_error("%s: gap %g, got (%s, %s), length %.17g, bound %.17g, %s, attained %d; brute force %.17g\n%s\n%s\n",
+                what, gap, s->dx_text, s->dy_text, s->distance, s->lower_bound, sunder_contact_string(s->contact),
+                s->attained, truth, a, b);
     free(a);
     free(b);
     fail();
@@ -331,8 +335,9 @@ static void check_pair(const polyset *p, const polyset *q, double gap, bool wide
     sunder_shape_free(b);
 }
 
-static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS,  PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,   PAIR_SLIDE,
-                                  PAIR_SLANTED, PAIR_SIMPLE, PAIR_MEMBERS,   PAIR_HOLES,          PAIR_ROOMS, PAIR_SELF};
+static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS, PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS,
+                                  PAIR_PEG,     PAIR_SLIDE, PAIR_SLANTED,   PAIR_SIMPLE,
+                                  PAIR_MEMBERS, PAIR_HOLES, PAIR_ROOMS,     PAIR_SELF};
 
 static bool integers_only(const polyset *s)
 {
@@ -359,7 +364,8 @@ static void gaps_are_kept_at_least_cost(void **state)
         bring_together(&p, &q, &r);
         static const double GAPS[] = {0.5, 1, 1, 1.5, 2, 3, 0.25};
         const double gap = GAPS[rng_int(&r, 0, 6)];
-        if (p.vertices * q.vertices <= 90 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) && integers_only(&q)) {
+        if (p.vertices * q.vertices <= 90 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) &&
+            integers_only(&q)) {
             check_pair(&p, &q, gap, rng_once_in(&r, 4), &t);
             done++;
         }
@@ -369,7 +375,8 @@ static void gaps_are_kept_at_least_cost(void **state)
     print_message("%zu pairs, %zu moved, %zu past an isolated point; contacts:", done, t.moved, t.isolated);
     for (int k = 1; k < 6; k++) print_message(" %s %zu", sunder_contact_string((sunder_contact)k), t.contact[k]);
     print_message("\n");
-    assert_true(t.contact[SUNDER_CONTACT_ARC] > 0 && t.contact[SUNDER_CONTACT_EDGE] > 0 && t.contact[SUNDER_CONTACT_VERTEX] > 0);
+    assert_true(t.contact[SUNDER_CONTACT_ARC] > 0 && t.contact[SUNDER_CONTACT_EDGE] > 0 &&
+                t.contact[SUNDER_CONTACT_VERTEX] > 0);
 }
 
 int main(void)

@@ -1,22 +1,22 @@
 /* The least separating translation against brute force in rationals that shares no code with the library.
  *
- * The oracle: a free placement nearest to the origin lies on a line on which a vertex of one operand touches an edge of the
- * other; so it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment. All are
- * made, sorted by length, and the first free one is the answer; of several of that length the lexicographically smallest.
- * Free is decided by cutting both sets into vertical slabs. */
+ * The oracle: a free placement nearest to the origin lies on a line on which a vertex of one operand touches an edge of
+ * the other; so it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment.
+ * All are made, sorted by length, and the first free one is the answer; of several of that length the lexicographically
+ * smallest. Free is decided by cutting both sets into vertical slabs. */
 #include "separation_oracle.h"
 
 #include "separation/least.h"
 
+#include <cmocka.h>
 #include <gmp.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <cmocka.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,10 +48,7 @@ static size_t contact_segments(segment *s, const polyset *p, const polyset *q, i
     return n;
 }
 
-static int same_segment(const void *a, const void *b)
-{
-    return memcmp(a, b, sizeof(segment));
-}
+static int same_segment(const void *a, const void *b) { return memcmp(a, b, sizeof(segment)); }
 
 static void put(candidate *c, const segment *s, long num, long den)
 {
@@ -84,7 +81,8 @@ static void add(candidate *c, size_t *n, const segment *s, long num, long den, d
         den = -den;
     }
     if (num < 0 || num > den) return;
-    const double t = (double)num / (double)den, x = (double)s->ax + t * (double)s->dx, y = (double)s->ay + t * (double)s->dy;
+    const double t = (double)num / (double)den, x = (double)s->ax + t * (double)s->dx,
+                 y = (double)s->ay + t * (double)s->dy;
     if (x * x + y * y > limit * limit + 1) return; /* farther than a way out known to be free; generously */
     put(c + (*n)++, s, num, den);
 }
@@ -267,9 +265,9 @@ static void expect_answer(const polyset *p, const polyset *q, const sunder_shape
 }
 
 /* The kinds that live on small integers; the oracle is too slow for long outlines. */
-static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS, PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,  PAIR_SLIDE,
-                                  PAIR_SLANTED, PAIR_SIMPLE, PAIR_MEMBERS,  PAIR_BOARDS,         PAIR_HOLES, PAIR_ROOMS,
-                                  PAIR_SELF};
+static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS,   PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,
+                                  PAIR_SLIDE,   PAIR_SLANTED, PAIR_SIMPLE,    PAIR_MEMBERS,        PAIR_BOARDS,
+                                  PAIR_HOLES,   PAIR_ROOMS,   PAIR_SELF};
 
 static bool integers_only(const polyset *s)
 {
@@ -306,15 +304,16 @@ static void least_is_least(void **state)
         random_pair(&p, &q, &r, KINDS[i % (sizeof KINDS / sizeof *KINDS)]);
         polyset_negate(&q); /* generated for sums */
         bring_together(&p, &q, &r);
-        if (p.vertices * q.vertices <= 120 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) && integers_only(&q)) {
+        if (p.vertices * q.vertices <= 120 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) &&
+            integers_only(&q)) {
             one_pair(&p, &q, kinds);
             done++;
         }
         polyset_free(&p);
         polyset_free(&q);
     }
-    print_message("%zu pairs; moved to a boundary %zu, a degenerate segment %zu, a degenerate point %zu\n", done, kinds[0],
-                  kinds[1], kinds[2]);
+    print_message("%zu pairs; moved to a boundary %zu, a degenerate segment %zu, a degenerate point %zu\n", done,
+                  kinds[0], kinds[1], kinds[2]);
     assert_true(kinds[0] > 0 && kinds[1] > 0 && kinds[2] > 0);
 }
 

@@ -1,5 +1,5 @@
-/* Overlap, containment, the gap and the distance of random pairs, as they stand and translated, against slabs in rationals and
- * plain enumeration. */
+/* Overlap, containment, the gap and the distance of random pairs, as they stand and translated, against slabs in
+ * rationals and plain enumeration. */
 #include "separation_oracle.h"
 
 #include "separation/separation.h"
@@ -29,7 +29,8 @@ static double point_side(const double *v, const double *a, const double *b)
     return hypot(v[0] - a[0] - t * dx, v[1] - a[1] - t * dy);
 }
 
-/* Least distance of a vertex of p from an edge of q: with the reverse, the distance of sets whose interiors are disjoint. */
+/* Least distance of a vertex of p from an edge of q: with the reverse, the distance of sets whose interiors are
+ * disjoint. */
 static double vertices_to_edges(const polyset *p, const polyset *q)
 {
     double least = INFINITY;
@@ -37,7 +38,8 @@ static double vertices_to_edges(const polyset *p, const polyset *q)
         for (size_t r = 0, v = 0; r < q->rings; r++) {
             const size_t first = v, end = q->ring_end[r];
             for (; v < end; v++)
-                least = fmin(least, point_side(p->xy + 2 * i, q->xy + 2 * v, q->xy + 2 * (v + 1 < end ? v + 1 : first)));
+                least =
+                    fmin(least, point_side(p->xy + 2 * i, q->xy + 2 * v, q->xy + 2 * (v + 1 < end ? v + 1 : first)));
         }
     return least;
 }
@@ -80,8 +82,10 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     if (answer != in) complain("contained", p, q);
     check_distance(p, q, a, b, meet);
 
-    /* The same pair, said with translations of which only the difference matters; one that makes the lattice wide too. */
-    const double big = rng_once_in(r, 4) ? 0x1p90 : 0, x = (double)rng_int(r, -9, 9) / 8 + big, y = (double)rng_int(r, -9, 9);
+    /* The same pair, said with translations of which only the difference matters; one that makes the lattice wide too.
+     */
+    const double big = rng_once_in(r, 4) ? 0x1p90 : 0, x = (double)rng_int(r, -9, 9) / 8 + big,
+                 y = (double)rng_int(r, -9, 9);
     const double t1[2] = {x, y};
     if (sunder_i_overlap(a, t1, b, t1, &answer, NULL) || answer != meet) complain("overlap, translated", p, q);
     if (sunder_i_contained(a, t1, b, t1, &answer, NULL) || answer != in) complain("contained, translated", p, q);
@@ -102,9 +106,9 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     sunder_shape_free(b);
 }
 
-static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS,  PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,   PAIR_SLIDE,
-                                  PAIR_SLANTED, PAIR_SIMPLE, PAIR_MEMBERS,   PAIR_BOARDS,         PAIR_HOLES, PAIR_ROOMS,
-                                  PAIR_SELF};
+static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS,   PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,
+                                  PAIR_SLIDE,   PAIR_SLANTED, PAIR_SIMPLE,    PAIR_MEMBERS,        PAIR_BOARDS,
+                                  PAIR_HOLES,   PAIR_ROOMS,   PAIR_SELF};
 
 static bool small_integers(const polyset *s)
 {

@@ -42,28 +42,29 @@ static const known KNOWN[] = {
     {"a side", SQUARE, "POLYGON((3 1,6 1,6 2,3 2,3 1))", 0, "1", "0", "1", "edge", true},
     {"the smallest of two ties", SQUARE, "POLYGON((1 1,3 1,3 3,1 3,1 1))", 0, "-3", "0", "9", "edge", true},
     {"identical shapes", SQUARE, SQUARE, 0, "-4", "0", "16", "edge", true},
-    {"a slanted side", "POLYGON((0 0,10 0,0 10,0 0))", "POLYGON((4 4,9 4,9 9,4 9,4 4))", 0, "1", "1", "2", "edge", true},
-    {"a rational foot", "POLYGON((0 0,9 0,0 3,0 0))", "POLYGON((3 1,20 1,20 9,3 9,3 1))", 0, "3/10", "9/10", "9/10", "edge",
+    {"a slanted side", "POLYGON((0 0,10 0,0 10,0 0))", "POLYGON((4 4,9 4,9 9,4 9,4 4))", 0, "1", "1", "2", "edge",
      true},
-    {"a corner of the obstacle", "POLYGON((0 0,10 0,10 2,2 2,2 10,0 10,0 0))", "POLYGON((1 1,4 1,4 4,1 4,1 1))", 0, "1", "1",
-     "2", "vertex", true},
+    {"a rational foot", "POLYGON((0 0,9 0,0 3,0 0))", "POLYGON((3 1,20 1,20 9,3 9,3 1))", 0, "3/10", "9/10", "9/10",
+     "edge", true},
+    {"a corner of the obstacle", "POLYGON((0 0,10 0,10 2,2 2,2 10,0 10,0 0))", "POLYGON((1 1,4 1,4 4,1 4,1 1))", 0, "1",
+     "1", "2", "vertex", true},
     {"a peg in its pocket", POCKET, "POLYGON((1 0,5 0,5 4,1 4,1 0))", 0, "-1", "0", "1", "degenerate_point", true},
-    {"a pocket of three walls", "POLYGON((-9 -9,13 -9,13 4,4 4,4 0,0 0,0 4,-9 4,-9 -9))", "POLYGON((1 -1,5 -1,5 3,1 3,1 -1))",
-     0, "-1", "1", "2", "degenerate_segment", true},
+    {"a pocket of three walls", "POLYGON((-9 -9,13 -9,13 4,4 4,4 0,0 0,0 4,-9 4,-9 -9))",
+     "POLYGON((1 -1,5 -1,5 3,1 3,1 -1))", 0, "-1", "1", "2", "degenerate_segment", true},
     {"a pocket of three walls, its mouth", "POLYGON((-9 -9,13 -9,13 4,4 4,4 0,0 0,0 4,-9 4,-9 -9))",
      "POLYGON((1 3,5 3,5 13,1 13,1 3))", 0, "-1", "0", "1", "degenerate_segment", true},
     {"the end of a corridor", "MULTIPOLYGON(((0 0,2 0,2 9,0 9,0 0)),((3 0,5 0,5 9,3 9,3 0)))",
      "POLYGON((4 8,5 8,5 10,4 10,4 8))", 0, "0", "1", "1", "edge", true},
-    {"a corridor", "MULTIPOLYGON(((-9 0,2 0,2 9,-9 9,-9 0)),((3 0,15 0,15 9,3 9,3 0)))", "POLYGON((3 4,4 4,4 5,3 5,3 4))", 0,
-     "-1", "0", "1", "degenerate_segment", true},
+    {"a corridor", "MULTIPOLYGON(((-9 0,2 0,2 9,-9 9,-9 0)),((3 0,15 0,15 9,3 9,3 0)))",
+     "POLYGON((3 4,4 4,4 5,3 5,3 4))", 0, "-1", "0", "1", "degenerate_segment", true},
     {"out of a courtyard", "POLYGON((0 0,30 0,30 30,0 30,0 0),(1 1,1 29,29 29,29 1,1 1))",
      "POLYGON((27 5,33 5,33 6,27 6,27 5))", 0, "3", "0", "9", "edge", true},
-    {"inside a courtyard", "POLYGON((0 0,9 0,9 9,0 9,0 0),(1 1,1 8,8 8,8 1,1 1))", "POLYGON((2 2,3 2,3 3,2 3,2 2))", 0, "0",
-     "0", "0", "none", true},
-    {"members that touch", "MULTIPOLYGON(((0 0,2 0,2 4,0 4,0 0)),((2 0,4 0,4 4,2 4,2 0)))", "POLYGON((1 3,3 3,3 6,1 6,1 3))", 0,
-     "0", "1", "1", "edge", true},
-    {"members that overlap", "MULTIPOLYGON(((0 0,3 0,3 4,0 4,0 0)),((1 0,4 0,4 4,1 4,1 0)))", "POLYGON((1 3,3 3,3 6,1 6,1 3))",
-     0, "0", "1", "1", "edge", true},
+    {"inside a courtyard", "POLYGON((0 0,9 0,9 9,0 9,0 0),(1 1,1 8,8 8,8 1,1 1))", "POLYGON((2 2,3 2,3 3,2 3,2 2))", 0,
+     "0", "0", "0", "none", true},
+    {"members that touch", "MULTIPOLYGON(((0 0,2 0,2 4,0 4,0 0)),((2 0,4 0,4 4,2 4,2 0)))",
+     "POLYGON((1 3,3 3,3 6,1 6,1 3))", 0, "0", "1", "1", "edge", true},
+    {"members that overlap", "MULTIPOLYGON(((0 0,3 0,3 4,0 4,0 0)),((1 0,4 0,4 4,1 4,1 0)))",
+     "POLYGON((1 3,3 3,3 6,1 6,1 3))", 0, "0", "1", "1", "edge", true},
     {"a hole that touches the outer ring", "POLYGON((8 0,8 14,0 14,0 0,8 0),(2 2,2 8,4 8,8 2,2 2))",
      "POLYGON((5 6,4 6,4 5,5 5,6 5,6 6,5 6))", 0, "-6/13", "-4/13", "4/13", "edge", true},
     {"a gap", SQUARE, "POLYGON((5 0,9 0,9 4,5 4,5 0))", 3, "2", "0", "4", "edge", true},
@@ -71,9 +72,10 @@ static const known KNOWN[] = {
     {"a gap kept at corners", SQUARE, "POLYGON((7 8,9 8,9 9,7 9,7 8))", 5, "0", "0", "0", "none", true},
     {"a gap round a corner", SQUARE, "POLYGON((7 8,9 8,9 9,7 9,7 8))", 10, "3", "4", "25", "arc", true},
     {"a gap that fits exactly", POCKET8, "POLYGON((1 3,5 3,5 7,1 7,1 3))", 2, "1", "-1", "2", "degenerate_point", true},
-    {"a gap, corner against corner", POCKET8, "POLYGON((1 3,5 3,5 7,1 7,1 3))", 1.5, "1/2", "-1/2", "1/2", "vertex", true},
-    {"a gap across a slanted wall", "POLYGON((0 0,40 0,0 30,0 0))", "POLYGON((16 18,99 18,99 99,16 99,16 18))", 5, "3", "4", "25",
-     "edge", true},
+    {"a gap, corner against corner", POCKET8, "POLYGON((1 3,5 3,5 7,1 7,1 3))", 1.5, "1/2", "-1/2", "1/2", "vertex",
+     true},
+    {"a gap across a slanted wall", "POLYGON((0 0,40 0,0 30,0 0))", "POLYGON((16 18,99 18,99 99,16 99,16 18))", 5, "3",
+     "4", "25", "edge", true},
 };
 
 static void check_known(const known *k, const sunder_i_least_options *options)
@@ -294,7 +296,8 @@ static void containment(void **state)
 
 static void distances(void **state)
 {
-    sunder_shape *p = shape(SQUARE), *q = shape("POLYGON((7 8,9 8,9 9,7 9,7 8))"), *r = shape("POLYGON((4 2,5 1,5 3,4 2))");
+    sunder_shape *p = shape(SQUARE), *q = shape("POLYGON((7 8,9 8,9 9,7 9,7 8))"),
+                 *r = shape("POLYGON((4 2,5 1,5 3,4 2))");
     double d, a[2], b[2];
     assert_int_equal(sunder_pair_distance(p, q, &d, a, b, NULL), SUNDER_OK);
     assert_true(d == 5 && a[0] == 4 && a[1] == 4 && b[0] == 7 && b[1] == 8);
@@ -354,10 +357,14 @@ static sunder_status ask(int question, const sunder_shape *p, const sunder_shape
         status = sunder_i_least(p, q, &options, &s, NULL, NULL);
         if (status == SUNDER_OK) sunder_separation_clear(&s);
         return status;
-    case 2: return sunder_pair_overlap(p, q, &answer, NULL);
-    case 3: return sunder_pair_apart(p, q, 1.25, &answer, NULL);
-    case 4: return sunder_i_contained(p, NULL, q, NULL, &answer, NULL);
-    default: return sunder_pair_distance(p, q, &d, a, b, NULL);
+    case 2:
+        return sunder_pair_overlap(p, q, &answer, NULL);
+    case 3:
+        return sunder_pair_apart(p, q, 1.25, &answer, NULL);
+    case 4:
+        return sunder_i_contained(p, NULL, q, NULL, &answer, NULL);
+    default:
+        return sunder_pair_distance(p, q, &d, a, b, NULL);
     }
 }
 
@@ -387,9 +394,9 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_answers),   cmocka_unit_test(translated_alike), cmocka_unit_test(huge_and_tiny),
-        cmocka_unit_test(rounded_or_not),  cmocka_unit_test(upper_limit),      cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(empty_operands),  cmocka_unit_test(containment),      cmocka_unit_test(distances),
+        cmocka_unit_test(known_answers),   cmocka_unit_test(translated_alike),  cmocka_unit_test(huge_and_tiny),
+        cmocka_unit_test(rounded_or_not),  cmocka_unit_test(upper_limit),       cmocka_unit_test(bad_arguments),
+        cmocka_unit_test(empty_operands),  cmocka_unit_test(containment),       cmocka_unit_test(distances),
         cmocka_unit_test(memory_runs_out), cmocka_unit_test(repaired_operands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
