@@ -8,7 +8,6 @@
 
 #include "separation/least.h"
 
-#include <cmocka.h>
 #include <gmp.h>
 #include <math.h>
 #include <setjmp.h>
@@ -19,6 +18,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 typedef struct candidate {
     mpq_t x, y, norm;
