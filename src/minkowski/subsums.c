@@ -102,14 +102,17 @@ static bool rank_directions(sunder_i_subsums *out, operand *p, operand *q)
         ranking r = {l, key};
         ok = sunder_i_sort_indices(order, n, compare_keys, &r);
     }
+    uint32_t classes = 0;
     if (ok) {
-        uint32_t classes = 0;
         for (size_t i = 0; i < n; i++) {
             if (i == 0 || sunder_i_cross_sign(l, key[order[i - 1]], key[order[i]]) != 0)
                 out->direction[classes++] = key[order[i]];
             rank[order[i]] = classes - 1;
         }
         out->classes = classes;
+        ok = !l->arena.failed; /* else the ranks are not those of convex pieces */
+    }
+    if (ok) {
         for (size_t i = 0; i < n; i++)
             if (flipped[i]) rank[i] += classes;
         store_ranks(p, rank);
