@@ -34,13 +34,15 @@ static inline uint32_t sunder_i_first_ray(const sunder_i_graph *g, uint32_t v) {
 static inline uint32_t sunder_i_ray_rank(const sunder_i_graph *g, sunder_i_ray r)
 {
     const uint32_t rank = g->edge[r >> 1].rank;
-    return r & 1 ? (rank + g->classes) % (2 * g->classes) : rank;
+    if (!(r & 1)) return rank;
+    return rank < g->classes ? rank + g->classes : rank - g->classes;
 }
 
 /* The ray's place in the half-turn to the right of a lexicographically smallest vertex, lowest first: angles -pi/2 .. pi/2. */
 static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray r)
 {
-    return (sunder_i_ray_rank(g, r) + g->classes) % (2 * g->classes);
+    const uint32_t rank = sunder_i_ray_rank(g, r);
+    return rank < g->classes ? rank + g->classes : rank - g->classes;
 }
 
 /* Edges, rays, covered walks and components; false if memory is out. */

@@ -48,7 +48,11 @@ typedef struct polygon {
     uint32_t first, n;
 } polygon;
 
-static sunder_i_point corner(const polygon *p, uint32_t i) { return p->s->corner[p->first + i % p->n]; }
+/* i < 2 n, cyclically. */
+static sunder_i_point corner(const polygon *p, uint32_t i)
+{
+    return p->s->corner[p->first + (i < p->n ? i : i - p->n)];
+}
 
 /* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is past a full
  * turn. Corners there are extreme in the direction normal to r. */
@@ -110,8 +114,8 @@ static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, ui
  * touches the line there. */
 static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
 {
-    const uint32_t end = p->first + i % p->n;
-    uint32_t side = p->first + (i + p->n - 1) % p->n;
+    const uint32_t end = p->first + (i < p->n ? i : 0);
+    uint32_t side = p->first + (i ? i : p->n) - 1;
     if (p->s->rank[side] != rank) {
         add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end);
         return;

@@ -28,7 +28,8 @@ static uint64_t mix(uint64_t h, uint64_t v)
 
 static key make_key(const sunder_i_subsums *s, uint32_t side)
 {
-    key k = {s->rank[side] % s->classes, 0, 0};
+    const uint32_t rank = s->rank[side];
+    key k = {rank < s->classes ? rank : rank - s->classes, 0, 0};
     const sunder_i_point d = s->direction[k.class], a = s->corner[side];
     k.hash = mix(0, k.class);
     if (s->lattice->narrow) {

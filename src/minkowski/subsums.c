@@ -152,8 +152,8 @@ static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *
     const uint32_t start = at, classes = out->classes;
     uint32_t a = 0, b = 0;
     while (a < pn || b < qn) {
-        const uint32_t pk = pf + a % pn, qk = qf + b % qn; /* at the end a piece waits in its first corner */
-        const uint32_t pm = pf + (a + 1) % pn, qm = qf + (b + 1) % qn;
+        const uint32_t pk = pf + (a < pn ? a : 0), qk = qf + (b < qn ? b : 0); /* at the end a piece waits in its first corner */
+        const uint32_t pm = pf + (a + 1 < pn ? a + 1 : 0), qm = qf + (b + 1 < qn ? b + 1 : 0);
         const uint32_t pv = p->corner[pk], qv = q->corner[qk];
         const bool from_p = b >= qn || (a < pn && p->rank[pk] <= q->rank[qk]);
         const bool from_q = a >= pn || (b < qn && q->rank[qk] <= p->rank[pk]);
