@@ -186,6 +186,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
         ok = best && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
+        s.settled = 1e-5;
         s.effort = EFFORT * (uint64_t)cluster->n;
         /* Strangers stay. */
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
@@ -193,6 +194,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
             memcpy(best, s.t, 2 * n * sizeof *best);
             const double before = sunder_i_search_cost(&s, s.t);
             double cost = before;
+            attempt(&s, best, &cost); /* what the first solution left when it was good enough */
             for (int round = 0; round < 4 && has_time(&s) && !s.failed; round++) {
                 const double start = cost;
                 try_places(&s, order, best, &cost);

@@ -8,6 +8,7 @@
  *
  * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
+#include "displacement/quadratic.h"
 #include "displacement/search.h"
 
 #include <math.h>
@@ -15,11 +16,11 @@
 #include <string.h>
 
 #define MOST_ROUNDS 40    /* rounds in all: a bound that is not met in practice */
-#define MOST_CLASHING 12  /* rounds that end in a clash before the search gives up */
+#define MOST_CLASHING 12  /* rounds that end in a clash before the search gives up ... */
+#define MOST_IDLE 3       /* ... and those of them that do not halve what is missed */
 #define SOFT 1e-3         /* at first; less each round that clashes, so that long chains are not taken for contradictions */
-#define HARDEST 1e-7
-#define SETTLED 3e-6      /* a round that gains less of the cost is the last */
-#define STEPS 600
+#define HARDEST 1e-6
+#define MOST_ADDITIONS 24 /* times that constraints are added to one program */
 
 /* ---- Constraints ----------------------------------------------------------------------------------------------------- */
 
@@ -56,46 +57,63 @@ static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_cons
     p->constraint[p->n++] = *c;
 }
 
-/* The constraints of pair (i, j) around relative position u, of pieces no farther apart there than gap + reach. Those for which `skip`
- * holds a constraint already are left as they are. */
-static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
-                           const sunder_i_constraint *skip, size_t skip_n)
+/* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near, with the sides of
+ * position u. Those that `known` holds are left as they are. */
+typedef struct sighting {
+    const double *near, *u;
+    double reach;
+    const sunder_i_constraint *known;
+    size_t known_n;
+} sighting;
+
+static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at, uint32_t k, uint32_t l, size_t first)
 {
     const sunder_i_town *town = s->town;
     const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const sunder_i_piece *a = &town->piece[k], *b = &town->piece[l];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
+    const uint64_t key = (uint64_t)k << 32 | l;
+    if (look_up(at->known, at->known_n, key)) return;
+    const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
+                                         town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+    if (n == 0) {
+        s->failed = true;
+        return;
+    }
+    s->steps++;
+    sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, at->near);
+    if (h.distance > s->gap + at->reach) return;
+    if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
+    const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
+    double d = h.support + s->gap;
+    /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two sides, would be a
+     * contradiction. */
+    const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
+    if (now < d && now >= d - s->tolerance) d = now;
+    add_constraint(s, first, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = d,
+                                                    .force = before ? before->force : 0, .key = key});
+}
+
+static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const double v[2] = {q->origin[0] - p->origin[0] + at->near[0], q->origin[1] - p->origin[1] + at->near[1]};
+    const double r = at->reach + s->gap;
     const size_t first = s->program.n;
-    for (uint32_t k = 0; k < p->pieces; k++) {
-        const sunder_i_piece *a = &town->piece[p->piece + k];
+    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
+        const sunder_i_piece *a = &town->piece[k];
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
         if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) {
-            const sunder_i_piece *b = &town->piece[q->piece + l];
-            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
-            const uint64_t key = (uint64_t)(p->piece + k) << 32 | (q->piece + l);
-            if (look_up(skip, skip_n, key)) continue;
-            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
-                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
-            if (n == 0) {
-                s->failed = true;
-                return;
-            }
-            s->steps++;
-            const sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, u);
-            if (h.distance > r) continue;
-            const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
-            add_constraint(s, first, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = h.support + s->gap,
-                                                     .force = before ? before->force : 0, .key = key});
-        }
+        for (uint32_t l = q->piece; l < q->piece + q->pieces && !s->failed; l++)
+            if (sunder_i_box_meet(box, town->piece[l].box) && !sunder_i_is_kept(town, a->feature, town->piece[l].feature))
+                constrain_pieces(s, i, j, at, k, l, first);
     }
 }
 
 typedef struct around {
     const double *t;
     double reach;
-    const sunder_i_constraint *skip; /* NULL, or only what is missing there */
-    size_t skip_n;
     bool clashing;
 } around;
 
@@ -108,7 +126,7 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
         double place[1][2];
         if (sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
     }
-    constrain_pair(s, i, j, u, a->reach, a->skip, a->skip_n);
+    constrain_pair(s, i, j, &(sighting){u, u, a->reach, NULL, 0});
 }
 
 static void sort_constraints(sunder_i_search *s)
@@ -170,16 +188,17 @@ static double longest_move(const sunder_i_search *s)
 static double solve(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
-    double v = sunder_i_quadratic_solve(p, softness, s->tolerance, STEPS);
+    /* A compromise need not be found to the last digit. */
+    const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
+    double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent, s->place);
     if (v < 0) s->failed = true;
     if (softness > 0 || v <= s->tolerance) return v;
-    const double step = longest_step(s);
     double asked = 0;
-    for (int k = 0; k < 4 && v > s->tolerance && v <= 1e-3 * (step + s->gap) && !s->failed; k++) {
+    for (int k = 0; k < 4 && v > s->tolerance && v <= 1e-3 * (s->extent + s->gap) && !s->failed; k++) {
         const double more = 1.5 * v;
         asked += more;
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
-        v = sunder_i_quadratic_solve(p, 0, s->tolerance, STEPS);
+        v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent, s->place);
         if (v < 0) s->failed = true;
         v = fmax(0, v - asked);
     }
@@ -190,8 +209,10 @@ static double solve(sunder_i_search *s, double softness)
 static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
-    for (int k = 0; k < 12 && !s->failed; k++) {
+    for (int k = 0; k < (softness > 0 ? MOST_ADDITIONS / 6 : MOST_ADDITIONS) && !s->failed; k++) {
         v = solve(s, softness);
+        /* No solution: what lies in the way of where it went astray is of no interest. */
+        if (softness == 0 && v > 1e-3 * (s->extent + s->gap)) break;
         bool more = constrain_limits(s);
         sort_constraints(s);
         const size_t before = s->program.n;
@@ -209,7 +230,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
             double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
             if (sunder_i_search_pair(s, i, j, u) > s->tolerance) continue;
             const double w[2] = {s->next[2 * j] - s->next[2 * i], s->next[2 * j + 1] - s->next[2 * i + 1]};
-            constrain_pair(s, i, j, u, hypot(w[0] - u[0], w[1] - u[1]) + s->clash[c].violation, known, before);
+            constrain_pair(s, i, j, &(sighting){w, u, -s->tolerance, known, before});
         }
         more = more || s->program.n > before;
         sunder_i_free(known);
@@ -219,47 +240,96 @@ static double solve_lazily(sunder_i_search *s, double softness)
     return v;
 }
 
+/* Around a position with clashes: softly; and in full, if what is missed is little beside how far things go and the full program turns out to have a
+ * solution. */
+static double compromise(sunder_i_search *s, double softness)
+{
+    const double v = solve_lazily(s, softness);
+    if (v > 0.03 * (longest_move(s) + s->gap) || s->failed) return v;
+    const size_t n = s->program.n;
+    sunder_i_constraint *constraint = sunder_i_alloc(n, sizeof *constraint);
+    double *next = sunder_i_alloc(2 * s->n, sizeof *next);
+    double full = v;
+    if (!constraint || !next) {
+        s->failed = true;
+    } else {
+        if (n) memcpy(constraint, s->program.constraint, n * sizeof *constraint);
+        memcpy(next, s->next, 2 * s->n * sizeof *next);
+        full = solve_lazily(s, 0);
+        if (full > s->tolerance) {
+            if (n) memcpy(s->program.constraint, constraint, n * sizeof *constraint);
+            s->program.n = n;
+            memcpy(s->next, next, 2 * s->n * sizeof *next);
+            full = v;
+        }
+    }
+    sunder_i_free(constraint);
+    sunder_i_free(next);
+    return full;
+}
+
+/* The farthest towards s->next that one can go from s->t, which is free, without missing a constraint more than there; for programs that
+ * were not solved to the end. The constraints are convex, so the way is free up to there. */
+static void stop_short(sunder_i_search *s)
+{
+    double share = 1;
+    for (size_t k = 0; k < s->program.n; k++) {
+        const sunder_i_constraint *c = &s->program.constraint[k];
+        const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
+        if (there < 0 && there < here) share = fmin(share, fmax(0, here) / (here - there));
+    }
+    for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + 0.999 * share * (s->next[k] - s->t[k]);
+}
+
 /* ---- The sequence --------------------------------------------------------------------------------------------------------------- */
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {
     double reach = s->gap, cost = INFINITY, softness = SOFT;
+    const double longest_reach = fmax(s->gap / 2, s->extent / 50);
     bool free_now = false;
-    int clashing_rounds = 0;
+    int clashing_rounds = 0, idle = 0;
+    double least_missed = INFINITY, least_left = INFINITY;
+    double *best = sunder_i_alloc(2 * s->n, sizeof *best);
+    if (!best) s->failed = true;
     for (int round = 0; round < MOST_ROUNDS && !s->failed; round++) {
         const bool clashing = constrain_all(s, reach);
-        if (s->failed) return false;
+        if (s->failed) break;
         double v;
         if (clashing) {
-            v = solve_lazily(s, softness);
-            /* What is missed little, beside how far things go, may be had in full. */
-            if (v <= 0.03 * (longest_move(s) + s->gap)) {
-                v = solve_lazily(s, 0);
-                if (v > s->tolerance) {
-                    for (size_t k = 0; k < s->program.n; k++) s->program.constraint[k].force = 0;
-                    v = solve_lazily(s, softness);
-                }
-            }
+            v = compromise(s, softness);
             softness = fmax(softness / 5, HARDEST);
         } else {
             v = solve_lazily(s, 0);
+            if (v > s->tolerance) stop_short(s);
         }
-        if (s->failed) return false;
-        const bool free_next = sunder_i_search_look(s, s->next) <= s->tolerance;
+        if (s->failed) break;
+        const double left = sunder_i_search_look(s, s->next);
+        const bool free_next = left <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
-        if (free_next && free_now && next_cost > cost - SETTLED * cost) {
-            if (next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+        if (free_now && (!free_next || next_cost > cost - s->settled * cost)) {
+            /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
+            if (free_next && next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+            sunder_i_free(best);
             return true;
         }
-        if (!free_next && free_now) return true; /* numerically stuck: what stands is free */
         memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+        if (!free_next && left < least_left) {
+            least_left = left;
+            memcpy(best, s->t, 2 * s->n * sizeof *best);
+        }
         free_now = free_next;
         cost = next_cost;
-        reach = fmax(1.5 * step, s->gap / 8);
-        if (!free_now && ++clashing_rounds >= MOST_CLASHING) break;
+        reach = fmin(fmax(1.5 * step, s->gap / 8), longest_reach);
+        if (free_now) continue;
+        idle = v > least_missed / 2 ? idle + 1 : 0;
+        least_missed = fmin(least_missed, v);
+        if (++clashing_rounds >= MOST_CLASHING || idle >= MOST_IDLE) break;
     }
-    return free_now;
+    if (!free_now && least_left < INFINITY && !s->failed) memcpy(s->t, best, 2 * s->n * sizeof *best);
+    sunder_i_free(best);
+    return free_now && !s->failed;
 }
 
 /* ---- Jumping ------------------------------------------------------------------------------------------------------------------------- */
@@ -271,6 +341,7 @@ static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
 
 bool sunder_i_search_jump(sunder_i_search *s)
 {
+    s->program.n = 0; /* the forces belong to places that are left */
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
     size_t stuck = 0;
     for (size_t k = 0; k <= 2 * s->n && !s->failed; k++) {
@@ -280,8 +351,11 @@ bool sunder_i_search_jump(sunder_i_search *s)
         uint32_t who = 0;
         stuck = 0;
         for (size_t c = 0; c < s->clashes && !(best_cost < INFINITY); c++) {
-            const uint32_t pair[2] = {s->clash[c].i, s->clash[c].j};
-            for (int e = 0; e < 2; e++) {
+            /* The smaller of the two; the other only if there is no place for it. */
+            const uint32_t ci = s->clash[c].i, cj = s->clash[c].j;
+            const bool swap = s->town->body[s->body[ci]].pieces > s->town->body[s->body[cj]].pieces;
+            const uint32_t pair[2] = {swap ? cj : ci, swap ? ci : cj};
+            for (int e = 0; e < 2 && !(best_cost < INFINITY); e++) {
                 double place[2];
                 const uint32_t i = pair[e];
                 if (!(s->mass[i] > 0) || !sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place)) continue;

@@ -134,7 +134,9 @@ typedef struct sunder_i_town {
     uint32_t *member;   /* [features] features by body */
     sunder_i_body *body;
     sunder_i_piece *piece;
+    sunder_i_piece *outline; /* [features] the convex hull of each: stands in for its pieces where they are too many */
     double *corner;     /* [2 * corners] relative to the body's origin */
+    sunder_shape **whole; /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;        /* [4 * features] as they stood at the start */
     bool *present;      /* [features] */
     sunder_i_index tree;
@@ -171,6 +173,10 @@ const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relat
 sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
 /* The convex pieces, for the search. */
 sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err);
+/* Unites the members of these bodies, those that are blocks and have not been. */
+sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, size_t n, sunder_error *err);
+/* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
+const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
 void sunder_i_town_free(sunder_i_town *town);
 bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
 
@@ -232,12 +238,10 @@ typedef struct sunder_i_obstacles {
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
-/* Is x outside all of them, give or take rounding? */
-bool sunder_i_obstacles_free_at(const sunder_i_obstacles *obstacles, const double x[2]);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them, none beyond
- * limit, no two nearer than `spread`. Returns how many. */
-size_t sunder_i_free_places(sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
-                            size_t most, double (*places)[2]);
+ * limit, no two nearer than `spread`. Returns how many; *failed is set if memory is out. */
+size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
+                            size_t most, double (*places)[2], bool *failed);
 
 /* ---- The quadratic program --------------------------------------------------------------------------------------------------- */
 
@@ -262,8 +266,9 @@ typedef struct sunder_i_quadratic {
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in proportion to
  * its force (relative to what the force moves), so that contradictions end in a compromise. Returns the worst violation;
- * negative if memory is out. */
-double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, unsigned sweeps);
+ * negative if memory is out. scale: a length such as bodies move by; where: the bodies' places, two doubles each. */
+double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale,
+                                const double *where);
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------------------------- */
 

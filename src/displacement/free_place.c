@@ -17,7 +17,7 @@
 #define TURN (3.14159265358979323846 / 8)
 /* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block stands amid
  * hundreds of neighbours. */
-#define MOST_CROSSED 3000
+#define MOST_CROSSED 1500
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
 {
@@ -128,22 +128,17 @@ static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacl
     return true;
 }
 
-/* hint: the obstacle that was hit last is often hit again. */
-static bool free_at(const sunder_i_obstacles *o, const double x[2], size_t *hint)
+/* order: the obstacles, those that are hit often move to the front. */
+static bool free_at(const sunder_i_obstacles *o, const double x[2], uint32_t *order)
 {
-    if (*hint < o->n && inside(o, &o->obstacle[*hint], x)) return false;
-    for (size_t k = 0; k < o->n; k++)
-        if (inside(o, &o->obstacle[k], x)) {
-            *hint = k;
-            return false;
-        }
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = order[k];
+        if (!inside(o, &o->obstacle[hit], x)) continue;
+        order[k] = order[k / 2];
+        order[k / 2] = hit;
+        return false;
+    }
     return true;
-}
-
-bool sunder_i_obstacles_free_at(const sunder_i_obstacles *o, const double x[2])
-{
-    size_t hint = 0;
-    return free_at(o, x, &hint);
 }
 
 static int by_distance(const void *a, const void *b)
@@ -169,7 +164,8 @@ typedef struct harvest {
     const sunder_i_obstacles *obstacles;
     const double *target;
     double limit, spread;
-    size_t most, n, hint;
+    size_t most, n;
+    uint32_t *order;
     double (*place)[2];
     double *distance;
 } harvest;
@@ -181,7 +177,7 @@ static void offer(harvest *h, const double x[2])
     if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
-    if (!free_at(h->obstacles, x, &h->hint)) return;
+    if (!free_at(h->obstacles, x, h->order)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
     /* Those behind that are too near the new one go. */
@@ -206,11 +202,11 @@ static void offer(harvest *h, const double x[2])
 static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
 
 /* Crossings of wall w with every wall before it. */
-static void offer_crossings(harvest *h, const sunder_i_obstacles *o, size_t w)
+static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
 {
-    const sunder_i_wall *a = &o->wall[w];
+    const sunder_i_wall *a = &wall[w];
     for (size_t v = 0; v < w; v++) {
-        const sunder_i_wall *b = &o->wall[v];
+        const sunder_i_wall *b = &wall[v];
         if (a->obstacle == b->obstacle) continue;
         const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h, d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
         if ((d1 > 0) == (d2 > 0)) continue;
@@ -221,45 +217,65 @@ static void offer_crossings(harvest *h, const sunder_i_obstacles *o, size_t w)
     }
 }
 
-size_t sunder_i_free_places(sunder_i_obstacles *o, const double target[2], double limit, double spread, size_t most,
-                            double (*places)[2])
+/* Does one obstacle hold the whole wall? Most walls are deep inside the union. */
+static bool is_covered(const harvest *h, const sunder_i_wall *w)
+{
+    const sunder_i_obstacles *o = h->obstacles;
+    const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2};
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = h->order[k];
+        const sunder_i_obstacle *obstacle = &o->obstacle[hit];
+        if (!inside(o, obstacle, middle) || !inside(o, obstacle, w->from) || !inside(o, obstacle, w->to)) continue;
+        h->order[k] = h->order[k / 2];
+        h->order[k / 2] = hit;
+        return true;
+    }
+    return false;
+}
+
+/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle. */
+static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
+{
+    size_t bare = 0;
+    for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
+        double x[2];
+        if (is_covered(h, &sorted[k])) continue;
+        nearest_on(&sorted[k], h->target, x);
+        offer(h, x);
+        sorted[bare++] = sorted[k];
+    }
+    for (size_t k = 0; k < bare && k < MOST_CROSSED && sorted[k].distance <= reach_of(h); k++)
+        offer_crossings(h, sorted, k);
+}
+
+size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread, size_t most,
+                            double (*places)[2], bool *failed)
 {
     enum { MOST = 16 };
     double distance[MOST];
-    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, 0, places, distance};
-    if (h.most == 0 || o->failed) return 0;
-    offer(&h, target);
-    if (h.n) return h.n;
-    for (size_t k = 0; k < o->walls; k++) {
-        double x[2];
-        nearest_on(&o->wall[k], target, x);
-        o->wall[k].distance = hypot(x[0] - target[0], x[1] - target[1]);
+    uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
+    sunder_i_wall *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
+    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance};
+    if (!order || !sorted || o->failed) {
+        *failed = true;
+    } else if (h.most) {
+        for (size_t k = 0; k < o->n; k++) order[k] = (uint32_t)k;
+        offer(&h, target);
+        if (h.n == 0) {
+            size_t walls = 0;
+            for (size_t k = 0; k < o->walls; k++) {
+                sunder_i_wall *w = &sorted[walls];
+                double x[2];
+                *w = o->wall[k];
+                nearest_on(w, target, x);
+                w->distance = hypot(x[0] - target[0], x[1] - target[1]);
+                if (w->distance <= limit) walls++;
+            }
+            if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
+            search(&h, sorted, walls);
+        }
     }
-    if (o->walls) qsort(o->wall, o->walls, sizeof *o->wall, by_distance);
-    /* Sorted walls are no longer grouped by obstacle, which inside() needs; regroup a copy for it. */
-    sunder_i_wall *sorted = o->wall, *grouped = sunder_i_alloc(o->walls, sizeof *grouped);
-    if (!grouped) {
-        o->failed = true;
-        return 0;
-    }
-    for (size_t k = 0; k < o->n; k++) o->obstacle[k].walls = 0;
-    for (size_t k = 0; k < o->walls; k++) {
-        sunder_i_obstacle *obstacle = &o->obstacle[sorted[k].obstacle];
-        grouped[obstacle->wall + obstacle->walls++] = sorted[k];
-    }
-    sunder_i_obstacles view = *o, by_wall = *o;
-    view.wall = grouped;
-    by_wall.wall = sorted;
-    h.obstacles = &view;
-    for (size_t k = 0; k < o->walls && sorted[k].distance <= reach_of(&h); k++) {
-        double x[2];
-        nearest_on(&sorted[k], target, x);
-        offer(&h, x);
-    }
-    for (size_t k = 0; k < o->walls && k < MOST_CROSSED && sorted[k].distance <= reach_of(&h); k++)
-        offer_crossings(&h, &by_wall, k);
+    sunder_i_free(order);
     sunder_i_free(sorted);
-    o->wall = grouped;
-    o->wall_capacity = o->walls;
     return h.n;
 }

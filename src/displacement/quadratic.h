@@ -34,6 +34,11 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
 /* The acting constraints as linear equations, their set corrected. False if memory is out. The forces are changed, t is not. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
+/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by; where: a place for each body, two
+ * doubles, to order them by. False if memory is out. */
+bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale,
+                                 const double *where);
+
 /* t from the forces; what is missed at worst, softness allowed for; a pass of Hildreth's method. */
 void sunder_i_quadratic_place(sunder_i_quadratic *program);
 double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);

@@ -14,15 +14,20 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->n = n;
     s->gap = town->rules.gap + margin;
     s->tolerance = margin / 4;
+    s->settled = 1e-3;
     s->mass = sunder_i_alloc(n, sizeof *s->mass);
     s->t = sunder_i_alloc(2 * n, sizeof *s->t);
     s->next = sunder_i_alloc(2 * n, sizeof *s->next);
     s->box = sunder_i_alloc(4 * n, sizeof *s->box);
     s->order = sunder_i_alloc(n, sizeof *s->order);
-    if (!s->mass || !s->t || !s->next || !s->box || !s->order) return false;
+    s->place = sunder_i_calloc(2 * n, sizeof *s->place);
+    if (!s->mass || !s->t || !s->next || !s->box || !s->order || !s->place) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &town->body[body[k]];
         s->mass[k] = b->fixed ? 0 : 0.5 / b->weight;
+        for (size_t c = 0; c < 2 && b->pieces; c++)
+            s->place[2 * k + c] = b->origin[c] - town->body[body[0]].origin[c] + (b->box[c] + b->box[c + 2]) / 2;
+        if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
     memcpy(s->t, move, 2 * n * sizeof *s->t);
     s->program.bodies = n;
@@ -38,6 +43,7 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->next);
     sunder_i_free(s->box);
     sunder_i_free(s->order);
+    sunder_i_free(s->place);
     sunder_i_free(s->program.constraint);
     sunder_i_free(s->old);
     sunder_i_free(s->clash);
@@ -158,21 +164,38 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     return l.worst;
 }
 
+/* More pairs of pieces than this are too many to make an obstacle of each. */
+#define MANY_PAIRS 1500
+/* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
+#define MANY_AROUND 5000
+
 /* ---- Where there is room ------------------------------------------------------------------------------------------- */
 
-/* Adds the obstacles that pieces of q make for pieces of p (or for the one convex outline given), within reach of u. */
-static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
-                          const double offset[2], const double u[2], double reach)
+/* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
+static uint32_t parts_of(const sunder_i_body *body, bool coarse)
+{
+    return coarse ? body->members : body->pieces;
+}
+
+static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_body *body, bool coarse, uint32_t k)
+{
+    return coarse ? &town->outline[town->member[body->member + k]] : &town->piece[body->piece + k];
+}
+
+/* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
+static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
+                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2], double reach)
 {
     const sunder_i_town *town = s->town;
     const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
-    for (uint32_t k = 0; k < p->pieces; k++) {
-        const sunder_i_piece *a = &town->piece[p->piece + k];
+    const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
+    for (uint32_t k = 0; k < np; k++) {
+        const sunder_i_piece *a = part_of(town, p, coarse_p, k);
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
-        if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) {
-            const sunder_i_piece *b = &town->piece[q->piece + l];
-            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+        if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < nq; l++) {
+            const sunder_i_piece *b = part_of(town, q, coarse_q, l);
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
             const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
                                                  town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
@@ -206,17 +229,47 @@ static bool outside_all(const sunder_i_obstacles *o, const double target[2], dou
     return best < INFINITY;
 }
 
+/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts from is cut to
+ * few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
+static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
+                              double limit, double place[2])
+{
+    const double none[2] = {0, 0};
+    double from[2];
+    for (int c = 0; c < 2; c++) {
+        int exponent;
+        frexp(fmax(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
+        const double unit = ldexp(1, exponent - 44);
+        from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
+    }
+    sunder_separation least;
+    bool beyond;
+    const sunder_status status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
+    if (status == SUNDER_ENOMEM) s->failed = true;
+    if (status) return false;
+    place[0] = from[0] + least.dx;
+    place[1] = from[1] + least.dy;
+    sunder_separation_clear(&least);
+    return !beyond && isfinite(place[0]) && isfinite(place[1]);
+}
+
 size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2])
 {
-    const sunder_i_body *p = &s->town->body[s->body[i]], *q = &s->town->body[s->body[j]];
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
+    const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
+    /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
+    const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
+    if (many && most == 1 && town->kept_n == 0 && ps && qs && free_pair_exactly(s, ps, qs, target, shallow, places[0])) return 1;
     const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
-        add_obstacles(s, &o, p, q, offset, target, reach);
-        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places);
+        add_obstacles(s, &o, p, many, q, many, offset, target, reach);
+        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->failed);
         if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
         s->failed = s->failed || o.failed;
         sunder_i_obstacles_free(&o);
@@ -244,12 +297,33 @@ static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double b
     return true;
 }
 
+/* How many pieces of others lie within reach of body i, by their boxes. */
+static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach, const sunder_i_list *foreign)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]];
+    uint64_t n = 0;
+    for (size_t k = 0; k < s->n + foreign->n; k++) {
+        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
+        const sunder_i_body *q = &town->body[body];
+        if (k == i || q->pieces == 0) continue;
+        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        double box[4];
+        for (int c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] + (c < 2 ? -1 : 1) * (reach + s->gap);
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, town->piece[q->piece + l].box);
+    }
+    return n;
+}
+
 /* Obstacles for body i from all the others, within reach of place `at`. */
 static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
                      const sunder_i_list *foreign)
 {
     const sunder_i_town *town = s->town;
     const sunder_i_body *p = &town->body[s->body[i]];
+    const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
     for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
         if (k == i) continue;
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
@@ -258,7 +332,7 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
         const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
-        add_obstacles(s, o, q, p, offset, at, reach);
+        add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
     }
 }
 
@@ -278,7 +352,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
         if (!strangers(s, p, box, &foreign)) s->failed = true;
         surround(s, &o, i, home, reach, &foreign);
         double best[1][2];
-        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best);
+        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->failed);
         if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
         s->failed = s->failed || o.failed;
         sunder_i_obstacles_free(&o);

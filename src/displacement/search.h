@@ -27,6 +27,9 @@ typedef struct sunder_i_search {
     sunder_i_clash *clash;      /* of the last look */
     size_t clashes, clash_capacity;
     sunder_i_scratch scratch;
+    double *place;              /* [2 n] where each is, relative to the first's origin; to order them by */
+    double extent;              /* the mean size of the bodies */
+    double settled;             /* a round that gains less of the cost is the last */
     uint64_t steps, effort;     /* work done, in constraints looked at; how much may be done for better sides */
     bool failed;                /* memory is out */
 } sunder_i_search;

@@ -295,6 +295,24 @@ static void note_unsolved(work *w)
     }
 }
 
+/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that no two threads
+ * do the same. */
+static sunder_status unite_blocks(work *w, sunder_error *err)
+{
+    bool *seen = sunder_i_calloc(w->town.bodies, sizeof *seen);
+    uint32_t *body = sunder_i_alloc(w->members, sizeof *body);
+    sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t k = 0; !status && k < w->members; k++) {
+        if (!seen[w->body[k]]) body[n++] = w->body[k];
+        seen[w->body[k]] = true;
+    }
+    if (!status) status = sunder_i_town_unite(&w->town, body, n, err);
+    sunder_i_free(seen);
+    sunder_i_free(body);
+    return status;
+}
+
 static sunder_status settle(work *w, double from, double to, sunder_error *err)
 {
     bool any;
@@ -303,6 +321,7 @@ static sunder_status settle(work *w, double from, double to, sunder_error *err)
         if (!sunder_i_progress(&w->town.rules, from + (to - from) * (1 - 1 / (1 + 0.25 * (double)round))))
             return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
         status = gather(w, err);
+        if (!status) status = unite_blocks(w, err);
         if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, solve_clusters, w, err);
         if (status) return status;
         commit(w);

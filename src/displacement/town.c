@@ -11,7 +11,10 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->member);
     sunder_i_free(town->body);
     sunder_i_free(town->piece);
+    sunder_i_free(town->outline);
     sunder_i_free(town->corner);
+    for (size_t b = 0; town->whole && b < town->bodies; b++) sunder_shape_free(town->whole[b]);
+    sunder_i_free(town->whole);
     sunder_i_free(town->box);
     sunder_i_free(town->present);
     sunder_i_free(town->kept);
@@ -168,64 +171,4 @@ bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
             high = middle;
     }
     return low < town->kept_n && town->kept[low].a == a && town->kept[low].b == b;
-}
-
-/* ---- Convex pieces ------------------------------------------------------------------------------------------------ */
-
-static void cut_feature(sunder_i_town *town, sunder_i_body *body, uint32_t f, size_t *corner)
-{
-    const sunder_shape *shape = town->layer->feature[f].shape;
-    uint32_t from = 0;
-    for (uint32_t p = 0; p < shape->pieces; p++) {
-        sunder_i_piece *piece = &town->piece[town->pieces++];
-        piece->feature = f;
-        piece->corner = (uint32_t)*corner;
-        piece->corners = shape->piece_end[p] - from;
-        piece->box[0] = piece->box[1] = INFINITY;
-        piece->box[2] = piece->box[3] = -INFINITY;
-        for (; from < shape->piece_end[p]; from++, ++*corner) {
-            double *c = town->corner + 2 * *corner;
-            for (int k = 0; k < 2; k++) {
-                c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
-                piece->box[k] = fmin(piece->box[k], c[k]);
-                piece->box[k + 2] = fmax(piece->box[k + 2], c[k]);
-            }
-        }
-        for (int k = 0; k < 2; k++) {
-            body->box[k] = fmin(body->box[k], piece->box[k]);
-            body->box[k + 2] = fmax(body->box[k + 2], piece->box[k + 2]);
-        }
-        body->pieces++;
-    }
-}
-
-sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
-{
-    size_t pieces = 0, corners = 0;
-    for (size_t f = 0; f < town->features; f++)
-        if (town->present[f]) {
-            const sunder_shape *shape = town->layer->feature[f].shape;
-            pieces += shape->pieces;
-            if (shape->pieces) corners += shape->piece_end[shape->pieces - 1];
-        }
-    if (pieces >= UINT32_MAX || corners >= UINT32_MAX)
-        return sunder_i_fail(err, SUNDER_ERANGE, "too many corners: %zu", corners);
-    town->piece = sunder_i_alloc(pieces, sizeof *town->piece);
-    town->corner = sunder_i_alloc(2 * corners, sizeof *town->corner);
-    if (!town->piece || !town->corner) return sunder_i_no_memory(err);
-    size_t corner = 0;
-    for (size_t b = 0; b < town->bodies; b++) {
-        sunder_i_body *body = &town->body[b];
-        body->piece = (uint32_t)town->pieces;
-        body->box[0] = body->box[1] = INFINITY;
-        body->box[2] = body->box[3] = -INFINITY;
-        const uint32_t first = town->member[body->member];
-        body->origin[0] = town->box[4 * first];
-        body->origin[1] = town->box[4 * first + 1];
-        for (uint32_t k = 0; k < body->members; k++) {
-            const uint32_t f = town->member[body->member + k];
-            if (town->present[f]) cut_feature(town, body, f, &corner);
-        }
-    }
-    return SUNDER_OK;
 }
