@@ -58,12 +58,25 @@ same "$(jq -r '.features[0].geometry.type' out)" Polygon
 expect 0 sum "$frame" square:4 o.shp
 for f in o.shp o_degenerate_segments.shp o_degenerate_points.shp; do [ -s $f ] || fail "no $f"; done
 
-# Vertices that rounding takes off the edges that they lie on: the layer is valid all the same (GEOS judges).
-if ogrinfo -q :memory: -dialect sqlite -sql 'SELECT ST_IsValid(ST_GeomFromText("POLYGON((0 0,1 0,1 1,0 0))")) AS valid' 2>/dev/null | grep -q '= 1'; then
-    for q in 'POLYGON ((0 0, 0.3 0.1, 0.1 0.3))' 'POLYGON ((0 0, 0.7 0, 0.3 0.9), (0.2 0.1, 0.4 0.1, 0.3 0.3))' disc:0.7:7; do
-        expect 0 sum 'MULTIPOLYGON (((0.1 0.1, 1.3 0.2, 0.7 0.9)), ((1.3 0.2, 2.1 0.7, 1.7 1.9)), ((0.7 0.9, 1.7 1.9, 0.3 2.7)))' \
-            "$q" v.gpkg --overwrite
-        same "$(ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT min(ST_IsValid(geom)) AS valid FROM sum' | sed -n 's/.*valid.* = //p')" 1 "valid"
-    done
-fi
+# Sums that rounding breaks (vertices on the middle of an edge, needles thinner than an ulp): the layer is valid all the
+# same. GEOS judges, through the SQL of GDAL, where that is there; where it is not, the program's own check does.
+p1='MULTIPOLYGON (((0.9 0.9,2.9 1.4,1.1 0.7)),((2.7 2.6,1.8 2.9,1.2 1.7)),((0.5 2.6,2.7 3,0.8 1.8)),((2.9 2.2,0.4 1.1,2.2 1.8)),'
+p1+='((0.8 0.6,1.3 1.9,0.6 1.2)),((0.2 2.1,2.4 0.6,0.2 0.1)),((2.6 2.7,0.4 3,1.8 1.6)),((1 2.7,2 2.4,2.4 2.7)))'
+q1='MULTIPOLYGON (((0.6 0.4,0 0.3,0.3 0.3)),((0.3 0.7,0.5 0,0.1 0.7)),((0.3 0.7,0.4 0.1,0.7 0.2)),((0.3 0.4,0.7 0.3,0.7 0.1)))'
+p2='MULTIPOLYGON (((0.2 0.5,0.4 2.8,2.7 0.4)),((2.6 1.7,0.9 1.7,1.8 1.1)),((0.3 0.1,0.4 1.9,2.3 0.7)),((0.9 1.6,2.1 0.5,1.4 1.3)),'
+p2+='((0.4 0.2,2.4 1,2.5 1.8)),((2.3 2.2,1.7 0.3,1.5 2.1)),((2.4 0.7,0.9 1.7,1.4 0.9)),((1.7 1.4,0.6 2,2.5 2.7)),'
+p2+='((2.4 0.2,2.5 1.5,0 1)),((2.4 2.4,2.7 1.5,1.9 0.7)),((2.9 0.6,1.6 0.6,2.6 1)),((2.3 2.5,2.1 1.2,1.1 0.9)))'
+q2='MULTIPOLYGON (((0.1 0.6,0.6 0.7,0.1 0.7)),((0.8 0.5,0.5 0.2,0.4 0.6)))'
+valid() { ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT min(ST_IsValid(geom)) AS valid FROM sum' 2>/dev/null | sed -n 's/.*valid.* = //p'; }
+near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d < 1e-20 * b * b) }'; }
+for case in "$p1|$q1" "$p2|$q2"; do
+    expect 0 sum "${case%|*}" "${case#*|}" v.gpkg --overwrite --stats v.json
+    jq -e '.result.max_deviation < 1e-14' v.json >/dev/null || fail "max_deviation $(jq .result.max_deviation v.json)"
+    case $(valid) in 0) fail "GEOS finds the layer invalid" ;; 1) ;; *) echo "not asked: GEOS, since this GDAL is without it" ;; esac
+    # As a source it is valid too, and has the area of the exact sum.
+    expect 0 sum v.gpkg 'POLYGON EMPTY' --invalid fail
+    area=$(ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT sum(ST_Area(geom)) AS area FROM sum' 2>/dev/null | sed -n 's/.*area.* = //p')
+    exact=$(jq -r .result.area v.json | tr / ' ' | awk '{ printf "%.17g", (NF > 1 ? $1 / $2 : $1) }')
+    [ -z "$area" ] || near "$area" "$exact" || fail "the layer has the area $area, the sum $exact"
+done
 finish

@@ -1,0 +1,264 @@
+/* sum_mend.c: polygons that rounding to doubles has broken.
+ *
+ * Vertices have moved by less than an ulp. That breaks a polygon where it was tight to begin with, and sums often are:
+ * rings meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps mend it:
+ *
+ *  - an edge is bent through every vertex that lies within a few ulps of it: a new vertex there, equal to that one.
+ * This moves the edge by no more than that, and rings that crossed by a hair touch again (snap rounding, with the
+ * vertices as the hot pixels);
+ *  - if it is invalid still, it is replaced by what its rings enclose by the even-odd rule, taken exactly by the core,
+ *    and rounded: what was folded over by a hair falls away, and needles of no width with it. It may become several.
+ *
+ * Rounding the second can break things once more, at other places: both are repeated. In doubles distances are measured
+ * only to choose where to bend; the core's exact validation decides what is well. */
+#include "sum_layers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. Both ends of the
+ * edge and the vertex have moved by half a unit in each coordinate: the sum of the three is below this. */
+static const double near_ulps = 4;
+/* One round nearly always does, three have been seen; a polygon that is still broken after so many is given up. */
+enum { MENDING_ROUNDS = 12 };
+
+static bool same_vertex(const double *a, const double *b)
+{
+    return a[0] == b[0] && a[1] == b[1];
+}
+
+bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error)
+{
+    while (set->vertices > first + 1 && same_vertex(set->xy + 2 * first, set->xy + 2 * (set->vertices - 1)))
+        set->vertices--;
+    const sunder_point *point = (const sunder_point *)set->xy; /* pairs of doubles, laid out as points are */
+    *kept = false;
+    for (size_t i = first + 2; i < set->vertices && !*kept; i++)
+        *kept = sunder_orient(&point[first], &point[first + 1], &point[i]) != 0;
+    if (*kept)
+        return gis_polygons_end_ring(set, error);
+    set->vertices = first;
+    return true;
+}
+
+bool gis_polygon_is_valid(const gis_polygons *set, size_t first, size_t last, gis_error *error, bool *valid)
+{
+    size_t start = first ? set->ring_end[first - 1] : 0, rings = last - first;
+    size_t *ends = malloc((rings + 1) * sizeof *ends);
+    if (!ends)
+        return gis_no_memory(error);
+    for (size_t r = first; r < last; r++)
+        ends[r - first] = set->ring_end[r] - start;
+    sunder_shape *shape = NULL;
+    sunder_error why;
+    sunder_status status =
+        sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_STRICT, &shape, &why);
+    sunder_shape_free(shape);
+    free(ends);
+    *valid = status == SUNDER_OK;
+    return *valid || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
+}
+
+/* Appends rings [from, to) of a set, as one polygon. */
+static bool append_polygon(const gis_polygons *set, size_t from, size_t to, gis_polygons *out, gis_error *error)
+{
+    for (size_t r = from; r < to; r++) {
+        for (size_t v = r ? set->ring_end[r - 1] : 0; v < set->ring_end[r]; v++)
+            if (!gis_polygons_vertex(out, set->xy[2 * v], set->xy[2 * v + 1], error))
+                return false;
+        if (!gis_polygons_end_ring(out, error))
+            return false;
+    }
+    return gis_polygons_end_polygon(out, error);
+}
+
+/* ---- Bending ---------------------------------------------------------------------------------------------- */
+
+typedef struct bend {
+    double t, distance, xy[2];
+} bend;
+
+/* The vertices of a polygon by x, so that an edge looks at those beside it only. */
+typedef struct column {
+    double xy[2];
+} column;
+
+static int by_x(const void *a, const void *b)
+{
+    const column *ca = a, *cb = b;
+    return (ca->xy[0] > cb->xy[0]) - (ca->xy[0] < cb->xy[0]);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    double ta = ((const bend *)a)->t, tb = ((const bend *)b)->t;
+    return (ta > tb) - (ta < tb);
+}
+
+/* Is c so near to the inside of the edge ab that rounding may have put it on the wrong side? */
+static bool is_near(const double *a, const double *b, const double *c, double reach, bend *found)
+{
+    double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
+    if (!(length2 > 0) || same_vertex(a, c) || same_vertex(b, c))
+        return false;
+    double t = ((c[0] - a[0]) * dx + (c[1] - a[1]) * dy) / length2;
+    if (!(t > 0 && t < 1))
+        return false;
+    *found = (bend){t, hypot(c[0] - (a[0] + t * dx), c[1] - (a[1] + t * dy)), {c[0], c[1]}};
+    return found->distance <= reach;
+}
+
+/* The vertices near to ab, in their order along it; bends has room for all vertices. */
+static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, bend *bends)
+{
+    double reach = near_ulps * gis_ulp(fmax(fmax(fabs(a[0]), fabs(a[1])), fmax(fabs(b[0]), fabs(b[1]))));
+    double xmin = fmin(a[0], b[0]) - reach, xmax = fmax(a[0], b[0]) + reach;
+    double ymin = fmin(a[1], b[1]) - reach, ymax = fmax(a[1], b[1]) + reach;
+    size_t low = 0, high = n, found = 0;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (columns[middle].xy[0] < xmin)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (size_t k = low; k < n && columns[k].xy[0] <= xmax; k++) {
+        const double *c = columns[k].xy;
+        if (c[1] >= ymin && c[1] <= ymax && is_near(a, b, c, reach, &bends[found]))
+            found++;
+    }
+    qsort(bends, found, sizeof *bends, by_place);
+    return found;
+}
+
+static bool bend_ring(const gis_polygons *from, size_t r, const column *columns, size_t n, bend *bends,
+                      gis_polygons *to, double *moved, gis_error *error)
+{
+    size_t begin = r ? from->ring_end[r - 1] : 0, end = from->ring_end[r];
+    for (size_t i = begin; i < end; i++) {
+        const double *a = from->xy + 2 * i, *b = from->xy + 2 * (i + 1 < end ? i + 1 : begin);
+        if (!gis_polygons_vertex(to, a[0], a[1], error))
+            return false;
+        size_t found = find_bends(columns, n, a, b, bends);
+        for (size_t k = 0; k < found; k++) {
+            *moved = fmax(*moved, bends[k].distance);
+            if ((k == 0 || !same_vertex(bends[k].xy, bends[k - 1].xy)) &&
+                !gis_polygons_vertex(to, bends[k].xy[0], bends[k].xy[1], error))
+                return false;
+        }
+    }
+    return gis_polygons_end_ring(to, error);
+}
+
+/* Appends rings [first, last), as one polygon, with every edge bent. */
+static bool bend_polygon(const gis_polygons *from, size_t first, size_t last, gis_polygons *to, double *moved,
+                         gis_error *error)
+{
+    size_t start = first ? from->ring_end[first - 1] : 0, n = from->ring_end[last - 1] - start;
+    column *columns = malloc((n + 1) * sizeof *columns);
+    bend *bends = malloc((n + 1) * sizeof *bends);
+    bool ok = (columns && bends) || gis_no_memory(error);
+    for (size_t v = 0; ok && v < n; v++)
+        columns[v] = (column){{from->xy[2 * (start + v)], from->xy[2 * (start + v) + 1]}};
+    if (ok)
+        qsort(columns, n, sizeof *columns, by_x);
+    for (size_t r = first; ok && r < last; r++)
+        ok = bend_ring(from, r, columns, n, bends, to, moved, error);
+    free(columns);
+    free(bends);
+    return ok && gis_polygons_end_polygon(to, error);
+}
+
+/* ---- The even-odd set, rounded ------------------------------------------------------------------------------ */
+
+/* Appends a polygon of the shape. Of a ring that falls together nothing is appended, and of a polygon whose outer ring
+ * does nothing at all. */
+static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *out, double *moved, gis_error *error)
+{
+    size_t first = out->rings;
+    for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {
+        size_t n, start = out->vertices;
+        const double *xy = sunder_shape_ring(shape, p, r, &n);
+        bool kept;
+        for (size_t v = 0; v < n; v++) {
+            *moved = fmax(*moved, gis_ulp(fmax(fabs(xy[2 * v]), fabs(xy[2 * v + 1]))));
+            if (out->vertices > start && same_vertex(out->xy + 2 * (out->vertices - 1), xy + 2 * v))
+                continue;
+            if (!gis_polygons_vertex(out, xy[2 * v], xy[2 * v + 1], error))
+                return false;
+        }
+        if (!gis_end_ring_with_area(out, start, &kept, error))
+            return false;
+        if (r == 0 && !kept)
+            return true;
+    }
+    return out->rings == first || gis_polygons_end_polygon(out, error);
+}
+
+/* What rings [0, set->rings) of a one-polygon set enclose. */
+static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, gis_error *error)
+{
+    sunder_shape *shape = NULL;
+    sunder_error why;
+    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_EVEN_ODD, &shape, &why) !=
+        SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    bool ok = true;
+    for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
+        ok = append_rounded(shape, p, out, moved, error);
+    sunder_shape_free(shape);
+    return ok;
+}
+
+/* ---- Both, until all is well -------------------------------------------------------------------------------- */
+
+/* Appends what is valid to done, and the rest to broken. */
+static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *broken, gis_error *error)
+{
+    for (size_t p = 0; p < set->polygons; p++) {
+        size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
+        bool valid;
+        if (!gis_polygon_is_valid(set, from, to, error, &valid) ||
+            !append_polygon(set, from, to, valid ? done : broken, error))
+            return false;
+    }
+    return true;
+}
+
+/* One broken polygon, rings [first, last): mended, or in pieces to try again. */
+static bool mend_once(const gis_polygons *set, size_t first, size_t last, gis_polygons *done, gis_polygons *again,
+                      double *moved, gis_error *error)
+{
+    gis_polygons bent = {0}, broken = {0}, pieces = {0};
+    bool ok = bend_polygon(set, first, last, &bent, moved, error) && sort_out(&bent, done, &broken, error);
+    if (ok && broken.polygons)
+        ok = enclosed(&broken, &pieces, moved, error) && sort_out(&pieces, done, again, error);
+    gis_polygons_clear(&bent);
+    gis_polygons_clear(&broken);
+    gis_polygons_clear(&pieces);
+    return ok;
+}
+
+bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error *error)
+{
+    gis_polygons work = {0};
+    double total = 0;
+    bool ok = append_polygon(set, first, set->rings, &work, error);
+    set->vertices = first ? set->ring_end[first - 1] : 0;
+    set->rings = first;
+    for (int round = 0; ok && round < MENDING_ROUNDS && work.polygons; round++) {
+        gis_polygons again = {0};
+        double now = 0;
+        for (size_t p = 0; ok && p < work.polygons; p++)
+            ok = mend_once(&work, p ? work.poly_end[p - 1] : 0, work.poly_end[p], set, &again, &now, error);
+        gis_polygons_clear(&work);
+        work = again;
+        total += now;
+    }
+    if (ok && work.polygons)
+        ok = gis_fail(error, "rounded to doubles the sum is no longer valid; `sunder sum --exact` gives it as JSON");
+    gis_polygons_clear(&work);
+    *moved = fmax(*moved, total);
+    return ok;
+}
