@@ -124,6 +124,7 @@ pairs() {
 }
 
 for program in bench_sum bench_pair; do
+  if [[ $program == bench_sum && $what == pairs || $program == bench_pair && $what == sums ]]; then continue; fi
   if [[ ! -x $build/$program ]]; then
     echo "run.sh: no $build/$program; build the target bench, or set SUNDER_BUILD" >&2
     exit 1
