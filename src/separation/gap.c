@@ -139,24 +139,47 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     return fill(p, &answer, o->texts, out, err);
 }
 
+/* The operands and the gap beside them. A gap that dwarfs them goes on the lattice too, whose units are then chosen to
+ * suit. */
+static sunder_status set_up(sunder_i_pairing *g, sunder_i_gap_problem *problem, const sunder_shape *p,
+                            const sunder_shape *q, const sunder_i_least_options *o, bool gap_on_lattice,
+                            sunder_error *err)
+{
+    const sunder_i_pairing_options options = {.tp = o->tp,
+                                              .tq = o->tq,
+                                              .reflect_q = true,
+                                              .force_wide = o->force_wide,
+                                              .extra = &o->gap,
+                                              .extra_n = gap_on_lattice};
+    const sunder_status status = sunder_i_pairing_init(g, p, q, &options, err);
+    if (status) return status;
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_big zero, unit;
+    *problem = (sunder_i_gap_problem){.pairing = g};
+    sunder_i_vector_doubles(g, o->gap, 0, &problem->gap, &zero, &unit);
+    problem->gap_bits = sunder_i_big_bits(unit) - (l->arena.failed ? 0 : 1);
+    problem->gap_units = sunder_i_big_ratio(&l->arena, problem->gap, unit, -l->approx_shift);
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
                                       sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_pairing g;
-    const sunder_i_pairing_options options = {
-        .tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide, .extra = &o->gap, .extra_n = 1};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_gap_problem problem;
+    sunder_status status = set_up(&g, &problem, p, q, o, false, err);
     if (status) return status;
-    sunder_i_lattice *l = &g.placed.lattice;
-    sunder_i_gap_problem problem = {.pairing = &g};
-    problem.gap = sunder_i_lattice_int(l, o->gap, 0);
-    problem.gap_units = sunder_i_approx(l, problem.gap);
+    if (!(problem.gap_units <= 0x1p400) && !g.placed.lattice.arena.failed) {
+        sunder_i_pairing_free(&g);
+        status = set_up(&g, &problem, p, q, o, true, err);
+        if (status) return status;
+    }
     if (problem.gap_units > g.magnitude) {
         g.magnitude = problem.gap_units;
         g.error = fmax(g.error, 0x1p-45 * g.magnitude);
     }
-    status = solve(&problem, o, out, beyond, err);
-    out->operations = l->operations;
+    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, out, beyond, err);
+    out->operations = g.placed.lattice.operations;
     sunder_i_pairing_free(&g);
     return status;
 }

@@ -22,7 +22,8 @@ typedef struct sunder_i_rational {
 
 typedef struct sunder_i_gap_problem {
     sunder_i_pairing *pairing;
-    int64_t gap; /* on the lattice */
+    sunder_i_big gap; /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
+    unsigned long gap_bits;
     double gap_units, limit;
     bool last; /* no finer arithmetic will be tried: what cannot be told apart is taken as equal */
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */

@@ -16,9 +16,10 @@ static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
     return (vec){sunder_i_lattice_get(l, a.x), sunder_i_lattice_get(l, a.y)};
 }
 
-static sunder_i_big gap_of(const sunder_i_gap_problem *p)
+/* Times 2^gap_bits, so that the gap is an integer beside it. */
+static sunder_i_big scaled(const sunder_i_gap_problem *p, sunder_i_big v)
 {
-    return sunder_i_lattice_get(&p->pairing->placed.lattice, p->gap);
+    return p->gap_bits ? sunder_i_big_shl(arena_of(p), v, p->gap_bits) : v;
 }
 
 static sunder_i_big add(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
@@ -54,18 +55,22 @@ static bool root(const sunder_i_gap_problem *p, sunder_i_big v, sunder_i_big *ou
     return sunder_i_big_cmp(mul(p, *out, *out), v) == 0;
 }
 
-/* The moved line as A x + B y = C, with |(A, B)| = L an integer; false if the length of d is irrational. */
+/* The moved line as A x + B y = C, |(A, B)| = length, with the gap times length an integer; false if the length of d is
+ * irrational. */
 typedef struct line {
     vec n;
-    sunder_i_big c, length;
+    sunder_i_big c, length, gap_length;
 } line;
 
 static bool moved_line(const sunder_i_gap_problem *p, const sunder_i_curve *curve, line *out)
 {
     const vec a = get(p, curve->a), d = get(p, curve->d);
-    if (!root(p, dot(p, d, d), &out->length)) return false;
-    out->n = (vec){d.y, sunder_i_big_neg(d.x)};
-    out->c = add(p, dot(p, out->n, a), mul(p, gap_of(p), out->length));
+    sunder_i_big length;
+    if (!root(p, dot(p, d, d), &length)) return false;
+    out->length = scaled(p, length);
+    out->gap_length = mul(p, p->gap, length);
+    out->n = (vec){scaled(p, d.y), sunder_i_big_neg(scaled(p, d.x))};
+    out->c = add(p, dot(p, out->n, a), out->gap_length);
     return true;
 }
 
@@ -84,7 +89,8 @@ bool sunder_i_gap_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curv
         const vec c = get(p, curve->a);
         sunder_i_big length;
         if (!root(p, dot(p, c, c), &length) || sunder_i_big_sign(length) == 0) return false;
-        const sunder_i_big k = sub(p, length, gap_of(p));
+        length = scaled(p, length);
+        const sunder_i_big k = sub(p, length, p->gap);
         return finish(out, mul(p, c.x, k), mul(p, c.y, k), length);
     }
     line m;
@@ -133,7 +139,7 @@ static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_curve *l, con
     line m;
     if (!moved_line(p, l, &m)) return false;
     const vec c = get(p, arc->a);
-    const sunder_i_big k = sub(p, m.c, dot(p, m.n, c)), gl = mul(p, gap_of(p), m.length);
+    const sunder_i_big k = sub(p, m.c, dot(p, m.n, c)), gl = m.gap_length;
     const sunder_i_big square = mul(p, m.length, m.length);
     sunder_i_big s;
     if (!root(p, sub(p, mul(p, gl, gl), mul(p, k, k)), &s)) return false;
@@ -146,13 +152,13 @@ static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_curve *c, cons
                     sunder_i_rational *out)
 {
     const vec a = get(p, c->a), b = get(p, d->a), v = {sub(p, b.x, a.x), sub(p, b.y, a.y)};
-    const sunder_i_big q = dot(p, v, v), g = gap_of(p);
-    const sunder_i_big four = sunder_i_big_shl(arena_of(p), mul(p, g, g), 2);
+    const sunder_i_big q = dot(p, v, v), wide = scaled(p, q);
+    const sunder_i_big four = sunder_i_big_shl(arena_of(p), mul(p, p->gap, p->gap), 2);
     sunder_i_big s;
-    if (!root(p, mul(p, sub(p, four, q), q), &s)) return false;
-    const vec base = {mul(p, add(p, a.x, b.x), q), mul(p, add(p, a.y, b.y), q)};
+    if (!root(p, mul(p, sub(p, four, scaled(p, wide)), q), &s)) return false;
+    const vec base = {mul(p, add(p, a.x, b.x), wide), mul(p, add(p, a.y, b.y), wide)};
     const vec turn = {sunder_i_big_neg(v.y), v.x};
-    return choose(p, base, turn, s, sunder_i_big_shl(arena_of(p), q, 1), x, y, out);
+    return choose(p, base, turn, s, sunder_i_big_shl(arena_of(p), wide, 1), x, y, out);
 }
 
 bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *c, const sunder_i_curve *d, double x,
@@ -170,15 +176,17 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k,
                           const sunder_i_rational *at, bool *outside)
 {
-    const sunder_i_big gw = mul(p, gap_of(p), at->w), limit = mul(p, gw, gw);
+    const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw);
     const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
     const vec v = {sub(p, at->x, mul(p, c.x, at->w)), sub(p, at->y, mul(p, c.y, at->w))};
     const sunder_i_big turn = cross(p, d, v), along = dot(p, d, v), square = dot(p, d, d);
     if (outside) *outside = sunder_i_big_sign(turn) <= 0;
     /* The corner, or the inside of the side where the foot falls there. The other end is the next side's corner. */
-    if (sunder_i_big_sign(along) > 0 && sunder_i_big_cmp(along, mul(p, square, at->w)) < 0)
-        return sunder_i_big_cmp(mul(p, turn, turn), mul(p, limit, square));
-    return sunder_i_big_cmp(dot(p, v, v), limit);
+    if (sunder_i_big_sign(along) > 0 && sunder_i_big_cmp(along, mul(p, square, at->w)) < 0) {
+        const sunder_i_big t = scaled(p, turn);
+        return sunder_i_big_cmp(mul(p, t, t), mul(p, limit, square));
+    }
+    return sunder_i_big_cmp(scaled(p, scaled(p, dot(p, v, v))), limit);
 }
 
 int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_rational *at)
