@@ -159,9 +159,9 @@ bool gis_progress_call(double fraction, void *user)
     double whole = progress->from + inside * (progress->to - progress->from);
     if (progress->kind == GIS_PROGRESS_BAR) {
         print_bar(progress, whole);
-    } else if ((int)(whole * 100) > progress->shown) {
-        progress->shown = (int)(whole * 100);
-        fprintf(stderr, "%d\n", progress->shown);
+    } else {
+        while (progress->shown < (int)(whole * 100))
+            fprintf(stderr, "%d\n", ++progress->shown);
     }
     return !gis_interrupted();
 }

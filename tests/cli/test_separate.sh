@@ -115,8 +115,7 @@ same "$(jq -r '.features|length' out)" 6
 expect 0 separate in.gpkg p.gpkg --progress=plain -q --overwrite
 [ ! -s err ] || fail "--quiet shows progress"
 expect 0 separate in.gpkg p.gpkg --progress=plain --overwrite
-same "$(sort -n err | uniq | tr '\n' ' ' | cut -c1-2) $(tail -1 err)" '0  100' "progress"
-cmp -s err <(sort -nu err) || fail "progress does not grow"
+cmp -s err <(seq 0 100) || fail "progress is not 0 to 100, a line each"
 expect 0 separate in.gpkg p.gpkg --progress --overwrite
 says err '100 - done.'
 
