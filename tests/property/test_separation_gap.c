@@ -362,7 +362,7 @@ static void gaps_are_kept_at_least_cost(void **state)
         const double scale = (double)rng_int(&r, 1, 4);
         polyset_scale(&p, scale, scale);
         bring_together(&p, &q, &r);
-        static const double GAPS[] = {0.5, 1, 1, 1.5, 2, 3, 0.25};
+        static const double GAPS[] = {0.5, 1, 0.1, 1.5, 2, 3, 0.3};
         const double gap = GAPS[rng_int(&r, 0, 6)];
         if (p.vertices * q.vertices <= 90 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) &&
             integers_only(&q)) {
