@@ -121,56 +121,6 @@ static bool same_area(const char *name, const polyset *p, const polyset *q)
     return false;
 }
 
-typedef enum family { STAR, COMB, SLANTED, FORK, ROBOT, ROOMS, MAP, TOWN, FAMILIES } family;
-
-static const char *const family_name[FAMILIES] = {"star + star",       "comb + convex", "slanted comb + star", "fork + fork",
-                                                  "star + many convex", "rooms + star",  "rooms at map coordinates", "buildings"};
-
-static void many(polyset *set, rng *r, int n, void (*one)(polyset *set, rng *r, int n, double size), double spread)
-{
-    for (int i = 0; i < n; i++) {
-        polyset m;
-        polyset_init(&m);
-        one(&m, r, (int)rng_int(r, 4, 9), spread / 8);
-        polyset_move(&m, rint(spread * rng_unit(r)), rint(spread * rng_unit(r)));
-        polyset_append(set, &m);
-        polyset_free(&m);
-    }
-}
-
-static void rooms(polyset *set, rng *r, spacing kind)
-{
-    cells c;
-    random_cells(&c, r, 7, 7, kind, true, 65);
-    cells_outline(set, &c, false, true);
-}
-
-static void draw(family f, rng *r, polyset *p, polyset *q)
-{
-    const int n = (int)rng_int(r, 30, 70);
-    polyset_init(p);
-    polyset_init(q);
-    switch (f) {
-    case STAR: random_star(p, r, n, 100000); random_star(q, r, n, 100000); break;
-    case COMB: random_comb(p, r, n / 4, 100000, rng_once_in(r, 2)); random_convex(q, r, n, 9000); break;
-    case SLANTED: random_comb(p, r, n / 4, 100000, true); random_star(q, r, n / 2, 50000); break;
-    case FORK: random_fork(p, r, n / 8, 100000, false); random_fork(q, r, n / 8, 100000, true); break;
-    case ROBOT: many(p, r, n / 3, random_convex, 200000); random_star(q, r, n, 20000); break;
-    case ROOMS:
-        rooms(p, r, SPACING_SMALL);
-        polyset_scale(p, 7, 7);
-        random_star(q, r, 12, 8);
-        break;
-    case MAP: rooms(p, r, SPACING_MAP); random_star(q, r, 12, 9); break;
-    case TOWN:
-        for (int i = 0; i < 12; i++) random_building(p, r);
-        random_building(q, r);
-        polyset_negate(q);
-        break;
-    case FAMILIES: break;
-    }
-}
-
 static void test_families(void **state)
 {
     (void)state;
@@ -178,12 +128,12 @@ static void test_families(void **state)
     const size_t n = test_count(6);
     size_t bad = 0;
     print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
-    for (int f = 0; f < FAMILIES; f++)
+    for (int f = 0; f < FAMILY_KINDS; f++)
         for (size_t i = 0; i < n; i++) {
             rng r = rng_start(seed + 77 * (uint64_t)f, i);
             polyset p, q;
-            draw((family)f, &r, &p, &q);
-            char *name = test_format("%s, case %zu", family_name[f], i);
+            random_family(&p, &q, &r, (family_kind)f, 30, 70);
+            char *name = test_format("%s, case %zu", family_kind_string((family_kind)f), i);
             if (!same_area(name, &p, &q)) bad++;
             free(name);
             polyset_free(&p);

@@ -75,6 +75,24 @@ typedef enum pair_kind {
 
 const char *pair_kind_string(pair_kind kind);
 void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind);
+/* ---- Larger pairs, in the manner of the literature's families ---- */
+
+typedef enum family_kind {
+    FAMILY_STAR,
+    FAMILY_COMB,    /* comb + convex */
+    FAMILY_SLANTED, /* slanted comb + star */
+    FAMILY_FORK,    /* teeth upwards + teeth sideways */
+    FAMILY_ROBOT,   /* many convex members + star */
+    FAMILY_ROOMS,   /* a board with rooms + star */
+    FAMILY_MAP,     /* the same at map coordinates */
+    FAMILY_TOWN,    /* several buildings and the reflection of one */
+    FAMILY_CELLS,   /* boards of half squares on one grid: coincident edges everywhere */
+    FAMILY_KINDS
+} family_kind;
+
+const char *family_kind_string(family_kind kind);
+/* Some `low` to `high` vertices an operand. */
+void random_family(polyset *p, polyset *q, rng *r, family_kind kind, int low, int high);
 /* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in the
  * middle of edges where these are exact; members in another order. */
 void random_dress(polyset *set, rng *r);
