@@ -85,12 +85,20 @@ static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const s
     if (h.distance > s->gap + at->reach) return;
     if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
-    double d = h.support + s->gap;
+    double d = h.support + s->gap - sunder_i_search_allowed(s, i, j);
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two sides, would be a
      * contradiction. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (now < d && now >= d - s->tolerance) d = now;
-    add_constraint(s, first, &(sunder_i_constraint){.i = i, .j = j, .n = {h.n[0], h.n[1]}, .d = d,
+    /* What does not move counts where it stands. */
+    uint32_t ends[2] = {i, j};
+    for (int e = 0; e < 2; e++) {
+        const double *t = s->t + 2 * ends[e];
+        if (s->mass[ends[e]] > 0) continue;
+        d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
+        ends[e] = SUNDER_I_NOBODY;
+    }
+    add_constraint(s, first, &(sunder_i_constraint){.i = ends[0], .j = ends[1], .n = {h.n[0], h.n[1]}, .d = d,
                                                     .force = before ? before->force : 0, .key = key});
 }
 
@@ -121,7 +129,8 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     around *a = context;
     double u[2] = {a->t[2 * j] - a->t[2 * i], a->t[2 * j + 1] - a->t[2 * i + 1]};
-    if (sunder_i_search_pair(s, i, j, u) > s->tolerance) {
+    const double allowed = sunder_i_search_allowed(s, i, j);
+    if (sunder_i_search_pair(s, i, j, u) - allowed > s->tolerance) {
         a->clashing = true;
         double place[1][2];
         if (sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
@@ -184,6 +193,13 @@ static double longest_move(const sunder_i_search *s)
     return longest;
 }
 
+/* What does not move stays where it stands, which for a neighbour of the cluster need not be where it came from. */
+static void keep_still(sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->n; k++)
+        if (!(s->mass[k] > 0)) memcpy(s->next + 2 * k, s->t + 2 * k, 2 * sizeof *s->next);
+}
+
 /* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the violation left. */
 static double solve(sunder_i_search *s, double softness)
 {
@@ -192,6 +208,7 @@ static double solve(sunder_i_search *s, double softness)
     const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
     double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent, s->place);
     if (v < 0) s->failed = true;
+    keep_still(s);
     if (softness > 0 || v <= s->tolerance) return v;
     double asked = 0;
     for (int k = 0; k < 4 && v > s->tolerance && v <= 1e-3 * (s->extent + s->gap) && !s->failed; k++) {
@@ -200,6 +217,7 @@ static double solve(sunder_i_search *s, double softness)
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
         v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent, s->place);
         if (v < 0) s->failed = true;
+        keep_still(s);
         v = fmax(0, v - asked);
     }
     return v;
@@ -228,7 +246,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
         for (size_t c = 0; c < clashes && !s->failed; c++) {
             const uint32_t i = s->clash[c].i, j = s->clash[c].j;
             double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
-            if (sunder_i_search_pair(s, i, j, u) > s->tolerance) continue;
+            if (sunder_i_search_pair(s, i, j, u) - sunder_i_search_allowed(s, i, j) > s->tolerance) continue;
             const double w[2] = {s->next[2 * j] - s->next[2 * i], s->next[2 * j + 1] - s->next[2 * i + 1]};
             constrain_pair(s, i, j, &(sighting){w, u, -s->tolerance, known, before});
         }
@@ -332,6 +350,16 @@ bool sunder_i_search_descend(sunder_i_search *s)
     return free_now && !s->failed;
 }
 
+bool sunder_i_search_round(sunder_i_search *s)
+{
+    constrain_all(s, fmax(s->gap / 2, s->extent / 50));
+    if (s->failed) return false;
+    const double v = solve_lazily(s, 0);
+    if (s->failed || v > s->tolerance || sunder_i_search_look(s, s->next) > s->tolerance) return false;
+    memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
+    return true;
+}
+
 /* ---- Jumping ------------------------------------------------------------------------------------------------------------------------- */
 
 static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
@@ -342,6 +370,7 @@ static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
 bool sunder_i_search_jump(sunder_i_search *s)
 {
     s->program.n = 0; /* the forces belong to places that are left */
+    sunder_i_search_clip(s);
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
     size_t stuck = 0;
     for (size_t k = 0; k <= 2 * s->n && !s->failed; k++) {

@@ -47,6 +47,7 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->program.constraint);
     sunder_i_free(s->old);
     sunder_i_free(s->clash);
+    sunder_i_free(s->allowed);
     sunder_i_free(s->scratch.xy);
     memset(s, 0, sizeof *s);
 }
@@ -146,7 +147,7 @@ static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     look *l = context;
     const double u[2] = {l->t[2 * j] - l->t[2 * i], l->t[2 * j + 1] - l->t[2 * i + 1]};
-    const double v = sunder_i_search_pair(s, i, j, u);
+    const double v = sunder_i_search_pair(s, i, j, u) - sunder_i_search_allowed(s, i, j);
     if (v > l->worst) l->worst = v;
     if (v <= s->tolerance || s->failed) return;
     if (!sunder_i_reserve(&s->clash, &s->clash_capacity, s->clashes + 1, sizeof *s->clash)) {
@@ -161,6 +162,8 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     look l = {t, 0};
     s->clashes = 0;
     sunder_i_search_near(s, t, s->gap, look_at, &l);
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) l.worst = fmax(l.worst, hypot(t[2 * k], t[2 * k + 1]) - s->town->body[s->body[k]].limit);
     return l.worst;
 }
 

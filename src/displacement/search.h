@@ -26,6 +26,8 @@ typedef struct sunder_i_search {
     size_t old_n, old_capacity;
     sunder_i_clash *clash;      /* of the last look */
     size_t clashes, clash_capacity;
+    sunder_i_clash *allowed;    /* pairs that are granted a shortfall: `violation` of it */
+    size_t allowed_n;
     sunder_i_scratch scratch;
     double *place;              /* [2 n] where each is, relative to the first's origin; to order them by */
     double extent;              /* the mean size of the bodies */
@@ -43,7 +45,8 @@ void sunder_i_search_free(sunder_i_search *search);
 typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
 
-/* Fills search->clash with the pairs that violate the gap at t; returns the worst violation. */
+/* Fills search->clash with the pairs that violate the gap at t, beyond what they are allowed; returns the worst violation, of a limit of moves
+ * too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
 /* What pair (i, j) misses at relative position u. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
@@ -60,6 +63,12 @@ bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
+/* One round from a position that is free but for the shortfalls allowed: true if it found another, and went there. */
+bool sunder_i_search_round(sunder_i_search *search);
+/* Shortens moves to their limits. */
+void sunder_i_search_clip(sunder_i_search *search);
+/* The shortfall that pair (i, j), i < j, is allowed. */
+double sunder_i_search_allowed(const sunder_i_search *search, uint32_t i, uint32_t j);
 /* Clashes that no move within the limits resolves: makes the worst violation least, then the next, then the cost. */
 void sunder_i_search_relax(sunder_i_search *search);
 

@@ -383,9 +383,8 @@ static uint64_t bodies_of(const sunder_i_town *town, size_t a, size_t b)
     return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
 }
 
-static bool is_left(const work *w, uint64_t bodies, const key_pair *left, size_t n)
+static bool is_left(uint64_t bodies, const key_pair *left, size_t n)
 {
-    (void)w;
     size_t low = 0, high = n;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
@@ -395,6 +394,17 @@ static bool is_left(const work *w, uint64_t bodies, const key_pair *left, size_t
             high = middle;
     }
     return low < n && left[low].bodies == bodies;
+}
+
+/* Where contained features may overlap what they lie in, a pair can also be resolved by moving one into the other, and its least separation
+ * proves nothing; unless the boxes show that neither fits. */
+static bool may_fit(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    if (town->rules.contained != SUNDER_CONTAINED_IGNORE) return false;
+    const double *a = town->box + 4 * (size_t)r->a, *b = town->box + 4 * (size_t)r->b;
+    const double slack = 2 * town->rules.tolerance + 0x1p-48 * (fabs(a[0]) + fabs(a[1]) + fabs(b[2]) + fabs(b[3]));
+    const double wide = (a[2] - a[0]) - (b[2] - b[0]), high = (a[3] - a[1]) - (b[3] - b[1]);
+    return (wide <= slack && high <= slack) || (wide >= -slack && high >= -slack);
 }
 
 /* Of each pair of blocks the pair of members that is hardest to part; none of blocks that are still in conflict. */
@@ -413,7 +423,7 @@ static sunder_status bound_from_start(work *w, sunder_error *err)
         qsort(remain, left, sizeof *remain, by_bodies);
         for (size_t k = 0; k < w->start.n; k++) {
             const sunder_i_relation *r = &w->start.pair[k];
-            if (!is_between(town, r) || is_left(w, bodies_of(town, r->a, r->b), remain, left)) continue;
+            if (!is_between(town, r) || may_fit(town, r) || is_left(bodies_of(town, r->a, r->b), remain, left)) continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = r->b;
         }

@@ -1,0 +1,447 @@
+/* A whole layer on small figures with known answers: what conflicts, what joins, what moves, what cannot. */
+#include "polyset.h"
+
+#include "displacement/displacement.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 12 };
+
+typedef struct scene {
+    sunder_feature feature[MOST];
+    size_t n;
+    sunder_layer_options options;
+    sunder_report *report;
+    sunder_layer_summary summary;
+} scene;
+
+static sunder_feature *add(scene *s, const char *wkt)
+{
+    polyset set;
+    polyset_init(&set);
+    sunder_feature *f = &s->feature[s->n++];
+    memset(f, 0, sizeof *f);
+    if (wkt) {
+        if (!polyset_read_wkt(&set, wkt, NULL)) fail_msg("not WKT: %s", wkt);
+        f->shape = polyset_shape(&set);
+        assert_non_null(f->shape);
+    }
+    polyset_free(&set);
+    f->weight = 1;
+    f->max_shift = INFINITY;
+    f->block = -1;
+    return f;
+}
+
+/* The axis-parallel square of that side with its lower left corner at (x, y). */
+static sunder_feature *add_box(scene *s, double x, double y, double w, double h)
+{
+    char wkt[400];
+    snprintf(wkt, sizeof wkt, "POLYGON ((%.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g))", x, y, x + w, y,
+             x + w, y + h, x, y + h, x, y);
+    return add(s, wkt);
+}
+
+static void begin(scene *s, double gap)
+{
+    memset(s, 0, sizeof *s);
+    sunder_layer_options_init(&s->options);
+    s->options.gap = gap;
+}
+
+static void run(scene *s, bool check)
+{
+    sunder_layer *layer = NULL;
+    sunder_error err;
+    sunder_report_free(s->report);
+    s->report = NULL;
+    assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, &err), SUNDER_OK);
+    const sunder_status status = check ? sunder_layer_check(layer, &s->options, &s->report, &err)
+                                       : sunder_layer_separate(layer, &s->options, &s->report, &err);
+    sunder_layer_free(layer);
+    if (status) fail_msg("%s", err.message);
+    sunder_report_summary(s->report, &s->summary);
+}
+
+static void end(scene *s)
+{
+    sunder_report_free(s->report);
+    for (size_t i = 0; i < s->n; i++) sunder_shape_free((sunder_shape *)s->feature[i].shape);
+}
+
+static size_t left(const sunder_layer_summary *s)
+{
+    return s->after.overlap + s->after.too_close + s->after.barrier + s->after.contained + s->after.duplicate;
+}
+
+static double length(const scene *s, size_t f)
+{
+    double dx, dy;
+    sunder_report_move(s->report, f, &dx, &dy);
+    return hypot(dx, dy);
+}
+
+/* In doubles, which assert_float_equal() is not. */
+#define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
+
+/* Moves are rounded outward by some units in the last place; nothing here is larger than a few hundred. */
+#define HAIR 1e-9
+
+static void check_nothing(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    run(&s, false);
+    assert_int_equal(s.summary.features, 0);
+    assert_int_equal(s.summary.max_feature, SIZE_MAX);
+    assert_true(s.summary.verified);
+    add(&s, NULL);
+    sunder_shape *empty = NULL;
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &empty, NULL), SUNDER_OK);
+    add(&s, NULL)->shape = empty;
+    run(&s, false);
+    assert_int_equal(s.summary.features, 2);
+    assert_int_equal(s.summary.moved, 0);
+    end(&s);
+}
+
+static void check_two_squares(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add_box(&s, 0, 0, 10, 10);
+    add_box(&s, 8, 1, 10, 10);
+    run(&s, false);
+    assert_int_equal(s.summary.before.overlap, 1);
+    assert_int_equal(left(&s.summary), 0);
+    assert_int_equal(s.summary.moved, 2);
+    /* Two apart along x, shared evenly: cost 1 + 1. */
+    assert_near(length(&s, 0), 1, HAIR);
+    assert_near(length(&s, 1), 1, HAIR);
+    assert_near(s.summary.cost, 2, 10 * HAIR);
+    assert_true(s.summary.lower_bound <= s.summary.cost);
+    assert_near(s.summary.lower_bound, 2, 1e-6);
+    end(&s);
+}
+
+static void check_weights(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add_box(&s, 0, 0, 10, 10)->weight = 3;
+    add_box(&s, 8, 1, 10, 10);
+    run(&s, false);
+    /* 3 a^2 + b^2 with a + b = 2 is least at a = 1/2. */
+    assert_near(length(&s, 0), 0.5, HAIR);
+    assert_near(length(&s, 1), 1.5, HAIR);
+    assert_near(s.summary.lower_bound, 3, 1e-6);
+    end(&s);
+}
+
+static void check_fixed(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    add_box(&s, 0, 0, 10, 10)->fixed = true;
+    add_box(&s, 10.5, 1, 10, 10);
+    run(&s, false);
+    assert_int_equal(s.summary.before.too_close, 1);
+    assert_int_equal(left(&s.summary), 0);
+    assert_int_equal(sunder_report_status(s.report, 0), SUNDER_FIXED);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_MOVED);
+    assert_near(length(&s, 1), 0.5, HAIR);
+    /* Nothing can be done between two fixed ones. */
+    s.feature[1].fixed = true;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 1);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->reason, SUNDER_REASON_FIXED);
+    assert_near(c->distance, 0.5, HAIR);
+    assert_near(c->required, 1, 0);
+    end(&s);
+}
+
+static void check_limits(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add_box(&s, 0, 0, 10, 10)->max_shift = 0.25;
+    add_box(&s, 8, 1, 10, 10)->max_shift = 3;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    assert_true(length(&s, 0) <= 0.25);
+    assert_near(length(&s, 1), 1.75, 1e-6);
+    /* Together too little: both go as far as they may, and the pair is listed. */
+    s.feature[1].max_shift = 0.5;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 1);
+    assert_int_equal(s.summary.blocked, 2);
+    assert_true(length(&s, 0) <= 0.25 && length(&s, 1) <= 0.5);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+    assert_int_equal(c->kind, SUNDER_OVERLAP);
+    assert_near(c->depth, 1.25, 1e-3);
+    end(&s);
+}
+
+static void check_chain_without_room(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    /* Three between two walls 12 apart, where five gaps of 1 and three widths of 3 need 14; a fourth elsewhere has room. */
+    add_box(&s, -10, -50, 10, 100)->fixed = true;
+    add_box(&s, 12, -50, 10, 100)->fixed = true;
+    for (int k = 0; k < 3; k++) add_box(&s, 1 + 3.5 * k, 0, 3, 3)->max_shift = 2;
+    add_box(&s, 22.5, 0, 3, 3);
+    run(&s, false);
+    assert_true(left(&s.summary) > 0);
+    assert_int_equal(sunder_report_status(s.report, 5), SUNDER_MOVED);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    double worst = 0;
+    for (size_t k = 0; k < n; k++) {
+        assert_true(c[k].a != 5 && c[k].b != 5);
+        worst = fmax(worst, c[k].required - c[k].distance);
+    }
+    /* Sharing the shortfall over the four gaps leaves a quarter of it or, by moves across, less. */
+    assert_true(worst <= 0.26);
+    for (size_t f = 2; f < 5; f++) assert_true(length(&s, f) <= 2);
+    end(&s);
+}
+
+static void check_courtyard(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    add(&s, "POLYGON ((0 0, 30 0, 30 30, 0 30, 0 0), (10 10, 20 10, 20 20, 10 20, 10 10))");
+    add_box(&s, 10.5, 11, 5, 5);
+    s.options.touch_tolerance = 0.1;
+    run(&s, false);
+    assert_int_equal(s.summary.before.too_close, 1);
+    assert_int_equal(left(&s.summary), 0);
+    assert_true(s.summary.max < 1); /* there is room inside */
+    end(&s);
+    /* No room: the one inside has to leave, and nothing forbids that. */
+    begin(&s, 3);
+    add(&s, "POLYGON ((0 0, 30 0, 30 30, 0 30, 0 0), (10 10, 20 10, 20 20, 10 20, 10 10))");
+    add_box(&s, 12, 12, 5, 5);
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    end(&s);
+}
+
+static void check_blocks(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    /* Two that touch, a third that overlaps one of them. */
+    add_box(&s, 0, 0, 10, 10);
+    add_box(&s, 10, 0, 10, 10);
+    add_box(&s, 19, 1, 10, 10);
+    run(&s, false);
+    assert_int_equal(s.summary.blocks, 1);
+    assert_int_equal(sunder_report_block(s.report, 0), 0);
+    assert_int_equal(sunder_report_block(s.report, 1), 0);
+    assert_int_equal(sunder_report_block(s.report, 2), -1);
+    double a[2], b[2];
+    sunder_report_move(s.report, 0, &a[0], &a[1]);
+    sunder_report_move(s.report, 1, &b[0], &b[1]);
+    assert_memory_equal(a, b, sizeof a);
+    /* The block weighs two: it goes a third of the way. */
+    assert_near(hypot(a[0], a[1]), 1.0 / 3, HAIR);
+    assert_near(length(&s, 2), 2.0 / 3, HAIR);
+    assert_int_equal(left(&s.summary), 0);
+    /* Without blocks each is on its own, and touching is no conflict. */
+    s.options.no_blocks = true;
+    run(&s, false);
+    assert_int_equal(s.summary.blocks, 0);
+    assert_int_equal(s.summary.before.overlap, 1);
+    assert_int_equal(left(&s.summary), 0);
+    /* Numbers of the caller's hold all the same. */
+    s.feature[0].block = s.feature[2].block = 7;
+    run(&s, false);
+    assert_int_equal(s.summary.blocks, 1);
+    assert_int_equal(sunder_report_block(s.report, 2), 0);
+    assert_int_equal(sunder_report_block(s.report, 1), -1);
+    end(&s);
+}
+
+static void check_inside_blocks(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    add_box(&s, 0, 0, 10, 10)->block = 1;
+    add_box(&s, 5, 5, 10, 10)->block = 1;
+    add_box(&s, 10.05, 0, 10, 4);
+    run(&s, true);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(s.summary.blocks, 1); /* 0 and 1 by number, 2 by the tolerance of 0.1 */
+    assert_int_equal(s.summary.before.inside_blocks, 2); /* 1 and 2 are the gap apart, exactly */
+    assert_int_equal(s.summary.before.overlap + s.summary.before.too_close, 0);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->kind, SUNDER_OVERLAP);
+    assert_int_equal(c->reason, SUNDER_REASON_SAME_BLOCK);
+    assert_true(c->inside_block);
+    assert_near(c->depth, 5, HAIR);
+    s.options.list_inside = true;
+    run(&s, true);
+    sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 2);
+    end(&s);
+}
+
+static void check_contained(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add_box(&s, 0, 0, 20, 20);
+    add_box(&s, 5, 6, 4, 4);
+    run(&s, true);
+    assert_int_equal(s.summary.blocks, 1);
+    assert_int_equal(s.summary.before.contained, 0);
+    assert_int_equal(s.summary.before.inside_blocks, 1);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    run(&s, false);
+    assert_int_equal(s.summary.blocks, 0);
+    assert_int_equal(left(&s.summary), 0);
+    assert_int_equal(s.summary.moved, 0);
+    s.options.contained = SUNDER_CONTAINED_SEPARATE;
+    run(&s, false);
+    assert_int_equal(s.summary.before.contained, 1);
+    assert_int_equal(left(&s.summary), 0);
+    assert_near(s.summary.total, 9, HAIR); /* out by the left: 5 + 4 */
+    end(&s);
+    /* Up to the tolerance: 0.2 beyond the wall, with a tolerance of 0.3. */
+    begin(&s, 3);
+    add_box(&s, 0, 0, 20, 20);
+    add_box(&s, -0.2, 6, 8, 8);
+    run(&s, true);
+    assert_int_equal(s.summary.blocks, 1);
+    s.options.touch_tolerance = 0.1;
+    run(&s, true);
+    assert_int_equal(s.summary.blocks, 0);
+    assert_int_equal(s.summary.before.overlap, 1);
+    end(&s);
+}
+
+static void check_duplicates(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    for (int k = 0; k < 4; k++) add_box(&s, 3, 4, 2, 2);
+    run(&s, true);
+    assert_int_equal(s.summary.blocks, 1);
+    s.options.contained = SUNDER_CONTAINED_SEPARATE;
+    run(&s, true);
+    assert_int_equal(s.summary.before.duplicate, 6);
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    assert_int_equal(s.summary.rounded, 0);
+    end(&s);
+}
+
+static void check_ignored(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    add_box(&s, 0, 0, 10, 10);
+    add_box(&s, 1, 1, 10, 10)->ignored = true;
+    run(&s, false);
+    assert_int_equal(s.summary.skipped, 1);
+    assert_int_equal(s.summary.moved, 0);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_SKIPPED);
+    assert_int_equal(left(&s.summary), 0);
+    end(&s);
+}
+
+static void check_arguments(void **state)
+{
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    sunder_feature f = {.weight = 1, .max_shift = INFINITY, .block = -1};
+    const double bad_weight[] = {0, -1, NAN, INFINITY}, bad_limit[] = {-1, NAN};
+    for (size_t k = 0; k < 4; k++) {
+        f.weight = bad_weight[k];
+        assert_int_equal(sunder_layer_new(&f, 1, &layer, &err), SUNDER_EARG);
+    }
+    f.weight = 1;
+    for (size_t k = 0; k < 2; k++) {
+        f.max_shift = bad_limit[k];
+        assert_int_equal(sunder_layer_new(&f, 1, &layer, &err), SUNDER_EARG);
+    }
+    f.max_shift = INFINITY;
+    assert_int_equal(sunder_layer_new(&f, 1, &layer, &err), SUNDER_OK);
+    const struct { double gap, tolerance; } bad[] = {{-1, -1}, {NAN, -1}, {INFINITY, -1}, {1, 1}, {1, 2}, {1, NAN}, {0, INFINITY}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        sunder_layer_options o;
+        sunder_layer_options_init(&o);
+        o.gap = bad[k].gap;
+        o.touch_tolerance = bad[k].tolerance;
+        assert_int_equal(sunder_layer_check(layer, &o, &report, &err), SUNDER_EARG);
+        assert_int_equal(sunder_layer_separate(layer, &o, &report, &err), SUNDER_EARG);
+    }
+    assert_null(report);
+    sunder_layer_free(layer);
+    sunder_layer_free(NULL);
+    sunder_report_free(NULL);
+}
+
+static bool stop(double fraction, void *user)
+{
+    (void)user;
+    return fraction < 0.05;
+}
+
+static void check_cancel(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add_box(&s, 0, 0, 10, 10);
+    add_box(&s, 8, 1, 10, 10);
+    s.options.progress = stop;
+    sunder_layer *layer = NULL;
+    sunder_error err;
+    assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_layer_separate(layer, &s.options, &s.report, &err), SUNDER_ECANCEL);
+    assert_null(s.report);
+    sunder_layer_free(layer);
+    end(&s);
+}
+
+static void check_within(void **state)
+{
+    const double t[2] = {3, 4}, u[2] = {3, nextafter(4, 5)}, v[2] = {3e-200, 4e-200};
+    assert_true(sunder_i_within(t, 5));
+    assert_false(sunder_i_within(t, nextafter(5, 0)));
+    assert_false(sunder_i_within(u, 5));
+    assert_true(sunder_i_within(v, 5.0000001e-200));
+    assert_false(sunder_i_within(v, 4.9e-200));
+    assert_true(sunder_i_within(t, INFINITY));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_nothing),     cmocka_unit_test(check_two_squares), cmocka_unit_test(check_weights),
+        cmocka_unit_test(check_fixed),       cmocka_unit_test(check_limits),      cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_courtyard),   cmocka_unit_test(check_blocks),      cmocka_unit_test(check_inside_blocks),
+        cmocka_unit_test(check_contained),   cmocka_unit_test(check_duplicates),  cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_arguments),   cmocka_unit_test(check_cancel),      cmocka_unit_test(check_within),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
