@@ -119,12 +119,13 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], reach = limit + 8 * g->error;
+    const bool many = c->n > 16; /* else the test costs more than it saves */
     uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
     if (!met) return false;
     for (uint32_t e = 0; e < s->vertices; e++) {
         const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
-        if (out_of_reach(a, b, g->box[!side], reach)) continue;
-        const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
+        if (many && out_of_reach(a, b, g->box[!side], reach)) continue;
+        const double dx = b[0] - a[0], dy = b[1] - a[1];
         const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
         uint32_t n = 0;
         for (uint32_t k = 0; k < c->n; k++) { /* without branches: which corners pass is anyone's guess */
@@ -132,14 +133,16 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
             n += (uint32_t)((c->in_x[k] * dy - c->in_y[k] * dx >= bound) &
                             (dx * c->out_y[k] - dy * c->out_x[k] >= bound));
         }
+        if (n == 0) continue;
+        const double inverse = 1 / (dx * dx + dy * dy);
         for (uint32_t m = 0; m < n; m++) {
             const uint32_t k = met[m];
             const double square = segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
             if (square <= reach * reach && !push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side}))
                 return false;
         }
-        g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n;
     }
+    g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n * s->vertices;
     return true;
 }
 
