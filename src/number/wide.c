@@ -11,7 +11,8 @@ typedef struct magnitude {
 static magnitude product(int64_t a, sunder_i_i128 b)
 {
     magnitude m;
-    m.sign = ((a > 0) - (a < 0)) * sunder_i_i128_sign(b);
+    const int sign = (a > 0) - (a < 0);
+    m.sign = sign * sunder_i_i128_sign(b);
     sunder_i_u128_mul(a < 0 ? -(uint64_t)a : (uint64_t)a, sunder_i_i128_abs(b), m.limb);
     return m;
 }
