@@ -74,6 +74,7 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
         if (extents[i].any && extents[i].low_bit < bit) bit = extents[i].low_bit;
     if (bit == INT_MAX) bit = 0;
     lattice->exponent = bit;
+    lattice->scale = bit > -1000 && bit < 1000 ? ldexp(1, -bit) : 0;
     int most = 0;
     for (size_t i = 0; i < n; i++) {
         origins[i][0] = origins[i][1] = 0;
@@ -129,6 +130,9 @@ static bool units(double v, long unit, sunder_i_i128 *out)
 
 static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
 {
+    /* The usual case: scaling by a power of two is exact, and both are integers that fit. */
+    const double sv = v * lattice->scale, so = o * lattice->scale;
+    if (lattice->scale > 0 && fabs(sv) < 0x1p62 && fabs(so) < 0x1p62) return (int64_t)sv - (int64_t)so;
     sunder_i_i128 a, b;
     if (units(v, lattice->exponent, &a) && units(o, lattice->exponent, &b)) return (int64_t)(a - b);
     /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the difference

@@ -27,6 +27,7 @@ typedef struct sunder_i_point {
 typedef struct sunder_i_lattice {
     bool narrow;
     long exponent;
+    double scale;             /* 2^-exponent where that is a normal double, else 0 */
     sunder_i_big denominator; /* odd, > 0; 1 unless a shape was repaired */
     int approx_shift;         /* sunder_i_approx() divides by 2^approx_shift; 0 on a narrow lattice */
     sunder_i_arena arena;     /* pool and wide intermediates; arena.failed is the sticky error of everything on it */

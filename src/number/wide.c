@@ -13,7 +13,8 @@ static magnitude product(int64_t a, sunder_i_i128 b)
     magnitude m;
     const int sign = (a > 0) - (a < 0);
     m.sign = sign * sunder_i_i128_sign(b);
-    sunder_i_u128_mul(a < 0 ? -(uint64_t)a : (uint64_t)a, sunder_i_i128_abs(b), m.limb);
+    const uint64_t bits = (uint64_t)a;
+    sunder_i_u128_mul(a < 0 ? 0 - bits : bits, sunder_i_i128_abs(b), m.limb);
     return m;
 }
 
