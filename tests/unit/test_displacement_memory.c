@@ -1,0 +1,88 @@
+/* A layer whose every allocation fails in turn: an error each time, nothing leaked, and the same result when none fails. */
+#include "failing.h"
+
+#include "sunder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+enum { HOUSES = 6 };
+
+typedef struct street {
+    sunder_shape *shape[HOUSES];
+    bool check, made;
+    sunder_layer_options options;
+} street;
+
+/* Two that touch, one that overlaps them, a fixed one, one beside it that may not go far, one far off. */
+static bool make(street *s)
+{
+    static const double at[HOUSES][2] = {{0, 0}, {10, 0}, {18, 2}, {29, 0}, {25, 12}, {100, 100}};
+    const size_t ring_end = 4, poly_end = 1;
+    for (size_t k = 0; k < HOUSES; k++) {
+        const double x = at[k][0], y = at[k][1], xy[8] = {x, y, x + 10, y, x + 10, y + 10, x, y + 10};
+        if (sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_STRICT, &s->shape[k], NULL)) return false;
+    }
+    return true;
+}
+
+static bool attempt(void *context)
+{
+    street *s = context;
+    sunder_feature feature[HOUSES];
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    for (size_t k = 0; k < HOUSES; k++) s->shape[k] = NULL;
+    sunder_status status = make(s) ? SUNDER_OK : SUNDER_ENOMEM;
+    for (size_t k = 0; k < HOUSES; k++)
+        feature[k] = (sunder_feature){.shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : INFINITY, .block = -1, .fixed = k == 3};
+    if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
+    if (!status)
+        status = s->check ? sunder_layer_check(layer, &s->options, &report, &err)
+                          : sunder_layer_separate(layer, &s->options, &report, &err);
+    if (status) {
+        assert_int_equal(status, SUNDER_ENOMEM);
+        assert_null(report);
+    } else {
+        sunder_layer_summary summary;
+        sunder_report_summary(report, &summary);
+        assert_true(summary.before.overlap > 0);
+        assert_true(s->check || summary.moved > 0);
+    }
+    sunder_report_free(report);
+    sunder_layer_free(layer);
+    for (size_t k = 0; k < HOUSES; k++) sunder_shape_free(s->shape[k]);
+    return status == SUNDER_OK;
+}
+
+static void run(bool check, double gap)
+{
+    street s = {.check = check};
+    sunder_layer_options_init(&s.options);
+    s.options.gap = gap;
+    failing_begin();
+    const bool sound = failing_loop(attempt, &s, true);
+    failing_end();
+    assert_true(sound);
+}
+
+static void check_check(void **state) { run(true, 1); }
+static void check_separate(void **state) { run(false, 0); }
+static void check_separate_with_gap(void **state) { run(false, 1); }
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_check),
+        cmocka_unit_test(check_separate),
+        cmocka_unit_test(check_separate_with_gap),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
