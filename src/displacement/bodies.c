@@ -1,4 +1,5 @@
-/* Bodies as the search sees them: convex pieces in doubles, a convex outline of each feature, and whole blocks as shapes. */
+/* Bodies as the search sees them: convex pieces in doubles, a convex outline of each feature, and whole blocks as
+ * shapes. */
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -39,7 +40,8 @@ static int by_place(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* The convex hull of n corners, counter-clockwise, in out (room for n + 1); Andrew's monotone chain. The corners are sorted. */
+/* The convex hull of n corners, counter-clockwise, in out (room for n + 1); Andrew's monotone chain. The corners are
+ * sorted. */
 static size_t hull(double *p, size_t n, double *out)
 {
     qsort(p, n, 2 * sizeof *p, by_place);
@@ -158,7 +160,8 @@ static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
         rings += r;
         corners += n;
     }
-    if (!status) status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_EVEN_ODD, &town->whole[b], err);
+    if (!status)
+        status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_EVEN_ODD, &town->whole[b], err);
     sunder_i_free(xy);
     sunder_i_free(ring_end);
     sunder_i_free(poly_end);

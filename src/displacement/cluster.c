@@ -1,12 +1,13 @@
-/* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; then round. Afterwards,
- * from a free start, look for cheaper sides. */
+/* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; then
+ * round. Afterwards, from a free start, look for cheaper sides. */
 #include "displacement/search.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few milliseconds. */
+/* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
+ * milliseconds. */
 #define EFFORT 400000u
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
@@ -18,8 +19,8 @@ static sunder_status finish(sunder_i_search *s, double *move, sunder_status stat
     return status;
 }
 
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move, bool *solved,
-                                     sunder_error *err)
+sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                     bool *solved, sunder_error *err)
 {
     sunder_i_search s;
     if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
@@ -69,7 +70,8 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
 {
     size_t n = 0;
     for (uint32_t k = 0; k < s->n; k++) {
-        const double c = s->mass[k] > 0 ? (s->t[2 * k] * s->t[2 * k] + s->t[2 * k + 1] * s->t[2 * k + 1]) / s->mass[k] : 0;
+        const double c =
+            s->mass[k] > 0 ? (s->t[2 * k] * s->t[2 * k] + s->t[2 * k + 1] * s->t[2 * k + 1]) / s->mass[k] : 0;
         if (c > 0) order[n++] = (rank){c, k, 0};
     }
     qsort(order, n, sizeof *order, by_cost);
@@ -120,8 +122,8 @@ static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best
 }
 
 /* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. */
-static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move, size_t *n,
-                          const double *own)
+static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move,
+                          size_t *n, const double *own)
 {
     sunder_i_list hits = {0};
     bool ok = true;

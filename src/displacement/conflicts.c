@@ -28,7 +28,8 @@ static bool is_listed(const sunder_i_town *town, const sunder_i_relation *r)
     return is_conflict(r) && (!is_inside(town, r) || town->rules.list_inside || (r->overlap && !r->touch));
 }
 
-void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations, sunder_conflict_counts *counts)
+void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
+                              sunder_conflict_counts *counts)
 {
     memset(counts, 0, sizeof *counts);
     for (size_t k = 0; k < relations->n; k++) {
@@ -39,7 +40,8 @@ void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relation
     }
 }
 
-/* ---- How bad ------------------------------------------------------------------------------------------------------ */
+/* ---- How bad ------------------------------------------------------------------------------------------------------
+ */
 
 /* The shapes as they stand, as shapes. */
 static sunder_status settle(const sunder_i_stand *stand, sunder_shape **out, sunder_error *err)
@@ -48,7 +50,8 @@ static sunder_status settle(const sunder_i_stand *stand, sunder_shape **out, sun
     return sunder_shape_translate(stand->shape, stand->t[0], stand->t[1], out, &exact, err);
 }
 
-/* The part of convex polygon p (n corners) on the left of the line from a to b; in place of `out`, at most n + 1 corners. */
+/* The part of convex polygon p (n corners) on the left of the line from a to b; in place of `out`, at most n + 1
+ * corners. */
 static size_t clip(const double *p, size_t n, const double *a, const double *b, double *out)
 {
     size_t m = 0;
@@ -100,7 +103,8 @@ static double area_of(const double *p, size_t n)
 static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b, double point[2], sunder_error *err)
 {
     const size_t na = most_corners(a), nb = most_corners(b), room = na + 2 * nb + 2;
-    double *p = sunder_i_alloc(2 * room, sizeof *p), *q = sunder_i_alloc(2 * room, sizeof *q), *c = sunder_i_alloc(2 * nb, sizeof *c);
+    double *p = sunder_i_alloc(2 * room, sizeof *p), *q = sunder_i_alloc(2 * room, sizeof *q),
+           *c = sunder_i_alloc(2 * nb, sizeof *c);
     double box[4], best = -1;
     sunder_shape_box(a, box);
     const double origin[2] = {box[0], box[1]};
@@ -139,7 +143,8 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     return SUNDER_OK;
 }
 
-static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c, sunder_error *err)
+static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,
+                             sunder_error *err)
 {
     if (!overlap) return sunder_pair_distance(a, b, &c->distance, c->from, c->to, err);
     sunder_separation least;
@@ -156,7 +161,8 @@ static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool 
     return status;
 }
 
-/* ---- Why -------------------------------------------------------------------------------------------------------------- */
+/* ---- Why
+ * -------------------------------------------------------------------------------------------------------------- */
 
 static double limit_of(const sunder_i_town *town, size_t f)
 {
@@ -164,7 +170,8 @@ static double limit_of(const sunder_i_town *town, size_t f)
     return body->fixed ? 0 : body->limit;
 }
 
-static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict *c, sunder_reason *reason, sunder_error *err)
+static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict *c, sunder_reason *reason,
+                               sunder_error *err)
 {
     const double la = limit_of(town, c->a), lb = limit_of(town, c->b);
     if (la == 0 && lb == 0) {
@@ -177,8 +184,9 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
     sunder_separation least;
     bool beyond;
     const double none[2] = {0, 0};
-    const sunder_status status = sunder_i_separate(town->layer->feature[c->a].shape, none, town->layer->feature[c->b].shape,
-                                                   none, town->rules.gap, INFINITY, &least, &beyond, err);
+    const sunder_status status =
+        sunder_i_separate(town->layer->feature[c->a].shape, none, town->layer->feature[c->b].shape, none,
+                          town->rules.gap, INFINITY, &least, &beyond, err);
     if (status) return status;
     if (least.lower_bound > la + lb) *reason = SUNDER_REASON_MAX_SHIFT;
     sunder_separation_clear(&least);
@@ -200,7 +208,8 @@ static sunder_status find_blockers(const sunder_i_town *town, const sunder_i_sce
         for (uint32_t m = 0; m < body->members && !status; m++) {
             const uint32_t f = town->member[body->member + m];
             if (!town->present[f]) continue;
-            const double size = hypot(scene->box[4 * f + 2] - scene->box[4 * f], scene->box[4 * f + 3] - scene->box[4 * f + 1]);
+            const double size =
+                hypot(scene->box[4 * f + 2] - scene->box[4 * f], scene->box[4 * f + 3] - scene->box[4 * f + 1]);
             const double hair = fmax(town->rules.gap, size) * 0x1p-20, reach = town->rules.gap + hair;
             double box[4];
             sunder_i_box_grow(scene->box + 4 * (size_t)f, reach, box);
@@ -212,8 +221,8 @@ static sunder_status find_blockers(const sunder_i_town *town, const sunder_i_sce
                 bool known = false, apart;
                 for (size_t i = first; i < blockers->n && !known; i++) known = blockers->item[i] == g;
                 if (known) continue;
-                status = sunder_i_apart(scene->stand[f].shape, scene->stand[f].t, scene->stand[g].shape, scene->stand[g].t,
-                                        reach, &apart, err);
+                status = sunder_i_apart(scene->stand[f].shape, scene->stand[f].t, scene->stand[g].shape,
+                                        scene->stand[g].t, reach, &apart, err);
                 if (status || apart) continue;
                 if (!sunder_i_reserve(&blockers->item, &blockers->capacity, blockers->n + 1, sizeof *blockers->item))
                     status = sunder_i_no_memory(err);
@@ -232,7 +241,8 @@ static sunder_status find_blockers(const sunder_i_town *town, const sunder_i_sce
     return status;
 }
 
-/* ---- The list ------------------------------------------------------------------------------------------------------------ */
+/* ---- The list
+ * ------------------------------------------------------------------------------------------------------------ */
 
 typedef struct describing {
     const sunder_i_town *town;
@@ -265,8 +275,8 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
                 status = reason_of(town, c, &c->reason, err);
             if (status) return status;
             double on_a[2], on_b[2];
-            status = sunder_pair_distance(town->layer->feature[c->a].shape, town->layer->feature[c->b].shape, &c->before, on_a,
-                                          on_b, err);
+            status = sunder_pair_distance(town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
+                                          &c->before, on_a, on_b, err);
             if (status) return status;
         }
     }

@@ -2,8 +2,9 @@
  *
  * B + u misses the interior of A exactly when u lies outside the interior of A + (-B). For every unit vector n,
  *     n.u >= h_A(n) + h_B(-n) + gap
- * keeps B + u at least the gap from A, wherever u is [Li and Milenkovic 1995]: it is a *global* constraint, and the only choice is that of n.
- * Chosen where u stands now, as the direction of the nearest point, it is tight there, so that a feasible u stays feasible. */
+ * keeps B + u at least the gap from A, wherever u is [Li and Milenkovic 1995]: it is a *global* constraint, and the
+ * only choice is that of n. Chosen where u stands now, as the direction of the nearest point, it is tight there, so
+ * that a feasible u stays feasible. */
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -36,7 +37,8 @@ size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t n
     const size_t a0 = extreme(a, na, 1), b0 = extreme(b, nb, -1);
     double x = a[2 * a0] - b[2 * b0] - offset[0], y = a[2 * a0 + 1] - b[2 * b0 + 1] - offset[1];
     size_t i = 0, j = 0, n = 0;
-    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by turning. */
+    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by turning.
+     */
     while (i < na || j < nb) {
         const size_t p = (a0 + i) % na, p1 = (p + 1) % na, q = (b0 + j) % nb, q1 = (q + 1) % nb;
         const double ux = a[2 * p1] - a[2 * p], uy = a[2 * p1 + 1] - a[2 * p + 1];

@@ -1,10 +1,11 @@
 /* The sequence of quadratic programs.
  *
- * Around a reference position each pair of convex pieces gives one support constraint (contact.c). Its direction is that of the
- * nearest point where the pair stands free; where two bodies clash the directions are taken where the pair would stand if the least
- * translation from here had parted it, so that all pieces of the pair agree on the side. The program's solution is feasible for
- * the true shapes, since support constraints are global; from a feasible position every round is feasible and no dearer than the last. Pieces
- * farther off than the reach are left out until they are found in the way.
+ * Around a reference position each pair of convex pieces gives one support constraint (contact.c). Its direction is
+ * that of the nearest point where the pair stands free; where two bodies clash the directions are taken where the pair
+ * would stand if the least translation from here had parted it, so that all pieces of the pair agree on the side. The
+ * program's solution is feasible for the true shapes, since support constraints are global; from a feasible position
+ * every round is feasible and no dearer than the last. Pieces farther off than the reach are left out until they are
+ * found in the way.
  *
  * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
@@ -15,14 +16,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_ROUNDS 40    /* rounds in all: a bound that is not met in practice */
-#define MOST_CLASHING 12  /* rounds that end in a clash before the search gives up ... */
-#define MOST_IDLE 3       /* ... and those of them that do not halve what is missed */
-#define SOFT 1e-3         /* at first; less each round that clashes, so that long chains are not taken for contradictions */
+#define MOST_ROUNDS 40   /* rounds in all: a bound that is not met in practice */
+#define MOST_CLASHING 12 /* rounds that end in a clash before the search gives up ... */
+#define MOST_IDLE 3      /* ... and those of them that do not halve what is missed */
+#define SOFT 1e-3 /* at first; less each round that clashes, so that long chains are not taken for contradictions */
 #define HARDEST 1e-6
 #define MOST_ADDITIONS 24 /* times that constraints are added to one program */
 
-/* ---- Constraints ----------------------------------------------------------------------------------------------------- */
+/* ---- Constraints
+ * ----------------------------------------------------------------------------------------------------- */
 
 static int by_key(const void *a, const void *b)
 {
@@ -36,7 +38,8 @@ static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n
     return n ? bsearch(&wanted, c, n, sizeof *c, by_key) : NULL;
 }
 
-/* Adds it, unless one of those from `first` on says as much; a weaker one of these is replaced. Pieces of one wall give the same line many times. */
+/* Adds it, unless one of those from `first` on says as much; a weaker one of these is replaced. Pieces of one wall give
+ * the same line many times. */
 static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
 {
     sunder_i_quadratic *p = &s->program;
@@ -57,8 +60,8 @@ static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_cons
     p->constraint[p->n++] = *c;
 }
 
-/* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near, with the sides of
- * position u. Those that `known` holds are left as they are. */
+/* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near,
+ * with the sides of position u. Those that `known` holds are left as they are. */
 typedef struct sighting {
     const double *near, *u;
     double reach;
@@ -66,7 +69,8 @@ typedef struct sighting {
     size_t known_n;
 } sighting;
 
-static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at, uint32_t k, uint32_t l, size_t first)
+static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at, uint32_t k, uint32_t l,
+                             size_t first)
 {
     const sunder_i_town *town = s->town;
     const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
@@ -86,8 +90,8 @@ static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const s
     if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
     double d = h.support + s->gap - sunder_i_search_allowed(s, i, j);
-    /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two sides, would be a
-     * contradiction. */
+    /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
+     * sides, would be a contradiction. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (now < d && now >= d - s->tolerance) d = now;
     /* What does not move counts where it stands. */
@@ -98,8 +102,13 @@ static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const s
         d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
         ends[e] = SUNDER_I_NOBODY;
     }
-    add_constraint(s, first, &(sunder_i_constraint){.i = ends[0], .j = ends[1], .n = {h.n[0], h.n[1]}, .d = d,
-                                                    .force = before ? before->force : 0, .key = key});
+    add_constraint(s, first,
+                   &(sunder_i_constraint){.i = ends[0],
+                                          .j = ends[1],
+                                          .n = {h.n[0], h.n[1]},
+                                          .d = d,
+                                          .force = before ? before->force : 0,
+                                          .key = key});
 }
 
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
@@ -114,7 +123,8 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
         if (!sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = q->piece; l < q->piece + q->pieces && !s->failed; l++)
-            if (sunder_i_box_meet(box, town->piece[l].box) && !sunder_i_is_kept(town, a->feature, town->piece[l].feature))
+            if (sunder_i_box_meet(box, town->piece[l].box) &&
+                !sunder_i_is_kept(town, a->feature, town->piece[l].feature))
                 constrain_pieces(s, i, j, at, k, l, first);
     }
 }
@@ -162,7 +172,8 @@ static bool constrain_all(sunder_i_search *s, double reach)
     return a.clashing;
 }
 
-/* The limits of moves, as tangents of the discs that they are: those that s->next oversteps. Returns whether there were any. */
+/* The limits of moves, as tangents of the discs that they are: those that s->next oversteps. Returns whether there were
+ * any. */
 static bool constrain_limits(sunder_i_search *s)
 {
     bool any = false;
@@ -171,13 +182,16 @@ static bool constrain_limits(sunder_i_search *s)
         if (!(s->mass[k] > 0) || length <= limit * (1 + 1e-12)) continue;
         any = true;
         const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
-        add_constraint(s, s->program.n, &(sunder_i_constraint){.i = SUNDER_I_NOBODY, .j = k, .n = {-t[0] / length, -t[1] / length},
-                                                 .d = -limit, .key = key});
+        add_constraint(
+            s, s->program.n,
+            &(sunder_i_constraint){
+                .i = SUNDER_I_NOBODY, .j = k, .n = {-t[0] / length, -t[1] / length}, .d = -limit, .key = key});
     }
     return any;
 }
 
-/* ---- Solving one program --------------------------------------------------------------------------------------------------- */
+/* ---- Solving one program
+ * --------------------------------------------------------------------------------------------------- */
 
 static double longest_step(const sunder_i_search *s)
 {
@@ -200,7 +214,8 @@ static void keep_still(sunder_i_search *s)
         if (!(s->mass[k] > 0)) memcpy(s->next + 2 * k, s->t + 2 * k, 2 * sizeof *s->next);
 }
 
-/* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the violation left. */
+/* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the
+ * violation left. */
 static double solve(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
@@ -240,7 +255,8 @@ static double solve_lazily(sunder_i_search *s, double softness)
             break;
         }
         if (before) memcpy(known, s->program.constraint, before * sizeof *known);
-        /* Pieces in the way that no constraint knows of: their sides are those of the reference position, where they stood apart. */
+        /* Pieces in the way that no constraint knows of: their sides are those of the reference position, where they
+         * stood apart. */
         sunder_i_search_look(s, s->next);
         const size_t clashes = s->clashes;
         for (size_t c = 0; c < clashes && !s->failed; c++) {
@@ -258,8 +274,8 @@ static double solve_lazily(sunder_i_search *s, double softness)
     return v;
 }
 
-/* Around a position with clashes: softly; and in full, if what is missed is little beside how far things go and the full program turns out to have a
- * solution. */
+/* Around a position with clashes: softly; and in full, if what is missed is little beside how far things go and the
+ * full program turns out to have a solution. */
 static double compromise(sunder_i_search *s, double softness)
 {
     const double v = solve_lazily(s, softness);
@@ -286,8 +302,8 @@ static double compromise(sunder_i_search *s, double softness)
     return full;
 }
 
-/* The farthest towards s->next that one can go from s->t, which is free, without missing a constraint more than there; for programs that
- * were not solved to the end. The constraints are convex, so the way is free up to there. */
+/* The farthest towards s->next that one can go from s->t, which is free, without missing a constraint more than there;
+ * for programs that were not solved to the end. The constraints are convex, so the way is free up to there. */
 static void stop_short(sunder_i_search *s)
 {
     double share = 1;
@@ -299,7 +315,8 @@ static void stop_short(sunder_i_search *s)
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + 0.999 * share * (s->next[k] - s->t[k]);
 }
 
-/* ---- The sequence --------------------------------------------------------------------------------------------------------------- */
+/* ---- The sequence
+ * --------------------------------------------------------------------------------------------------------------- */
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {
@@ -360,7 +377,9 @@ bool sunder_i_search_round(sunder_i_search *s)
     return true;
 }
 
-/* ---- Jumping ------------------------------------------------------------------------------------------------------------------------- */
+/* ---- Jumping
+ * -------------------------------------------------------------------------------------------------------------------------
+ */
 
 static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
 {
@@ -387,7 +406,8 @@ bool sunder_i_search_jump(sunder_i_search *s)
             for (int e = 0; e < 2 && !(best_cost < INFINITY); e++) {
                 double place[2];
                 const uint32_t i = pair[e];
-                if (!(s->mass[i] > 0) || !sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place)) continue;
+                if (!(s->mass[i] > 0) || !sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place))
+                    continue;
                 const double more = cost_of(s, i, place) - cost_of(s, i, s->t + 2 * i);
                 if (more < best_cost) {
                     best_cost = more;

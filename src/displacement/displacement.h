@@ -45,16 +45,16 @@ sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder
 
 /* A packed R-tree over boxes that do not change. */
 typedef struct sunder_i_index {
-    double *box;       /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
-    uint32_t *item;    /* [leaves] what each leaf holds */
-    size_t level[16];  /* first node of each level; level[levels] is the end */
+    double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
+    uint32_t *item;   /* [leaves] what each leaf holds */
+    size_t level[16]; /* first node of each level; level[levels] is the end */
     unsigned levels;
     size_t leaves;
 } sunder_i_index;
 
 /* Boxes of the items for which present[i] (NULL: all). */
 sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
-                                      sunder_error *err);
+                                   sunder_error *err);
 void sunder_i_index_free(sunder_i_index *tree);
 
 typedef struct sunder_i_list {
@@ -73,22 +73,22 @@ static inline bool sunder_i_box_meet(const double *a, const double *b)
 
 /* ---- Exact relations of pairs ------------------------------------------------------------------------------------ */
 
-/* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the shape that
- * is written, with no translation. */
+/* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the
+ * shape that is written, with no translation. */
 typedef struct sunder_i_stand {
     const sunder_shape *shape;
     double t[2];
 } sunder_i_stand;
 
 typedef struct sunder_i_relation {
-    uint32_t a, b;     /* features, a < b */
-    bool near;         /* not the gap apart */
-    bool overlap;      /* interiors meet */
-    bool contained;    /* one lies in the other, up to the tolerance */
-    bool a_in_b;       /* which: a in b */
-    bool duplicate;    /* equal sets */
-    bool touch;        /* they touch, or gape or overlap by no more than the tolerance */
-    bool kept;         /* contained, and the rules let such pairs overlap */
+    uint32_t a, b;  /* features, a < b */
+    bool near;      /* not the gap apart */
+    bool overlap;   /* interiors meet */
+    bool contained; /* one lies in the other, up to the tolerance */
+    bool a_in_b;    /* which: a in b */
+    bool duplicate; /* equal sets */
+    bool touch;     /* they touch, or gape or overlap by no more than the tolerance */
+    bool kept;      /* contained, and the rules let such pairs overlap */
 } sunder_i_relation;
 
 /* All questions about one pair, exact. */
@@ -100,7 +100,8 @@ typedef struct sunder_i_relations {
     size_t n, tested;
 } sunder_i_relations;
 
-/* ---- Blocks -------------------------------------------------------------------------------------------------------- */
+/* ---- Blocks --------------------------------------------------------------------------------------------------------
+ */
 
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
 typedef struct sunder_i_body {
@@ -117,7 +118,7 @@ typedef struct sunder_i_body {
 typedef struct sunder_i_piece {
     uint32_t corner, corners; /* in sunder_i_town.corner */
     uint32_t feature;
-    double box[4];            /* relative to the body's origin */
+    double box[4]; /* relative to the body's origin */
 } sunder_i_piece;
 
 /* Two features that may overlap; sorted. */
@@ -130,41 +131,44 @@ typedef struct sunder_i_town {
     const sunder_layer *layer;
     sunder_i_rules rules;
     size_t bodies, features, pieces;
-    uint32_t *body_of;  /* [features] */
-    uint32_t *member;   /* [features] features by body */
+    uint32_t *body_of; /* [features] */
+    uint32_t *member;  /* [features] features by body */
     sunder_i_body *body;
     sunder_i_piece *piece;
     sunder_i_piece *outline; /* [features] the convex hull of each: stands in for its pieces where they are too many */
-    double *corner;     /* [2 * corners] relative to the body's origin */
-    sunder_shape **whole; /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
-    double *box;        /* [4 * features] as they stood at the start */
-    bool *present;      /* [features] */
+    double *corner;          /* [2 * corners] relative to the body's origin */
+    sunder_shape *
+        *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
+    double *box;   /* [4 * features] as they stood at the start */
+    bool *present; /* [features] */
     sunder_i_index tree;
-    sunder_i_couple *kept; /* pairs that may overlap */
+    sunder_i_couple *kept; /* pairs that may overlap, because one lies in the other */
+    bool *lapsed;          /* [kept_n] it no longer does, so the two have to part */
     size_t kept_n;
-    double *move;       /* [2 * bodies] where each stands now, relative to the start */
-    double far;         /* no body stands farther than this from where it was, in x or in y */
-    bool *inexact;      /* [features] the translate was rounded */
+    double *move;  /* [2 * bodies] where each stands now, relative to the start */
+    double far;    /* no body stands farther than this from where it was, in x or in y */
+    bool *inexact; /* [features] the translate was rounded */
 } sunder_i_town;
 
-/* The features' boxes and the tree over them as they were. On failure the town can be given to sunder_i_town_free() all the same. */
+/* The features' boxes and the tree over them as they were. On failure the town can be given to sunder_i_town_free() all
+ * the same. */
 sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_town *town,
                                  sunder_error *err);
 /* How the features stand at one moment. */
 typedef struct sunder_i_scene {
-    sunder_i_stand *stand;      /* [features] */
-    sunder_shape **rounded;     /* [features] owned shapes of those whose translate was rounded; else NULL */
-    bool *was_rounded;          /* [features] at any time */
-    double *box;                /* [4 * features] */
+    sunder_i_stand *stand;  /* [features] */
+    sunder_shape **rounded; /* [features] owned shapes of those whose translate was rounded; else NULL */
+    bool *was_rounded;      /* [features] at any time */
+    double *box;            /* [4 * features] */
     sunder_i_index tree;
 } sunder_i_scene;
 
-/* All pairs that are near, touch or are kept, as the features stand; exact. before (or NULL): the relations when all but the features with
- * changed[] stood as now; what cannot have changed is taken from there. */
+/* All pairs that are near, touch or are kept, as the features stand; exact. before (or NULL): the relations when all
+ * but the features with changed[] stood as now; what cannot have changed is taken from there. */
 sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
                                     const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err);
-/* The scene at the start, and after bodies moved: every feature f with changed[f] is placed anew by town->move. Failure leaves a scene
- * that can be freed. */
+/* The scene at the start, and after bodies moved: every feature f with changed[f] is placed anew by town->move. Failure
+ * leaves a scene that can be freed. */
 sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *scene, sunder_error *err);
 sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, const bool *changed, sunder_error *err);
 void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene);
@@ -179,18 +183,22 @@ sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, siz
 const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
 void sunder_i_town_free(sunder_i_town *town);
 bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
+/* From now on the pair is like any other. */
+void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g);
 
-/* ---- Conflicts as they are reported ------------------------------------------------------------------------------------- */
+/* ---- Conflicts as they are reported
+ * ------------------------------------------------------------------------------------- */
 
-/* Fills the report's conflicts from the relations as the features stand. start: the relations and scene before anything moved (equal to
- * the others in a check). reasons: fill reason and blocked_by of what remains between blocks. */
+/* Fills the report's conflicts from the relations as the features stand. start: the relations and scene before anything
+ * moved (equal to the others in a check). reasons: fill reason and blocked_by of what remains between blocks. */
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
                                         const sunder_i_relations *relations, bool reasons, sunder_error *err);
 /* Counts what the relations amount to, without listing it. */
 void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
-/* ---- Contact of convex pieces ---------------------------------------------------------------------------------------- */
+/* ---- Contact of convex pieces
+ * ---------------------------------------------------------------------------------------- */
 
 /* Scratch memory of one thread; grows, and remembers a failure. */
 typedef struct sunder_i_scratch {
@@ -199,7 +207,8 @@ typedef struct sunder_i_scratch {
     bool failed;
 } sunder_i_scratch;
 
-/* The obstacle A + (-B) of two convex polygons: corners counter-clockwise in scratch->xy. Returns how many, 0 if memory is out. */
+/* The obstacle A + (-B) of two convex polygons: corners counter-clockwise in scratch->xy. Returns how many, 0 if memory
+ * is out. */
 size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                            sunder_i_scratch *scratch);
 
@@ -212,12 +221,13 @@ typedef struct sunder_i_support {
 /* The support line of the convex polygon d (n corners) that is farthest below u. */
 sunder_i_support sunder_i_support_at(const double *d, size_t n, const double u[2]);
 
-/* ---- Free places --------------------------------------------------------------------------------------------------------- */
+/* ---- Free places
+ * --------------------------------------------------------------------------------------------------------- */
 
 typedef struct sunder_i_wall {
-    double n[2], h;      /* the obstacle lies in n.x <= h */
+    double n[2], h; /* the obstacle lies in n.x <= h */
     double from[2], to[2];
-    double distance;     /* from the target */
+    double distance; /* from the target */
     uint32_t obstacle;
 } sunder_i_wall;
 
@@ -238,12 +248,13 @@ typedef struct sunder_i_obstacles {
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
-/* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them, none beyond
- * limit, no two nearer than `spread`. Returns how many; *failed is set if memory is out. */
+/* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,
+ * none beyond limit, no two nearer than `spread`. Returns how many; *failed is set if memory is out. */
 size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], bool *failed);
 
-/* ---- The quadratic program --------------------------------------------------------------------------------------------------- */
+/* ---- The quadratic program
+ * --------------------------------------------------------------------------------------------------- */
 
 #define SUNDER_I_NOBODY UINT32_MAX
 
@@ -251,56 +262,66 @@ size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double ta
 typedef struct sunder_i_constraint {
     uint32_t i, j;
     double n[2], d;
-    double force;       /* its multiplier */
-    uint64_t key;       /* what it stands for, to find it again in the next round */
+    double force; /* its multiplier */
+    uint64_t key; /* what it stands for, to find it again in the next round */
 } sunder_i_constraint;
 
 typedef struct sunder_i_quadratic {
     size_t bodies;
-    const double *mass;               /* [bodies] inverse: 1 / (2 w); 0 for what is fixed */
+    const double *mass; /* [bodies] inverse: 1 / (2 w); 0 for what is fixed */
     sunder_i_constraint *constraint;
     size_t n, capacity;
-    double *t;                        /* [2 * bodies] out */
-    uint64_t work;                    /* done so far, roughly in constraints looked at */
+    double *t;     /* [2 * bodies] out */
+    uint64_t work; /* done so far, roughly in constraints looked at */
 } sunder_i_quadratic;
 
-/* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in proportion to
- * its force (relative to what the force moves), so that contradictions end in a compromise. Returns the worst violation;
- * negative if memory is out. scale: a length such as bodies move by; where: the bodies' places, two doubles each. */
+/* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in
+ * proportion to its force (relative to what the force moves), so that contradictions end in a compromise. Returns the
+ * worst violation; negative if memory is out. scale: a length such as bodies move by; where: the bodies' places, two
+ * doubles each. */
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale,
                                 const double *where);
 
-/* ---- Clusters ---------------------------------------------------------------------------------------------------------------------- */
+/* ---- Clusters
+ * ----------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct sunder_i_cluster {
-    uint32_t *body;  /* members, ascending; fixed ones too */
+    uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double margin;   /* what is demanded beyond the gap, to cover rounding */
-    bool limited;    /* a limit or a fixed body is in it: it may have no solution */
+    double margin; /* what is demanded beyond the gap, to cover rounding */
+    bool limited;  /* a limit or a fixed body is in it: it may have no solution */
 } sunder_i_cluster;
 
 /* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. *solved: no clash is left. */
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move, bool *solved,
-                                     sunder_error *err);
+sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                     bool *solved, sunder_error *err);
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
 
-/* ---- Rounding ------------------------------------------------------------------------------------------------------------------------ */
+/* ---- Rounding
+ * ------------------------------------------------------------------------------------------------------------------------
+ */
 
-/* Rounds the move of a body so that the coordinates of its members plus the move are doubles, if any near move does; false if
- * none. Never longer than the body's limit. The coarsest unit of a coordinate goes to *unit. */
+/* Rounds the move of a body so that the coordinates of its members plus the move are doubles, if any near move does;
+ * false if none. Never longer than the body's limit. The coarsest unit of a coordinate goes to *unit. */
 bool sunder_i_round_move(const sunder_i_town *town, uint32_t body, const double move[2], double out[2], double *unit);
 /* |t| <= limit? Exact. limit may be infinite. */
 bool sunder_i_within(const double t[2], double limit);
 
-/* ---- The lower bound ------------------------------------------------------------------------------------------------------------------- */
+/* ---- The lower bound
+ * -------------------------------------------------------------------------------------------------------------------
+ */
 
-/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get none. */
+/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get none.
+ */
 sunder_status sunder_i_bound(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err);
 
-/* ---- The report -------------------------------------------------------------------------------------------------------------------------- */
+/* ---- The report
+ * --------------------------------------------------------------------------------------------------------------------------
+ */
 
 struct sunder_report {
     size_t n;
@@ -309,7 +330,7 @@ struct sunder_report {
     int64_t *block;                /* [n] */
     sunder_conflict *conflict;
     size_t conflicts;
-    size_t *blocker;               /* what all blocked_by point into */
+    size_t *blocker; /* what all blocked_by point into */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_layer_summary summary;

@@ -1,8 +1,9 @@
 /* The acting constraints as linear equations.
  *
- * G f = d with G the Gram matrix of the acting constraints in the metric of the masses, by Cholesky; and the set corrected as by Lawson and Hanson
- * (Solving Least Squares Problems, 1974, chapter 23): forces that turn negative are dropped, violated constraints added. At the end all
- * forces are positive, the acting constraints hold with equality and no other is violated: that is the optimum. */
+ * G f = d with G the Gram matrix of the acting constraints in the metric of the masses, by Cholesky; and the set
+ * corrected as by Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23): forces that turn negative are
+ * dropped, violated constraints added. At the end all forces are positive, the acting constraints hold with equality
+ * and no other is violated: that is the optimum. */
 #include "displacement/quadratic.h"
 
 #include <math.h>
@@ -14,11 +15,11 @@
 #define MOST_FACTORS 60
 
 typedef struct equations {
-    uint32_t *set;          /* [capacity] acting constraints */
-    double *gram;           /* lower triangle of the factor, by rows of `capacity` */
-    double *half, *force;   /* after the forward half; the solution */
+    uint32_t *set;        /* [capacity] acting constraints */
+    double *gram;         /* lower triangle of the factor, by rows of `capacity` */
+    double *half, *force; /* after the forward half; the solution */
     size_t n, capacity;
-    int factors;            /* so far */
+    int factors; /* so far */
 } equations;
 
 /* Entry (a, b) of the Gram matrix. */
@@ -31,9 +32,9 @@ static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, co
     return dot * m;
 }
 
-/* Cholesky factor, a row at a time, skipping the leading zeros of each row, and the solution of G f = d. Rows before `from` are
- * those of the last call. The diagonal is raised by 1e-11
- * of itself: constraints that say the same twice are common (a long wall cut into pieces) and any split of their force will do. */
+/* Cholesky factor, a row at a time, skipping the leading zeros of each row, and the solution of G f = d. Rows before
+ * `from` are those of the last call. The diagonal is raised by 1e-11 of itself: constraints that say the same twice are
+ * common (a long wall cut into pieces) and any split of their force will do. */
 static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, double softness)
 {
     p->work += e->n * e->n * (e->n - from) / 32 + e->n * e->n / 8;
@@ -84,8 +85,9 @@ static void drop(sunder_i_quadratic *p, equations *e, size_t r)
     e->n--;
 }
 
-/* Solves, drops what would pull instead of push, solves again. At first all such constraints at once, which mostly is right; then by the book: the
- * forces go towards the solution until one of them is zero, and only that one is dropped. */
+/* Solves, drops what would pull instead of push, solves again. At first all such constraints at once, which mostly is
+ * right; then by the book: the forces go towards the solution until one of them is zero, and only that one is dropped.
+ */
 static bool descend(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
@@ -144,4 +146,3 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
     sunder_i_free(e.gram);
     return ok;
 }
-

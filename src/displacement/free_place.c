@@ -1,10 +1,10 @@
 /* Places outside a union of open convex polygons, nearest first.
  *
- * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and where two walls
- * of different obstacles cross: at a corner of one obstacle the distance falls along one of its two walls. So these are all the
- * candidates; they are taken by distance, and each is tested against all obstacles. Walls are sorted by distance, and a
- * crossing is no nearer than the farther of its walls, so the search stops as soon as the walls left are farther than the places
- * found.
+ * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and
+ * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
+ * walls. So these are all the candidates; they are taken by distance, and each is tested against all obstacles. Walls
+ * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
+ * walls left are farther than the places found.
  *
  * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/displacement.h"
@@ -13,10 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Round corners are cut by tangents so that normals turn by at most this: the place proposed keeps at most 2 % more than the gap. */
+/* Round corners are cut by tangents so that normals turn by at most this: the place proposed keeps at most 2 % more
+ * than the gap. */
 #define TURN (3.14159265358979323846 / 8)
-/* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block stands amid
- * hundreds of neighbours. */
+/* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block
+ * stands amid hundreds of neighbours. */
 #define MOST_CROSSED 1500
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
@@ -49,7 +50,8 @@ static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[
 static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
 {
     const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
-    const double angle = turn < -1e-3 ? turn + 2 * 3.14159265358979323846 : turn; /* a flat piece turns by half a circle */
+    const double angle =
+        turn < -1e-3 ? turn + 2 * 3.14159265358979323846 : turn; /* a flat piece turns by half a circle */
     const int steps = (int)ceil(angle / TURN);
     for (int k = 1; k < steps; k++) {
         const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
@@ -57,8 +59,8 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
     }
 }
 
-/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along the
- * bisector of the normals. */
+/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along
+ * the bisector of the normals. */
 static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
 {
     const size_t n = o->walls - first;
@@ -170,7 +172,8 @@ typedef struct harvest {
     double *distance;
 } harvest;
 
-/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the nearer stays. */
+/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
+ * nearer stays. */
 static void offer(harvest *h, const double x[2])
 {
     const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
@@ -208,11 +211,14 @@ static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
     for (size_t v = 0; v < w; v++) {
         const sunder_i_wall *b = &wall[v];
         if (a->obstacle == b->obstacle) continue;
-        const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h, d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
+        const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h,
+                     d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
         if ((d1 > 0) == (d2 > 0)) continue;
-        const double e1 = a->n[0] * b->from[0] + a->n[1] * b->from[1] - a->h, e2 = a->n[0] * b->to[0] + a->n[1] * b->to[1] - a->h;
+        const double e1 = a->n[0] * b->from[0] + a->n[1] * b->from[1] - a->h,
+                     e2 = a->n[0] * b->to[0] + a->n[1] * b->to[1] - a->h;
         if ((e1 > 0) == (e2 > 0)) continue;
-        const double s = d1 / (d1 - d2), x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
+        const double s = d1 / (d1 - d2),
+                     x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
         offer(h, x);
     }
 }
@@ -233,7 +239,8 @@ static bool is_covered(const harvest *h, const sunder_i_wall *w)
     return false;
 }
 
-/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle. */
+/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle.
+ */
 static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
 {
     size_t bare = 0;
@@ -248,8 +255,8 @@ static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
         offer_crossings(h, sorted, k);
 }
 
-size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread, size_t most,
-                            double (*places)[2], bool *failed)
+size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
+                            size_t most, double (*places)[2], bool *failed)
 {
     enum { MOST = 16 };
     double distance[MOST];

@@ -1,10 +1,11 @@
-/* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dostal, Optimal Quadratic
- * Programming Algorithms, Springer 2009, algorithm 5.8].
+/* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dostal, Optimal
+ * Quadratic Programming Algorithms, Springer 2009, algorithm 5.8].
  *
- * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the forces that are positive it takes conjugate gradient steps; where such a step would
- * make one negative it stops there and takes a short projected gradient step instead; where the zero forces ask for more than the
- * positive ones are out of balance it lets them in. Each constraint is scaled so that its diagonal in G is 1. G is never formed: a product with it
- * is a push of the bodies and a look at the stretch of each constraint. */
+ * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the forces that are positive it takes conjugate gradient steps;
+ * where such a step would make one negative it stops there and takes a short projected gradient step instead; where the
+ * zero forces ask for more than the positive ones are out of balance it lets them in. Each constraint is scaled so that
+ * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
+ * each constraint. */
 #include "displacement/quadratic.h"
 
 #include <math.h>
@@ -70,8 +71,8 @@ static void restart(dual *q)
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? q->g[k] : 0;
 }
 
-/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and the worst, as
- * a length. */
+/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and
+ * the worst, as a length. */
 typedef struct imbalance {
     double cut, zero, worst;
 } imbalance;
@@ -161,8 +162,15 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double 
     if (p->n == 0) return true;
     double *memory = sunder_i_calloc(5 * p->n + 2 * p->bodies, sizeof *memory);
     if (!memory) return false;
-    dual q = {.p = p, .n = p->n, .softness = softness, .scale = memory, .f = memory + p->n, .g = memory + 2 * p->n,
-              .step = memory + 3 * p->n, .gs = memory + 4 * p->n, .t = memory + 5 * p->n};
+    dual q = {.p = p,
+              .n = p->n,
+              .softness = softness,
+              .scale = memory,
+              .f = memory + p->n,
+              .g = memory + 2 * p->n,
+              .step = memory + 3 * p->n,
+              .gs = memory + 4 * p->n,
+              .t = memory + 5 * p->n};
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));

@@ -1,6 +1,7 @@
 /* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [Kamel and Faloutsos, "On
- * packing R-trees", CIKM 1993]. It is built once and never changed. It answers with closed boxes and loses nothing: boxes above
- * are the exact hulls of those below. Where the curve's grid is too coarse to tell centres apart only speed suffers. */
+ * packing R-trees", CIKM 1993]. It is built once and never changed. It answers with closed boxes and loses nothing:
+ * boxes above are the exact hulls of those below. Where the curve's grid is too coarse to tell centres apart only speed
+ * suffers. */
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -85,7 +86,7 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
 }
 
 sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
-                                      sunder_error *err)
+                                   sunder_error *err)
 {
     place *places = NULL;
     size_t leaves = 0;
@@ -135,7 +136,10 @@ bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunde
 {
     if (tree->leaves == 0) return true;
     /* At most 15 siblings wait on each of at most 16 levels. */
-    struct { size_t node; unsigned level; } stack[16 * FANOUT];
+    struct {
+        size_t node;
+        unsigned level;
+    } stack[16 * FANOUT];
     size_t depth = 0;
     stack[depth].node = tree->level[tree->levels] - 1;
     stack[depth++].level = tree->levels - 1;

@@ -1,12 +1,12 @@
 /* An interior point method for the same program, for clusters in which thousands of constraints compete.
  *
- * Mehrotra's predictor-corrector [Nocedal and Wright, Numerical Optimization, 2nd edition, section 16.6]: with slacks s and forces f, both
- * positive,
- *     H x = A'f,   A x + softness f = d + s,   s f = mu -> 0,
- * each step solves (H + A' diag(f / (s + softness f)) A) dx = r. The matrix couples bodies in contact only. Bodies are ordered along the longer side of
- * the cluster, so that it is a narrow band, and it is factored within its envelope: row by row from the first entry that is not zero
- * [George and Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4]. The steps number a dozen or two
- * whatever the program, and what comes out lies inside the constraints, not a rounding error beyond them. */
+ * Mehrotra's predictor-corrector [Nocedal and Wright, Numerical Optimization, 2nd edition, section 16.6]: with slacks s
+ * and forces f, both positive, H x = A'f,   A x + softness f = d + s,   s f = mu -> 0, each step solves (H + A' diag(f
+ * / (s + softness f)) A) dx = r. The matrix couples bodies in contact only. Bodies are ordered along the longer side of
+ * the cluster, so that it is a narrow band, and it is factored within its envelope: row by row from the first entry
+ * that is not zero [George and Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, chapter 4]. The
+ * steps number a dozen or two whatever the program, and what comes out lies inside the constraints, not a rounding
+ * error beyond them. */
 #include "displacement/quadratic.h"
 
 #include <math.h>
@@ -22,11 +22,11 @@ typedef struct place {
 
 typedef struct interior {
     sunder_i_quadratic *p;
-    size_t n, m;               /* unknowns, constraints */
-    uint32_t *unknown;         /* [bodies] first of its two unknowns, or SUNDER_I_NOBODY */
-    size_t *first, *row;       /* [n] first column of each row, and where the row starts less that column */
-    double *matrix;            /* the envelope, row by row */
-    double *h, *x, *dx;        /* [n] */
+    size_t n, m;         /* unknowns, constraints */
+    uint32_t *unknown;   /* [bodies] first of its two unknowns, or SUNDER_I_NOBODY */
+    size_t *first, *row; /* [n] first column of each row, and where the row starts less that column */
+    double *matrix;      /* the envelope, row by row */
+    double *h, *x, *dx;  /* [n] */
     double *s, *f, *ds, *df, *rp, *rc, *soft; /* [m] */
     double *memory;
 } interior;
@@ -249,7 +249,8 @@ static bool advance(interior *q, double tolerance, double *mu)
     return step > 1e-8;
 }
 
-bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale, const double *where)
+bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale,
+                                 const double *where)
 {
     if (p->n == 0) return true;
     interior q;

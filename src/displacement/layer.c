@@ -19,10 +19,11 @@ sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_
     for (size_t i = 0; i < n; i++) {
         const sunder_feature *f = &features[i];
         if (!(f->weight > 0) || !isfinite(f->weight))
-            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the weight %g is not positive and finite", i, f->weight);
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the weight %g is not positive and finite", i,
+                                 f->weight);
         if (!(f->max_shift >= 0))
-            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the limit of moves, %g, is negative or not a number", i,
-                                 f->max_shift);
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the limit of moves, %g, is negative or not a number",
+                                 i, f->max_shift);
     }
     sunder_layer *layer = sunder_i_alloc(1, sizeof *layer);
     sunder_feature *copy = sunder_i_alloc(n, sizeof *copy);
@@ -62,7 +63,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
         return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", o->touch_tolerance);
     const double tolerance = o->touch_tolerance < 0 ? o->gap / 10 : o->touch_tolerance;
     if (o->gap > 0 && tolerance >= o->gap)
-        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance, o->gap);
+        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance,
+                             o->gap);
     if ((int)o->contained < SUNDER_CONTAINED_BLOCK || (int)o->contained > SUNDER_CONTAINED_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
     rules->gap = o->gap;

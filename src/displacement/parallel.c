@@ -9,7 +9,7 @@ typedef struct job {
     sunder_i_work work;
     void *context;
     size_t n, grain;
-    atomic_size_t next;   /* first item not handed out */
+    atomic_size_t next; /* first item not handed out */
     atomic_bool failed;
     pthread_mutex_t lock; /* of what follows */
     size_t failed_at;     /* the least failing item so far */

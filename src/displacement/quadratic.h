@@ -4,7 +4,10 @@
 
 #include "displacement/displacement.h"
 
-static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i) { return i == SUNDER_I_NOBODY ? 0 : p->mass[i]; }
+static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i)
+{
+    return i == SUNDER_I_NOBODY ? 0 : p->mass[i];
+}
 
 /* n.(t_j - t_i) */
 static inline double sunder_i_stretch(const sunder_i_constraint *c, const double *t)
@@ -28,14 +31,15 @@ static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_con
     }
 }
 
-/* Conjugate gradients on the forces, which stay non-negative; at most `steps`, until no constraint is missed, nor one that acts kept,
- * by more than tolerance. False if memory is out. The forces are changed, t is not. */
+/* Conjugate gradients on the forces, which stay non-negative; at most `steps`, until no constraint is missed, nor one
+ * that acts kept, by more than tolerance. False if memory is out. The forces are changed, t is not. */
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, double tolerance, unsigned steps);
-/* The acting constraints as linear equations, their set corrected. False if memory is out. The forces are changed, t is not. */
+/* The acting constraints as linear equations, their set corrected. False if memory is out. The forces are changed, t is
+ * not. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
-/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by; where: a place for each body, two
- * doubles, to order them by. False if memory is out. */
+/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by; where: a place
+ * for each body, two doubles, to order them by. False if memory is out. */
 bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale,
                                  const double *where);
 

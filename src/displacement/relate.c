@@ -1,20 +1,21 @@
 /* What two features are to each other. Every answer is exact.
  *
  *   near       their interiors meet, or their distance is less than the gap
- *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or their
- *              interiors meet and the least translation that takes these apart is no longer than the tolerance
- *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of 16 corners in the
- *              disc whose radius is the tolerance (a point of P may then stand outside Q by the tolerance at most, and by 0.93 of it
- *              in any direction), and the corners of Q + D are taken as the nearest doubles
- *   duplicate  each lies in the other, with no tolerance
+ *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or
+ * their interiors meet and the least translation that takes these apart is no longer than the tolerance contained their
+ * interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of 16 corners in the
+ *              disc whose radius is the tolerance (a point of P may then stand outside Q by the tolerance at most, and
+ * by 0.93 of it in any direction), and the corners of Q + D are taken as the nearest doubles duplicate  each lies in
+ * the other, with no tolerance
  *
- * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is positive. */
+ * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is positive.
+ */
 #include "displacement/displacement.h"
 
 #include <math.h>
 
-/* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place cover
- * the four roundings on each side. */
+/* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place
+ * cover the four roundings on each side. */
 static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, double reach)
 {
     double a[4], b[4];
@@ -29,9 +30,9 @@ static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, dou
     return true;
 }
 
-/* D: corners at multiples of a 32nd of the power of two below the tolerance, cut towards the centre, so that they lie in the disc. Few bits keep
- * the sum's lattice narrow. With a radius of 32 units or more the sides are never nearer to the centre than cos(pi / 16) - sqrt(2) / 32
- * of it, which is 0.93. */
+/* D: corners at multiples of a 32nd of the power of two below the tolerance, cut towards the centre, so that they lie
+ * in the disc. Few bits keep the sum's lattice narrow. With a radius of 32 units or more the sides are never nearer to
+ * the centre than cos(pi / 16) - sqrt(2) / 32 of it, which is 0.93. */
 static sunder_status small_disc(double tolerance, sunder_shape **out, sunder_error *err)
 {
     enum { CORNERS = 16 };
@@ -70,7 +71,8 @@ static sunder_status grow(const sunder_shape *q, double tolerance, sunder_shape 
             corners += n;
         }
     double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
-    size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end), *poly_end = sunder_i_alloc(counts.polygons, sizeof *poly_end);
+    size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end),
+           *poly_end = sunder_i_alloc(counts.polygons, sizeof *poly_end);
     if (xy && ring_end && poly_end) {
         size_t v = 0, k = 0;
         for (size_t p = 0; p < counts.polygons; p++) {
@@ -94,8 +96,8 @@ static sunder_status grow(const sunder_shape *q, double tolerance, sunder_shape 
 }
 
 /* Does P lie in Q up to the tolerance? exact_in: it does with none. */
-static sunder_status lies_in(const sunder_i_stand *p, const sunder_i_stand *q, double tolerance, bool *exact_in, bool *in,
-                             sunder_error *err)
+static sunder_status lies_in(const sunder_i_stand *p, const sunder_i_stand *q, double tolerance, bool *exact_in,
+                             bool *in, sunder_error *err)
 {
     *exact_in = *in = false;
     if (!box_may_lie_in(p, q, tolerance)) return SUNDER_OK;
@@ -133,7 +135,8 @@ static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunde
 }
 
 /* The distance of two disjoint sets that may stand translated. */
-static sunder_status distance_between(const sunder_i_stand *a, const sunder_i_stand *b, double *distance, sunder_error *err)
+static sunder_status distance_between(const sunder_i_stand *a, const sunder_i_stand *b, double *distance,
+                                      sunder_error *err)
 {
     double on_a[2], on_b[2];
     if (a->t[0] == 0 && a->t[1] == 0 && b->t[0] == 0 && b->t[1] == 0)

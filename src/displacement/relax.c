@@ -1,18 +1,19 @@
 /* Clusters without a solution: limits, fixed bodies, or no room between them.
  *
- * What remains must be as small as can be, worst first. The pairs that clash at the best position known are the suspects. All of them are granted the same
- * shortfall, and the least at which the program has a solution is found by halving; then each in turn is asked for its full
- * gap again, and keeps only the shortfall that it cannot do without. Every other pair keeps its full gap throughout, so an insoluble pair
- * leaves the rest of its cluster solved. A position where the shortfalls hold is always at hand (the present one), so each step starts
- * from a feasible program. */
+ * What remains must be as small as can be, worst first. The pairs that clash at the best position known are the
+ * suspects. All of them are granted the same shortfall, and the least at which the program has a solution is found by
+ * halving; then each in turn is asked for its full gap again, and keeps only the shortfall that it cannot do without.
+ * Every other pair keeps its full gap throughout, so an insoluble pair leaves the rest of its cluster solved. A
+ * position where the shortfalls hold is always at hand (the present one), so each step starts from a feasible program.
+ */
 #include "displacement/search.h"
 
 #include <math.h>
 #include <string.h>
 
-#define HALVINGS 16
-/* Suspects that are asked one by one. */
-#define MOST_ASKED 200
+#define HALVINGS 12
+/* Rounds in all, divided by the number of bodies: large clusters have their suspects asked less often one by one. */
+#define ROUNDS 6000
 
 void sunder_i_search_clip(sunder_i_search *s)
 {
@@ -60,7 +61,8 @@ void sunder_i_search_relax(sunder_i_search *s)
     s->allowed_n = s->clashes;
     s->program.n = 0;
     halve(s, 0, s->allowed_n, worst + s->tolerance);
-    for (size_t p = 0; p < s->allowed_n && p < MOST_ASKED && !s->failed; p++) {
+    const size_t most = 2 + ROUNDS / (HALVINGS * s->n);
+    for (size_t p = 0; p < s->allowed_n && p < most && !s->failed; p++) {
         const double shared = s->allowed[p].violation;
         s->allowed[p].violation = 0;
         if (sunder_i_search_round(s)) continue;

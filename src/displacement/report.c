@@ -56,11 +56,21 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
         return;
     }
     switch (conflict->kind) {
-    case SUNDER_OVERLAP: counts->overlap++; break;
-    case SUNDER_TOO_CLOSE: counts->too_close++; break;
-    case SUNDER_BARRIER: counts->barrier++; break;
-    case SUNDER_CONTAINED: counts->contained++; break;
-    case SUNDER_DUPLICATE: counts->duplicate++; break;
+    case SUNDER_OVERLAP:
+        counts->overlap++;
+        break;
+    case SUNDER_TOO_CLOSE:
+        counts->too_close++;
+        break;
+    case SUNDER_BARRIER:
+        counts->barrier++;
+        break;
+    case SUNDER_CONTAINED:
+        counts->contained++;
+        break;
+    case SUNDER_DUPLICATE:
+        counts->duplicate++;
+        break;
     }
 }
 

@@ -1,9 +1,10 @@
 /* Moves that doubles can hold.
  *
- * x + t is a double, exactly, when it is a multiple of the unit in the last place of its binade. x is a multiple of its own unit, so if x + t lies in
- * no higher a binade than x and t is a multiple of x's unit, the sum is exact. For a body t must do so for every coordinate of every
- * member: a multiple of the coarsest unit among them, old places and new. That fails only where a coordinate climbs into a higher
- * binade and has bits below the unit there: then no move of about that length is exact, and the feature is written rounded.
+ * x + t is a double, exactly, when it is a multiple of the unit in the last place of its binade. x is a multiple of its
+ * own unit, so if x + t lies in no higher a binade than x and t is a multiple of x's unit, the sum is exact. For a body
+ * t must do so for every coordinate of every member: a multiple of the coarsest unit among them, old places and new.
+ * That fails only where a coordinate climbs into a higher binade and has bits below the unit there: then no move of
+ * about that length is exact, and the feature is written rounded.
  *
  * Coordinates are those given (raw), since these are written, repeated and collinear vertices too. */
 #include "displacement/displacement.h"
@@ -65,7 +66,8 @@ static bool all_exact(const sunder_i_town *town, const sunder_i_body *body, cons
 bool sunder_i_within(const double t[2], double limit)
 {
     if (limit == INFINITY) return true;
-    /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and underflow. */
+    /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and
+     * underflow. */
     const double a = t[0] * t[0] + t[1] * t[1], b = limit * limit;
     if (a > 0x1p-900 && a < 0x1p900 && b > 0x1p-900 && b < 0x1p900) {
         if (a < b * (1 - 0x1p-48)) return true;

@@ -1,5 +1,5 @@
-/* A scene: how the features stand at one moment, and which pairs of them are near. What is found here is exact and is what the report
- * stands on. */
+/* A scene: how the features stand at one moment, and which pairs of them are near. What is found here is exact and is
+ * what the report stands on. */
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -129,7 +129,8 @@ const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relat
         else
             high = middle;
     }
-    return low < relations->n && relations->pair[low].a == a && relations->pair[low].b == b ? &relations->pair[low] : NULL;
+    return low < relations->n && relations->pair[low].a == a && relations->pair[low].b == b ? &relations->pair[low]
+                                                                                            : NULL;
 }
 
 /* Did nothing happen to the pair since `before`? Then it is what it was; if it is not listed there it was not near. */
@@ -139,8 +140,7 @@ static bool is_as_before(const classification *c, const sunder_i_relation *r)
     if (!c->changed[r->a] && !c->changed[r->b]) return true;
     /* Members of a body move together; unless one is ever rounded nothing changes between them. */
     return c->town->body_of[r->a] == c->town->body_of[r->b] && !c->scene->was_rounded[r->a] &&
-           !c->scene->was_rounded[r->b] &&
-           c->changed[r->a] == c->changed[r->b];
+           !c->scene->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
 }
 
 static sunder_status classify(void *context, size_t begin, size_t end, sunder_error *err)

@@ -78,8 +78,8 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach)
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->town->body[s->body[k]];
         for (int c = 0; c < 4; c++)
-            s->box[4 * k + (size_t)c] =
-                b->box[c] + (b->origin[c & 1] - o[c & 1]) + t[2 * k + (size_t)(c & 1)] + (c < 2 ? -reach / 2 : reach / 2);
+            s->box[4 * k + (size_t)c] = b->box[c] + (b->origin[c & 1] - o[c & 1]) + t[2 * k + (size_t)(c & 1)] +
+                                        (c < 2 ? -reach / 2 : reach / 2);
         left[k] = s->box + 4 * k;
     }
     qsort(left, s->n, sizeof *left, by_left);
@@ -108,7 +108,8 @@ void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sun
     }
 }
 
-/* ---- Who clashes -------------------------------------------------------------------------------------------------- */
+/* ---- Who clashes --------------------------------------------------------------------------------------------------
+ */
 
 double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
 {
@@ -172,13 +173,11 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
 /* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
 #define MANY_AROUND 5000
 
-/* ---- Where there is room ------------------------------------------------------------------------------------------- */
+/* ---- Where there is room -------------------------------------------------------------------------------------------
+ */
 
 /* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
-static uint32_t parts_of(const sunder_i_body *body, bool coarse)
-{
-    return coarse ? body->members : body->pieces;
-}
+static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
 
 static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_body *body, bool coarse, uint32_t k)
 {
@@ -187,7 +186,8 @@ static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_b
 
 /* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
 static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
-                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2], double reach)
+                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
+                          double reach)
 {
     const sunder_i_town *town = s->town;
     const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
@@ -198,7 +198,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
         if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < nq; l++) {
             const sunder_i_piece *b = part_of(town, q, coarse_q, l);
-            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature))
+                continue;
             const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
                                                  town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
@@ -232,8 +233,8 @@ static bool outside_all(const sunder_i_obstacles *o, const double target[2], dou
     return best < INFINITY;
 }
 
-/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts from is cut to
- * few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
+/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts
+ * from is cut to few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
 static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
                               double limit, double place[2])
 {
@@ -266,7 +267,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && town->kept_n == 0 && ps && qs && free_pair_exactly(s, ps, qs, target, shallow, places[0])) return 1;
+    if (many && most == 1 && town->kept_n == 0 && ps && qs && free_pair_exactly(s, ps, qs, target, shallow, places[0]))
+        return 1;
     const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
         sunder_i_obstacles o;
@@ -281,7 +283,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     }
 }
 
-/* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to hits once each. */
+/* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to
+ * hits once each. */
 static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
 {
     const sunder_i_town *town = s->town;
@@ -301,7 +304,8 @@ static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double b
 }
 
 /* How many pieces of others lie within reach of body i, by their boxes. */
-static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach, const sunder_i_list *foreign)
+static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach,
+                             const sunder_i_list *foreign)
 {
     const sunder_i_town *town = s->town;
     const sunder_i_body *p = &town->body[s->body[i]];
@@ -313,7 +317,8 @@ static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double 
         const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
         double box[4];
         for (int c = 0; c < 4; c++)
-            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] + (c < 2 ? -1 : 1) * (reach + s->gap);
+            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
+                     (c < 2 ? -1 : 1) * (reach + s->gap);
         if (!sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, town->piece[q->piece + l].box);
     }

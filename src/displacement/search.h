@@ -12,7 +12,7 @@ typedef struct sunder_i_clash {
 
 typedef struct sunder_i_search {
     const sunder_i_town *town;
-    const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
+    const uint32_t *body; /* [n] the bodies; the first `own` may move, unless fixed */
     size_t n;
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin */
@@ -24,29 +24,29 @@ typedef struct sunder_i_search {
     double *next;               /* [2 n] the program's result */
     sunder_i_constraint *old;   /* the previous round's, for the forces */
     size_t old_n, old_capacity;
-    sunder_i_clash *clash;      /* of the last look */
+    sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
-    sunder_i_clash *allowed;    /* pairs that are granted a shortfall: `violation` of it */
+    sunder_i_clash *allowed; /* pairs that are granted a shortfall: `violation` of it */
     size_t allowed_n;
     sunder_i_scratch scratch;
-    double *place;              /* [2 n] where each is, relative to the first's origin; to order them by */
-    double extent;              /* the mean size of the bodies */
-    double settled;             /* a round that gains less of the cost is the last */
-    uint64_t steps, effort;     /* work done, in constraints looked at; how much may be done for better sides */
-    bool failed;                /* memory is out */
+    double *place;          /* [2 n] where each is, relative to the first's origin; to order them by */
+    double extent;          /* the mean size of the bodies */
+    double settled;         /* a round that gains less of the cost is the last */
+    uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
+    bool failed;            /* memory is out */
 } sunder_i_search;
 
 /* Looks at the bodies as they stand at move (two doubles a body, copied). */
-bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, const uint32_t *body, size_t n, double margin,
-                          const double *move);
+bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, const uint32_t *body, size_t n,
+                          double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
 
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
 
-/* Fills search->clash with the pairs that violate the gap at t, beyond what they are allowed; returns the worst violation, of a limit of moves
- * too. */
+/* Fills search->clash with the pairs that violate the gap at t, beyond what they are allowed; returns the worst
+ * violation, of a limit of moves too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
 /* What pair (i, j) misses at relative position u. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
@@ -59,7 +59,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
 /* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
 
-/* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a compromise. */
+/* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
+ * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);

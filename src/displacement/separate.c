@@ -1,13 +1,14 @@
-/* A whole layer: conflicts make clusters, clusters are solved, what they run into joins them, and exact checks have the last word.
+/* A whole layer: conflicts make clusters, clusters are solved, what they run into joins them, and exact checks have the
+ * last word.
  *
  *     relations as it stands --> edges between bodies --> clusters --> moves, rounded
  *            ^                                                           |
  *            +---- relations of what moved, exact <----------------------+
  *
- * An edge is a pair of bodies that came into conflict at some time. Clusters are the components of the edges over bodies that may move; a
- * fixed body is a member of every cluster that has an edge to it, and joins none. Edges are never removed, so each round either adds
- * an edge between clusters, or widens the margin of a cluster whose result failed the exact check (at most MOST_MARGINS
- * times), or is the last: the loop ends. */
+ * An edge is a pair of bodies that came into conflict at some time. Clusters are the components of the edges over
+ * bodies that may move; a fixed body is a member of every cluster that has an edge to it, and joins none. Edges are
+ * never removed, so each round either adds an edge between clusters, or widens the margin of a cluster whose result
+ * failed the exact check (at most MOST_MARGINS times), or is the last: the loop ends. */
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -27,18 +28,18 @@ typedef struct work {
     sunder_i_relations start, now;
     sunder_i_couple *edge;
     size_t edges, edge_capacity;
-    uint32_t *parent;        /* [bodies] union-find over edges */
-    bool *dirty;             /* [bodies] to be solved (again) */
-    unsigned char *widened;  /* [bodies] how often the margin grew */
-    bool *unsolved;          /* [bodies] its cluster has no solution that was found */
-    bool *changed;           /* [features] moved in this round */
-    double *next;            /* [2 * bodies] */
-    member *member;          /* cluster after cluster, bodies ascending */
+    uint32_t *parent;       /* [bodies] union-find over edges */
+    bool *dirty;            /* [bodies] to be solved (again) */
+    unsigned char *widened; /* [bodies] how often the margin grew */
+    bool *unsolved;         /* [bodies] its cluster has no solution that was found */
+    bool *changed;          /* [features] moved in this round */
+    double *next;           /* [2 * bodies] */
+    member *member;         /* cluster after cluster, bodies ascending */
     size_t members;
-    uint32_t *body;          /* the bodies of member[] */
-    double *move;            /* [2 * members] */
+    uint32_t *body; /* the bodies of member[] */
+    double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
-    bool *solved;            /* [clusters] */
+    bool *solved; /* [clusters] */
     size_t clusters;
     sunder_report *report;
 } work;
@@ -80,7 +81,8 @@ static sunder_status work_init(work *w, sunder_error *err)
     w->unsolved = sunder_i_calloc(n, sizeof *w->unsolved);
     w->changed = sunder_i_calloc(w->town.features, sizeof *w->changed);
     w->next = sunder_i_alloc(2 * n, sizeof *w->next);
-    if (!w->parent || !w->dirty || !w->widened || !w->unsolved || !w->changed || !w->next) return sunder_i_no_memory(err);
+    if (!w->parent || !w->dirty || !w->widened || !w->unsolved || !w->changed || !w->next)
+        return sunder_i_no_memory(err);
     for (size_t b = 0; b < n; b++) w->parent[b] = (uint32_t)b;
     return SUNDER_OK;
 }
@@ -113,8 +115,8 @@ static int by_member(const void *a, const void *b)
     return p->body < q->body ? -1 : p->body > q->body;
 }
 
-/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some units in the last place
- * of the coordinates; four times as much for each failed check. */
+/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some
+ * units in the last place of the coordinates; four times as much for each failed check. */
 static double margin_of(const work *w, const member *m, size_t n)
 {
     double largest = 0;
@@ -153,7 +155,8 @@ static sunder_status gather(work *w, sunder_error *err)
     if (n) qsort(w->member, n, sizeof *w->member, by_member);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || by_member(&w->member[k - 1], &w->member[k])) {
-            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or an equal. */
+            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or an equal.
+             */
             w->member[w->members] = w->member[k];
             w->body[w->members++] = w->member[k].body;
         }
@@ -230,7 +233,8 @@ static void commit(work *w)
     }
 }
 
-/* ---- The loop ------------------------------------------------------------------------------------------------------ */
+/* ---- The loop ------------------------------------------------------------------------------------------------------
+ */
 
 /* Exact relations of what changed. */
 static sunder_status check_changes(work *w, sunder_error *err)
@@ -250,15 +254,17 @@ static bool is_between(const sunder_i_town *town, const sunder_i_relation *r)
     return r->near && !r->kept && town->body_of[r->a] != town->body_of[r->b] && !sunder_i_is_kept(town, r->a, r->b);
 }
 
-/* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one. Returns whether there is
- * anything to do. */
+/* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
+ * Returns whether there is anything to do. */
 static sunder_status find_work(work *w, bool *any, sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
+    sunder_i_town *town = &w->town;
     memset(w->dirty, 0, town->bodies * sizeof *w->dirty);
     *any = false;
     for (size_t k = 0; k < w->now.n; k++) {
         const sunder_i_relation *r = &w->now.pair[k];
+        /* What lay in another and was moved across its edge by others has to leave it altogether. */
+        if (r->near && !r->kept && town->kept_n) sunder_i_lapse(town, r->a, r->b);
         if (!is_between(town, r)) continue;
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
@@ -295,8 +301,8 @@ static void note_unsolved(work *w)
     }
 }
 
-/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that no two threads
- * do the same. */
+/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
+ * no two threads do the same. */
 static sunder_status unite_blocks(work *w, sunder_error *err)
 {
     bool *seen = sunder_i_calloc(w->town.bodies, sizeof *seen);
@@ -341,7 +347,8 @@ static sunder_status improve(work *w, sunder_error *err)
     return check_changes(w, err);
 }
 
-/* ---- The report ------------------------------------------------------------------------------------------------------ */
+/* ---- The report
+ * ------------------------------------------------------------------------------------------------------ */
 
 typedef struct measuring {
     const sunder_i_town *town;
@@ -355,9 +362,9 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
     for (size_t k = begin; k < end; k++) {
         sunder_separation least;
         bool beyond;
-        const sunder_status status =
-            sunder_i_separate(m->town->layer->feature[m->pair[k].a].shape, none, m->town->layer->feature[m->pair[k].b].shape,
-                              none, m->town->rules.gap, INFINITY, &least, &beyond, err);
+        const sunder_status status = sunder_i_separate(m->town->layer->feature[m->pair[k].a].shape, none,
+                                                       m->town->layer->feature[m->pair[k].b].shape, none,
+                                                       m->town->rules.gap, INFINITY, &least, &beyond, err);
         if (status) return status;
         m->pair[k].least = fmax(0, least.lower_bound);
         sunder_separation_clear(&least);
@@ -396,8 +403,8 @@ static bool is_left(uint64_t bodies, const key_pair *left, size_t n)
     return low < n && left[low].bodies == bodies;
 }
 
-/* Where contained features may overlap what they lie in, a pair can also be resolved by moving one into the other, and its least separation
- * proves nothing; unless the boxes show that neither fits. */
+/* Where contained features may overlap what they lie in, a pair can also be resolved by moving one into the other, and
+ * its least separation proves nothing; unless the boxes show that neither fits. */
 static bool may_fit(const sunder_i_town *town, const sunder_i_relation *r)
 {
     if (town->rules.contained != SUNDER_CONTAINED_IGNORE) return false;
@@ -413,7 +420,8 @@ static sunder_status bound_from_start(work *w, sunder_error *err)
     const sunder_i_town *town = &w->town;
     sunder_report *report = w->report;
     size_t n = 0, left = 0;
-    key_pair *key = sunder_i_alloc(w->start.n + w->now.n, sizeof *key), *remain = sunder_i_alloc(w->now.n, sizeof *remain);
+    key_pair *key = sunder_i_alloc(w->start.n + w->now.n, sizeof *key),
+             *remain = sunder_i_alloc(w->now.n, sizeof *remain);
     report->bound_pair = sunder_i_calloc(w->start.n, sizeof *report->bound_pair);
     sunder_status status = key && remain && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
@@ -423,7 +431,8 @@ static sunder_status bound_from_start(work *w, sunder_error *err)
         qsort(remain, left, sizeof *remain, by_bodies);
         for (size_t k = 0; k < w->start.n; k++) {
             const sunder_i_relation *r = &w->start.pair[k];
-            if (!is_between(town, r) || may_fit(town, r) || is_left(bodies_of(town, r->a, r->b), remain, left)) continue;
+            if (!is_between(town, r) || may_fit(town, r) || is_left(bodies_of(town, r->a, r->b), remain, left))
+                continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = r->b;
         }
@@ -522,7 +531,8 @@ static sunder_status start(work *w, const sunder_layer *layer, const sunder_laye
     return SUNDER_OK;
 }
 
-static sunder_status separate(work *w, const sunder_layer *layer, const sunder_layer_options *options, sunder_error *err)
+static sunder_status separate(work *w, const sunder_layer *layer, const sunder_layer_options *options,
+                              sunder_error *err)
 {
     const double began = seconds();
     sunder_status status = start(w, layer, options, err);

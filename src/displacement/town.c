@@ -18,6 +18,7 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->box);
     sunder_i_free(town->present);
     sunder_i_free(town->kept);
+    sunder_i_free(town->lapsed);
     sunder_i_free(town->move);
     sunder_i_free(town->inexact);
     sunder_i_index_free(&town->tree);
@@ -143,7 +144,8 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
         if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINED_BLOCK)) unite(parent, r->a, r->b);
     }
     town->kept = sunder_i_alloc(kept, sizeof *town->kept);
-    if (!town->kept || !unite_labelled(town->layer, parent)) {
+    town->lapsed = sunder_i_calloc(kept, sizeof *town->lapsed);
+    if (!town->kept || !town->lapsed || !unite_labelled(town->layer, parent)) {
         sunder_i_free(parent);
         return sunder_i_no_memory(err);
     }
@@ -157,9 +159,10 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
     return SUNDER_OK;
 }
 
-bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
+/* Where the pair is in town->kept; kept_n if it is not. */
+static size_t find_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
 {
-    if (town->kept_n == 0) return false;
+    if (town->kept_n == 0) return 0;
     const uint32_t a = f < g ? f : g, b = f < g ? g : f;
     size_t low = 0, high = town->kept_n;
     while (low < high) {
@@ -170,5 +173,17 @@ bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
         else
             high = middle;
     }
-    return low < town->kept_n && town->kept[low].a == a && town->kept[low].b == b;
+    return low < town->kept_n && town->kept[low].a == a && town->kept[low].b == b ? low : town->kept_n;
+}
+
+bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
+{
+    const size_t at = find_kept(town, f, g);
+    return at < town->kept_n && !town->lapsed[at];
+}
+
+void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g)
+{
+    const size_t at = find_kept(town, f, g);
+    if (at < town->kept_n) town->lapsed[at] = true;
 }

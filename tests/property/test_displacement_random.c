@@ -1,9 +1,10 @@
 /* Laws of a separated layer, on random towns.
  *
- * Checked with rational arithmetic and code that shares nothing with src/: the features as written keep the gap, save the pairs that are
- * listed and those inside a block; each move shifts every vertex by one vector, exactly; no move is longer than allowed. The lower bound is computed again
- * from the written pairs, and every pair's least separation is at most what the result gave it. The report is the same for every number of threads, and a
- * check of the result agrees with it. */
+ * Checked with rational arithmetic and code that shares nothing with src/: the features as written keep the gap, save
+ * the pairs that are listed and those inside a block; each move shifts every vertex by one vector, exactly; no move is
+ * longer than allowed. The lower bound is computed again from the written pairs, and every pair's least separation is
+ * at most what the result gave it. The report is the same for every number of threads, and a check of the result agrees
+ * with it. */
 #include "random.h"
 
 #include "sunder.h"
@@ -42,7 +43,8 @@ static void corner(house *h, double x, double y)
     h->xy[2 * h->corners++ + 1] = y;
 }
 
-/* A box, an L, a U, a slanted quadrangle, or a box with a yard; at coordinates as maps have them, on a grid of 1/8 or with all their bits. */
+/* A box, an L, a U, a slanted quadrangle, or a box with a yard; at coordinates as maps have them, on a grid of 1/8 or
+ * with all their bits. */
 static void make_house(rng *r, house *h, double wide, bool grid)
 {
     memset(h, 0, sizeof *h);
@@ -53,9 +55,11 @@ static void make_house(rng *r, house *h, double wide, bool grid)
     if (kind == 0 || kind == 4) {
         corner(h, x, y), corner(h, x + w, y), corner(h, x + w, y + d), corner(h, x, y + d);
     } else if (kind == 1) {
-        corner(h, x, y), corner(h, x + w, y), corner(h, x + w, y + b), corner(h, x + a, y + b), corner(h, x + a, y + d), corner(h, x, y + d);
+        corner(h, x, y), corner(h, x + w, y), corner(h, x + w, y + b), corner(h, x + a, y + b), corner(h, x + a, y + d),
+            corner(h, x, y + d);
     } else if (kind == 2) {
-        corner(h, x, y), corner(h, x + w, y), corner(h, x + w, y + d), corner(h, x + 2 * a, y + d), corner(h, x + 2 * a, y + b);
+        corner(h, x, y), corner(h, x + w, y), corner(h, x + w, y + d), corner(h, x + 2 * a, y + d),
+            corner(h, x + 2 * a, y + b);
         corner(h, x + a, y + b), corner(h, x + a, y + d), corner(h, x, y + d);
     } else {
         corner(h, x, y), corner(h, x + w, y + a), corner(h, x + w - a, y + a + d), corner(h, x - a, y + d);
@@ -63,7 +67,8 @@ static void make_house(rng *r, house *h, double wide, bool grid)
     h->ring_end[0] = h->corners;
     h->rings = 1;
     if (kind == 4) {
-        corner(h, x + a, y + b), corner(h, x + a, y + 2 * b), corner(h, x + 2 * a, y + 2 * b), corner(h, x + 2 * a, y + b);
+        corner(h, x + a, y + b), corner(h, x + a, y + 2 * b), corner(h, x + 2 * a, y + 2 * b),
+            corner(h, x + 2 * a, y + b);
         h->ring_end[1] = h->corners;
         h->rings = 2;
     }
@@ -72,7 +77,8 @@ static void make_house(rng *r, house *h, double wide, bool grid)
         h->xy[k] = grid ? floor(h->xy[k] * 8) / 8 + floor(o) : h->xy[k] + o;
     }
     sunder_error err;
-    if (sunder_shape_from_rings(h->xy, h->ring_end, &h->rings, 1, SUNDER_STRICT, &h->shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(h->xy, h->ring_end, &h->rings, 1, SUNDER_STRICT, &h->shape, &err))
+        fail_msg("%s", err.message);
 }
 
 static void make_town(rng *r, town *t)
@@ -98,7 +104,8 @@ static void free_town(town *t)
     for (size_t k = 0; k < t->n; k++) sunder_shape_free(t->house[k].shape);
 }
 
-/* ---- Rational geometry -------------------------------------------------------------------------------------------- */
+/* ---- Rational geometry --------------------------------------------------------------------------------------------
+ */
 
 typedef struct rational {
     mpq_t a, b, c, d, e, f;
@@ -178,8 +185,8 @@ static int locate(rational *s, const house *h, const double *x)
     for (size_t r = 0; r < h->rings; from = h->ring_end[r++])
         for (size_t k = from; k < h->ring_end[r]; k++) {
             const double *p = h->xy + 2 * k, *q = h->xy + 2 * (k + 1 < h->ring_end[r] ? k + 1 : from);
-            if (side(s, p, q, x) == 0 && fmin(p[0], q[0]) <= x[0] && x[0] <= fmax(p[0], q[0]) && fmin(p[1], q[1]) <= x[1] &&
-                x[1] <= fmax(p[1], q[1]))
+            if (side(s, p, q, x) == 0 && fmin(p[0], q[0]) <= x[0] && x[0] <= fmax(p[0], q[0]) &&
+                fmin(p[1], q[1]) <= x[1] && x[1] <= fmax(p[1], q[1]))
                 return 0;
             if ((p[1] > x[1]) == (q[1] > x[1])) continue;
             if (side(s, p, q, x) * (q[1] > p[1] ? 1 : -1) > 0) in = !in;
@@ -187,8 +194,8 @@ static int locate(rational *s, const house *h, const double *x)
     return in ? 1 : -1;
 }
 
-/* Are the two surely in conflict: boundaries nearer than the gap or crossing, or a corner of one inside the other? With a gap
- * that is all there can be. Without one a pair that overlaps only where corners lie on walls is missed. */
+/* Are the two surely in conflict: boundaries nearer than the gap or crossing, or a corner of one inside the other? With
+ * a gap that is all there can be. Without one a pair that overlaps only where corners lie on walls is missed. */
 static bool conflict(const house *a, const house *b, double gap)
 {
     rational s;
@@ -206,7 +213,8 @@ static bool conflict(const house *a, const house *b, double gap)
             for (size_t rb = 0; rb < b->rings && !bad; fb = b->ring_end[rb++])
                 for (size_t j = fb; j < b->ring_end[rb] && !bad; j++) {
                     const double *r = b->xy + 2 * j, *t = b->xy + 2 * (j + 1 < b->ring_end[rb] ? j + 1 : fb);
-                    bad = do_cross(&s, p, q, r, t) || is_near_point(&s, p, q, r, square) || is_near_point(&s, r, t, p, square);
+                    bad = do_cross(&s, p, q, r, t) || is_near_point(&s, p, q, r, square) ||
+                          is_near_point(&s, r, t, p, square);
                 }
         }
     for (size_t i = 0; i < a->corners && !bad; i++) bad = locate(&s, b, a->xy + 2 * i) > 0;
@@ -216,7 +224,8 @@ static bool conflict(const house *a, const house *b, double gap)
     return bad;
 }
 
-/* ---- The laws --------------------------------------------------------------------------------------------------------- */
+/* ---- The laws
+ * --------------------------------------------------------------------------------------------------------- */
 
 /* The house as written; false if some coordinate was rounded. */
 static bool write_house(const house *from, double dx, double dy, house *to)
@@ -255,11 +264,13 @@ static void check_pairs(const town *t, const sunder_report *report, const house 
             const int64_t block = sunder_report_block(report, a);
             if (block >= 0 && block == sunder_report_block(report, b)) continue;
             if (is_listed(c, n, a, b)) continue;
-            if (conflict(&now[a], &now[b], o->gap)) fail_msg("features %zu and %zu are in conflict and not listed", a, b);
+            if (conflict(&now[a], &now[b], o->gap))
+                fail_msg("features %zu and %zu are in conflict and not listed", a, b);
         }
     /* And what is listed is there. */
     for (size_t k = 0; k < n; k++)
-        if (o->gap > 0 && !conflict(&now[c[k].a], &now[c[k].b], o->gap)) fail_msg("%zu and %zu are listed for nothing", c[k].a, c[k].b);
+        if (o->gap > 0 && !conflict(&now[c[k].a], &now[c[k].b], o->gap))
+            fail_msg("%zu and %zu are listed for nothing", c[k].a, c[k].b);
 }
 
 static void check_moves(const town *t, const sunder_report *report, house *now)
@@ -289,7 +300,8 @@ static void check_moves(const town *t, const sunder_report *report, house *now)
     assert_int_equal(s.rounded, 0); /* at such coordinates every move can be exact */
     for (size_t a = 0; a < t->n; a++)
         for (size_t b = 0; b < t->n; b++)
-            if (sunder_report_block(report, a) >= 0 && sunder_report_block(report, a) == sunder_report_block(report, b)) {
+            if (sunder_report_block(report, a) >= 0 &&
+                sunder_report_block(report, a) == sunder_report_block(report, b)) {
                 double d[2], e[2];
                 sunder_report_move(report, a, &d[0], &d[1]);
                 sunder_report_move(report, b, &e[0], &e[1]);
@@ -299,7 +311,8 @@ static void check_moves(const town *t, const sunder_report *report, house *now)
 
 static bool same_body(const sunder_report *report, size_t a, size_t b)
 {
-    return a == b || (sunder_report_block(report, a) >= 0 && sunder_report_block(report, a) == sunder_report_block(report, b));
+    return a == b ||
+           (sunder_report_block(report, a) >= 0 && sunder_report_block(report, a) == sunder_report_block(report, b));
 }
 
 /* The bound from its pairs: sum l d - sum (sum l)^2 / (4 w), in rationals. */
@@ -359,7 +372,8 @@ static sunder_report *separate(const town *t, sunder_layer_options *o, unsigned 
     sunder_report *report = NULL;
     sunder_error err;
     o->threads = threads;
-    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, o, &report, &err)) fail_msg("%s", err.message);
+    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, o, &report, &err))
+        fail_msg("%s", err.message);
     sunder_layer_free(layer);
     return report;
 }
@@ -383,7 +397,8 @@ static void check_same(const town *t, const sunder_report *a, const sunder_repor
 }
 
 /* A check of the features as written, blocks given by number, counts what `after` says. */
-static void check_again(const town *t, const sunder_report *report, const house *now, const sunder_layer_options *options)
+static void check_again(const town *t, const sunder_report *report, const house *now,
+                        const sunder_layer_options *options)
 {
     sunder_feature feature[MOST];
     sunder_layer_options o = *options;
@@ -394,12 +409,14 @@ static void check_again(const town *t, const sunder_report *report, const house 
     for (size_t k = 0; k < t->n; k++) {
         sunder_shape *shape = NULL;
         feature[k] = t->feature[k];
-        if (sunder_shape_from_rings(now[k].xy, now[k].ring_end, &now[k].rings, 1, SUNDER_STRICT, &shape, &err)) fail_msg("%s", err.message);
+        if (sunder_shape_from_rings(now[k].xy, now[k].ring_end, &now[k].rings, 1, SUNDER_STRICT, &shape, &err))
+            fail_msg("%s", err.message);
         feature[k].shape = shape;
         feature[k].block = sunder_report_block(report, k);
     }
     o.no_blocks = true;
-    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_check(layer, &o, &again, &err)) fail_msg("%s", err.message);
+    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_check(layer, &o, &again, &err))
+        fail_msg("%s", err.message);
     sunder_report_summary(report, &s);
     sunder_report_summary(again, &u);
     assert_memory_equal(&s.after, &u.after, sizeof s.after);
@@ -431,7 +448,8 @@ static void check_towns(void **state)
         check_bound(&t, one);
         check_again(&t, one, now, &o);
         bool free_to_move = true;
-        for (size_t f = 0; f < t.n; f++) free_to_move = free_to_move && !t.feature[f].fixed && t.feature[f].max_shift == INFINITY;
+        for (size_t f = 0; f < t.n; f++)
+            free_to_move = free_to_move && !t.feature[f].fixed && t.feature[f].max_shift == INFINITY;
         sunder_layer_summary s;
         sunder_report_summary(one, &s);
         assert_true(s.verified);

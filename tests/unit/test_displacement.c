@@ -46,8 +46,8 @@ static sunder_feature *add(scene *s, const char *wkt)
 static sunder_feature *add_box(scene *s, double x, double y, double w, double h)
 {
     char wkt[400];
-    snprintf(wkt, sizeof wkt, "POLYGON ((%.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g))", x, y, x + w, y,
-             x + w, y + h, x, y + h, x, y);
+    snprintf(wkt, sizeof wkt, "POLYGON ((%.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g, %.17g %.17g))", x, y,
+             x + w, y, x + w, y + h, x, y + h, x, y);
     return add(s, wkt);
 }
 
@@ -201,7 +201,8 @@ static void check_chain_without_room(void **state)
 {
     scene s;
     begin(&s, 1);
-    /* Three between two walls 12 apart, where five gaps of 1 and three widths of 3 need 14; a fourth elsewhere has room. */
+    /* Three between two walls 12 apart, where five gaps of 1 and three widths of 3 need 14; a fourth elsewhere has
+     * room. */
     add_box(&s, -10, -50, 10, 100)->fixed = true;
     add_box(&s, 12, -50, 10, 100)->fixed = true;
     for (int k = 0; k < 3; k++) add_box(&s, 1 + 3.5 * k, 0, 3, 3)->max_shift = 2;
@@ -289,7 +290,7 @@ static void check_inside_blocks(void **state)
     run(&s, true);
     size_t n;
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
-    assert_int_equal(s.summary.blocks, 1); /* 0 and 1 by number, 2 by the tolerance of 0.1 */
+    assert_int_equal(s.summary.blocks, 1);               /* 0 and 1 by number, 2 by the tolerance of 0.1 */
     assert_int_equal(s.summary.before.inside_blocks, 2); /* 1 and 2 are the gap apart, exactly */
     assert_int_equal(s.summary.before.overlap + s.summary.before.too_close, 0);
     assert_int_equal(n, 1);
@@ -386,7 +387,9 @@ static void check_arguments(void **state)
     }
     f.max_shift = INFINITY;
     assert_int_equal(sunder_layer_new(&f, 1, &layer, &err), SUNDER_OK);
-    const struct { double gap, tolerance; } bad[] = {{-1, -1}, {NAN, -1}, {INFINITY, -1}, {1, 1}, {1, 2}, {1, NAN}, {0, INFINITY}};
+    const struct {
+        double gap, tolerance;
+    } bad[] = {{-1, -1}, {NAN, -1}, {INFINITY, -1}, {1, 1}, {1, 2}, {1, NAN}, {0, INFINITY}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         sunder_layer_options o;
         sunder_layer_options_init(&o);
@@ -437,11 +440,14 @@ static void check_within(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_nothing),     cmocka_unit_test(check_two_squares), cmocka_unit_test(check_weights),
-        cmocka_unit_test(check_fixed),       cmocka_unit_test(check_limits),      cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_courtyard),   cmocka_unit_test(check_blocks),      cmocka_unit_test(check_inside_blocks),
-        cmocka_unit_test(check_contained),   cmocka_unit_test(check_duplicates),  cmocka_unit_test(check_ignored),
-        cmocka_unit_test(check_arguments),   cmocka_unit_test(check_cancel),      cmocka_unit_test(check_within),
+        cmocka_unit_test(check_nothing),       cmocka_unit_test(check_two_squares),
+        cmocka_unit_test(check_weights),       cmocka_unit_test(check_fixed),
+        cmocka_unit_test(check_limits),        cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_courtyard),     cmocka_unit_test(check_blocks),
+        cmocka_unit_test(check_inside_blocks), cmocka_unit_test(check_contained),
+        cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
+        cmocka_unit_test(check_within),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* A layer whose every allocation fails in turn: an error each time, nothing leaked, and the same result when none fails. */
+/* A layer whose every allocation fails in turn: an error each time, nothing leaked, and the same result when none
+ * fails. */
 #include "failing.h"
 
 #include "sunder.h"
@@ -42,7 +43,8 @@ static bool attempt(void *context)
     for (size_t k = 0; k < HOUSES; k++) s->shape[k] = NULL;
     sunder_status status = make(s) ? SUNDER_OK : SUNDER_ENOMEM;
     for (size_t k = 0; k < HOUSES; k++)
-        feature[k] = (sunder_feature){.shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : INFINITY, .block = -1, .fixed = k == 3};
+        feature[k] = (sunder_feature){
+            .shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : INFINITY, .block = -1, .fixed = k == 3};
     if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
     if (!status)
         status = s->check ? sunder_layer_check(layer, &s->options, &report, &err)
