@@ -244,6 +244,25 @@ static void check_courtyard(void **state)
     end(&s);
 }
 
+/* A yard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than before. */
+static void check_narrow_yard(void **state)
+{
+    scene s;
+    begin(&s, 3);
+    add(&s, "POLYGON ((0 0, 20 0, 20 20, 0 20, 0 0), (5 5, 5 15, 15 15, 15 5, 5 5))")->max_shift = 5;
+    add_box(&s, 6.75, 7, 6, 6)->max_shift = 5;
+    run(&s, false);
+    size_t n = 0;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->kind, SUNDER_TOO_CLOSE);
+    assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+    assert_true(c->before == 1.75);
+    assert_true(c->distance >= 1.75);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_BLOCKED);
+    end(&s);
+}
+
 static void check_blocks(void **state)
 {
     scene s;
@@ -443,7 +462,8 @@ int main(void)
         cmocka_unit_test(check_nothing),       cmocka_unit_test(check_two_squares),
         cmocka_unit_test(check_weights),       cmocka_unit_test(check_fixed),
         cmocka_unit_test(check_limits),        cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_courtyard),     cmocka_unit_test(check_blocks),
+        cmocka_unit_test(check_courtyard),     cmocka_unit_test(check_narrow_yard),
+        cmocka_unit_test(check_blocks),
         cmocka_unit_test(check_inside_blocks), cmocka_unit_test(check_contained),
         cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
