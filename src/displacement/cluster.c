@@ -25,7 +25,10 @@ sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_c
     sunder_i_search s;
     if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     bool done = !s.failed && sunder_i_search_descend(&s);
-    if (!done && !s.failed && sunder_i_search_jump(&s)) done = sunder_i_search_descend(&s);
+    for (int k = 0; k < 3 && !done && !s.failed; k++) {
+        if (!sunder_i_search_jump(&s) && cluster->limited) break;
+        done = sunder_i_search_descend(&s);
+    }
     if (!done && !s.failed) sunder_i_search_relax(&s);
     const sunder_status status = finish(&s, move, SUNDER_OK, err);
     sunder_i_search_free(&s);

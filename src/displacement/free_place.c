@@ -122,7 +122,7 @@ static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacl
     const double *b = obstacle->box;
     if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
     /* Places are computed on walls: within this of one counts as on it. */
-    const double slack = 1e-9 * (b[2] - b[0] + b[3] - b[1]);
+    const double slack = 1e-12 * (b[2] - b[0] + b[3] - b[1]);
     for (uint32_t k = 0; k < obstacle->walls; k++) {
         const sunder_i_wall *w = &o->wall[obstacle->wall + k];
         if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;

@@ -47,9 +47,9 @@ static void halve(sunder_i_search *s, size_t first, size_t end, double high)
     for (size_t p = first; p < end; p++) s->allowed[p].violation = high;
 }
 
-/* Where to start from: the compromise that the search ended with, within the limits, or where everything came from if less is
- * missed there (a house in a yard too narrow for its gap had better stay in it than be caught half-way through the wall).
- * Returns the worst violation. */
+/* Where to start from: the compromise that the search ended with, within the limits, or where everything came from if
+ * less is missed there (a house in a yard too narrow for its gap had better stay in it than be caught half-way through
+ * the wall). Returns the worst violation. */
 static double choose_start(sunder_i_search *s)
 {
     sunder_i_search_clip(s);

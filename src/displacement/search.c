@@ -207,7 +207,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 return;
             }
             s->steps += 4;
-            sunder_i_obstacles_add(o, s->scratch.xy, n, s->gap);
+            /* A little more room than is asked, so that no rounding makes a clash of it. */
+            sunder_i_obstacles_add(o, s->scratch.xy, n, s->gap + 2 * s->tolerance);
         }
     }
 }

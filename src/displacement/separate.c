@@ -31,7 +31,7 @@ typedef struct work {
     uint32_t *parent;       /* [bodies] union-find over edges */
     bool *dirty;            /* [bodies] to be solved (again) */
     unsigned char *widened; /* [bodies] how often the margin grew */
-    bool *unsolved;         /* [bodies] its cluster has no solution that was found */
+    bool *unsolved;         /* [bodies] its cluster is limited and no solution was found */
     bool *changed;          /* [features] moved in this round */
     double *next;           /* [2 * bodies] */
     member *member;         /* cluster after cluster, bodies ascending */
@@ -296,7 +296,7 @@ static void note_unsolved(work *w)
         if (!is_dirty(w, c)) continue;
         for (size_t m = 0; m < c->n; m++) {
             const uint32_t b = c->body[m];
-            if (!w->town.body[b].fixed) w->unsolved[find(w->parent, b)] = !w->solved[k];
+            if (!w->town.body[b].fixed) w->unsolved[find(w->parent, b)] = !w->solved[k] && c->limited;
         }
     }
 }
