@@ -124,7 +124,7 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
         if (!sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = q->piece; l < q->piece + q->pieces && !s->failed; l++)
             if (sunder_i_box_meet(box, town->piece[l].box) &&
-                !sunder_i_is_kept(town, a->feature, town->piece[l].feature))
+                !sunder_i_is_exempt(town, a->feature, town->piece[l].feature))
                 constrain_pieces(s, i, j, at, k, l, first);
     }
 }

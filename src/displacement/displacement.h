@@ -145,6 +145,9 @@ typedef struct sunder_i_town {
     sunder_i_couple *kept; /* pairs that may overlap, because one lies in the other */
     bool *lapsed;          /* [kept_n] it no longer does, so the two have to part */
     size_t kept_n;
+    sunder_i_couple
+        *hopeless; /* pairs that the limits cannot part, in clusters too large to make the best of it; sorted */
+    size_t hopeless_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     double far;    /* no body stands farther than this from where it was, in x or in y */
     bool *inexact; /* [features] the translate was rounded */
@@ -183,6 +186,9 @@ sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, siz
 const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
 void sunder_i_town_free(sunder_i_town *town);
 bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
+bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g);
+/* Either: the search lets such pairs alone. */
+bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g);
 /* From now on the pair is like any other. */
 void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g);
 

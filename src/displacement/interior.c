@@ -47,14 +47,41 @@ static void interior_free(interior *q)
     sunder_i_free(q->memory);
 }
 
-/* Numbers the unknowns along the cluster; where gives each body's place. */
+/* Bodies that touch others far along the cluster: a block outline among its houses. One of them early in the order would make
+ * every row behind it long; at the end they cost one long row each. Of two bodies far apart in the order it is the one with more
+ * contacts. */
+static bool mark_far_reaching(const interior *q, const place *order, bool *last)
+{
+    const sunder_i_quadratic *p = q->p;
+    uint32_t *rank = sunder_i_alloc(p->bodies, sizeof *rank), *contacts = sunder_i_calloc(p->bodies, sizeof *contacts);
+    const bool ok = rank && contacts;
+    for (size_t k = 0; ok && k < p->bodies; k++) rank[order[k].body] = (uint32_t)k;
+    for (size_t c = 0; ok && c < p->n; c++) {
+        if (p->constraint[c].i != SUNDER_I_NOBODY) contacts[p->constraint[c].i]++;
+        if (p->constraint[c].j != SUNDER_I_NOBODY) contacts[p->constraint[c].j]++;
+    }
+    const double band = 20 + 2 * sqrt((double)p->bodies);
+    for (size_t c = 0; ok && c < p->n; c++) {
+        const uint32_t i = p->constraint[c].i, j = p->constraint[c].j;
+        if (i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY) continue;
+        if (fabs((double)rank[i] - (double)rank[j]) <= band || last[i] || last[j]) continue;
+        last[contacts[i] > contacts[j] || (contacts[i] == contacts[j] && i < j) ? i : j] = true;
+    }
+    sunder_i_free(rank);
+    sunder_i_free(contacts);
+    return ok;
+}
+
+/* Numbers the unknowns along the cluster, far-reaching bodies last; where gives each body's place. */
 static bool number_unknowns(interior *q, const double *where)
 {
     const sunder_i_quadratic *p = q->p;
     place *order = sunder_i_alloc(p->bodies, sizeof *order);
+    bool *last = sunder_i_calloc(p->bodies, sizeof *last);
     q->unknown = sunder_i_alloc(p->bodies, sizeof *q->unknown);
-    if (!order || !q->unknown) {
+    if (!order || !last || !q->unknown) {
         sunder_i_free(order);
+        sunder_i_free(last);
         return false;
     }
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -65,14 +92,18 @@ static bool number_unknowns(interior *q, const double *where)
     const size_t axis = high[0] - low[0] >= high[1] - low[1] ? 0 : 1;
     for (size_t k = 0; k < p->bodies; k++) order[k] = (place){where[2 * k + axis], (uint32_t)k};
     qsort(order, p->bodies, sizeof *order, by_along);
+    const bool ok = mark_far_reaching(q, order, last);
     q->n = 0;
-    for (size_t k = 0; k < p->bodies; k++) {
-        const uint32_t b = order[k].body;
-        q->unknown[b] = p->mass[b] > 0 ? (uint32_t)q->n : SUNDER_I_NOBODY;
-        if (p->mass[b] > 0) q->n += 2;
-    }
+    for (int late = 0; late < 2; late++)
+        for (size_t k = 0; ok && k < p->bodies; k++) {
+            const uint32_t b = order[k].body;
+            if (last[b] != (late == 1)) continue;
+            q->unknown[b] = p->mass[b] > 0 ? (uint32_t)q->n : SUNDER_I_NOBODY;
+            if (p->mass[b] > 0) q->n += 2;
+        }
     sunder_i_free(order);
-    return true;
+    sunder_i_free(last);
+    return ok;
 }
 
 static uint32_t unknown_of(const interior *q, uint32_t body)

@@ -12,8 +12,10 @@
 #include <string.h>
 
 #define HALVINGS 12
-/* Rounds in all, divided by the number of bodies: large clusters have their suspects asked less often one by one. */
-#define ROUNDS 6000
+/* Constraints looked at before the rest is left as it is: a second or so. */
+#define EFFORT 30000000u
+
+static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort && !s->failed; }
 
 void sunder_i_search_clip(sunder_i_search *s)
 {
@@ -36,7 +38,7 @@ double sunder_i_search_allowed(const sunder_i_search *s, uint32_t i, uint32_t j)
 static void halve(sunder_i_search *s, size_t first, size_t end, double high)
 {
     double low = 0;
-    for (int k = 0; k < HALVINGS && high - low > s->tolerance && !s->failed; k++) {
+    for (int k = 0; k < HALVINGS && high - low > s->tolerance && has_time(s); k++) {
         const double middle = (low + high) / 2;
         for (size_t p = first; p < end; p++) s->allowed[p].violation = middle;
         if (sunder_i_search_round(s))
@@ -85,14 +87,14 @@ void sunder_i_search_relax(sunder_i_search *s)
     memcpy(s->allowed, s->clash, s->clashes * sizeof *s->allowed);
     s->allowed_n = s->clashes;
     s->program.n = 0;
+    s->effort = s->steps + s->program.work + EFFORT;
     halve(s, 0, s->allowed_n, worst + s->tolerance);
-    const size_t most = 2 + ROUNDS / (HALVINGS * s->n);
-    for (size_t p = 0; p < s->allowed_n && p < most && !s->failed; p++) {
+    for (size_t p = 0; p < s->allowed_n && has_time(s); p++) {
         const double shared = s->allowed[p].violation;
         s->allowed[p].violation = 0;
         if (sunder_i_search_round(s)) continue;
         halve(s, p, p + 1, shared);
     }
-    for (int k = 0; k < 6 && !s->failed; k++)
+    for (int k = 0; k < 6 && has_time(s); k++)
         if (!sunder_i_search_round(s)) break;
 }

@@ -125,7 +125,7 @@ double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const do
         if (!sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < q->pieces; l++) {
             const sunder_i_piece *b = &town->piece[q->piece + l];
-            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature)) continue;
+            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_exempt(town, a->feature, b->feature)) continue;
             const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
                                                  town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
@@ -198,7 +198,7 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
         if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < nq; l++) {
             const sunder_i_piece *b = part_of(town, q, coarse_q, l);
-            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature))
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_exempt(town, a->feature, b->feature))
                 continue;
             const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
                                                  town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
@@ -268,7 +268,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && town->kept_n == 0 && ps && qs && free_pair_exactly(s, ps, qs, target, shallow, places[0]))
+    if (many && most == 1 && town->kept_n + town->hopeless_n == 0 && ps && qs &&
+        free_pair_exactly(s, ps, qs, target, shallow, places[0]))
         return 1;
     const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {

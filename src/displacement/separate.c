@@ -251,7 +251,75 @@ static sunder_status check_changes(work *w, sunder_error *err)
 
 static bool is_between(const sunder_i_town *town, const sunder_i_relation *r)
 {
-    return r->near && !r->kept && town->body_of[r->a] != town->body_of[r->b] && !sunder_i_is_kept(town, r->a, r->b);
+    return r->near && !r->kept && town->body_of[r->a] != town->body_of[r->b] && !sunder_i_is_exempt(town, r->a, r->b);
+}
+
+/* In clusters of more bodies than this a pair that its limits cannot part is left as it is: to make the worst of
+ * hundreds of such violations least would take hours, and gain nobody anything. */
+#define LARGE 50
+
+typedef struct judging {
+    const sunder_i_town *town;
+    const sunder_i_relations *start;
+    const uint32_t *root, *size;
+    bool *hopeless; /* [start->n] */
+} judging;
+
+static double limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
+
+static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const judging *g = context;
+    const sunder_i_town *town = g->town;
+    const double none[2] = {0, 0};
+    for (size_t k = begin; k < end; k++) {
+        const sunder_i_relation *r = &g->start->pair[k];
+        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+        const double reach = limit_of(&town->body[i]) + limit_of(&town->body[j]);
+        const uint32_t root = town->body[i].fixed ? g->root[j] : g->root[i];
+        if (!is_between(town, r) || reach == INFINITY || g->size[root] <= LARGE) continue;
+        sunder_separation least;
+        const sunder_status status =
+            sunder_i_separate(town->layer->feature[r->a].shape, none, town->layer->feature[r->b].shape, none,
+                              town->rules.gap, reach, &least, &g->hopeless[k], err);
+        if (status) return status;
+        sunder_separation_clear(&least);
+    }
+    return SUNDER_OK;
+}
+
+/* Finds the pairs of large clusters that cannot be parted within their limits; exact. */
+static sunder_status give_up(work *w, sunder_error *err)
+{
+    sunder_i_town *town = &w->town;
+    const size_t n = town->bodies;
+    uint32_t *root = sunder_i_alloc(n, sizeof *root), *size = sunder_i_calloc(n, sizeof *size);
+    bool *hopeless = sunder_i_calloc(w->start.n, sizeof *hopeless);
+    sunder_status status = root && size && hopeless ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        for (size_t b = 0; b < n; b++) root[b] = (uint32_t)b;
+        for (size_t k = 0; k < w->start.n; k++) {
+            const sunder_i_relation *r = &w->start.pair[k];
+            const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+            if (!is_between(town, r) || town->body[i].fixed || town->body[j].fixed) continue;
+            const uint32_t a = find(root, i), b = find(root, j);
+            if (a != b) root[a < b ? b : a] = a < b ? a : b;
+        }
+        for (size_t b = 0; b < n; b++) root[b] = find(root, (uint32_t)b);
+        for (size_t b = 0; b < n; b++) size[root[b]]++;
+        judging g = {town, &w->start, root, size, hopeless};
+        status = sunder_i_parallel(town->rules.threads, w->start.n, 8, judge, &g, err);
+    }
+    size_t found = 0;
+    for (size_t k = 0; !status && k < w->start.n; k++) found += hopeless[k];
+    if (!status) town->hopeless = sunder_i_alloc(found, sizeof *town->hopeless);
+    if (!status && !town->hopeless) status = sunder_i_no_memory(err);
+    for (size_t k = 0; !status && k < w->start.n; k++)
+        if (hopeless[k]) town->hopeless[town->hopeless_n++] = (sunder_i_couple){w->start.pair[k].a, w->start.pair[k].b};
+    sunder_i_free(root);
+    sunder_i_free(size);
+    sunder_i_free(hopeless);
+    return status;
 }
 
 /* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
@@ -544,7 +612,8 @@ static sunder_status separate(work *w, const sunder_layer *layer, const sunder_l
     if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
     w->now.n = w->start.n;
     if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
-    status = settle(w, 0.1, 0.5, err);
+    status = give_up(w, err);
+    if (!status) status = settle(w, 0.1, 0.5, err);
     if (!status) status = improve(w, err);
     if (!status) status = settle(w, 0.6, 0.8, err);
     if (!status) status = gather(w, err);

@@ -19,6 +19,7 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->present);
     sunder_i_free(town->kept);
     sunder_i_free(town->lapsed);
+    sunder_i_free(town->hopeless);
     sunder_i_free(town->move);
     sunder_i_free(town->inexact);
     sunder_i_index_free(&town->tree);
@@ -159,31 +160,40 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
     return SUNDER_OK;
 }
 
-/* Where the pair is in town->kept; kept_n if it is not. */
-static size_t find_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
+/* Where the pair is in a sorted list; n if it is not. */
+static size_t find_couple(const sunder_i_couple *list, size_t n, uint32_t f, uint32_t g)
 {
-    if (town->kept_n == 0) return 0;
     const uint32_t a = f < g ? f : g, b = f < g ? g : f;
-    size_t low = 0, high = town->kept_n;
+    size_t low = 0, high = n;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        const sunder_i_couple *c = &town->kept[middle];
+        const sunder_i_couple *c = &list[middle];
         if (c->a < a || (c->a == a && c->b < b))
             low = middle + 1;
         else
             high = middle;
     }
-    return low < town->kept_n && town->kept[low].a == a && town->kept[low].b == b ? low : town->kept_n;
+    return low < n && list[low].a == a && list[low].b == b ? low : n;
 }
 
 bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
 {
-    const size_t at = find_kept(town, f, g);
+    const size_t at = find_couple(town->kept, town->kept_n, f, g);
     return at < town->kept_n && !town->lapsed[at];
+}
+
+bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g)
+{
+    return find_couple(town->hopeless, town->hopeless_n, f, g) < town->hopeless_n;
+}
+
+bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g)
+{
+    return sunder_i_is_kept(town, f, g) || sunder_i_is_hopeless(town, f, g);
 }
 
 void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g)
 {
-    const size_t at = find_kept(town, f, g);
+    const size_t at = find_couple(town->kept, town->kept_n, f, g);
     if (at < town->kept_n) town->lapsed[at] = true;
 }
