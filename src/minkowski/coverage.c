@@ -242,10 +242,20 @@ static void drop_dead_lines(sunder_i_cell_pairs *pairing)
     pairing->n = n;
 }
 
+/* Room for what most lines yield, two points and a piece: growing step by step would touch several times the memory. */
+static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
+{
+    sunder_i_coverage *o = f->out;
+    size_t live = 0;
+    for (uint32_t i = 0; i < f->lines->n; i++) live += pairing->live_line[i];
+    return sunder_i_reserve(&o->point, &o->points_capacity, 2 * live + 16, sizeof *o->point) &&
+           sunder_i_reserve(&o->piece, &o->pieces_capacity, live + 16, sizeof *o->piece);
+}
+
 static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
 {
     drop_dead_lines(pairing);
-    bool ok = sunder_i_sort_keys(pairing->pair, pairing->n);
+    bool ok = reserve_usual(f, pairing) && sunder_i_sort_keys(pairing->pair, pairing->n);
     for (size_t i = 0; ok && i < pairing->n;) {
         const uint32_t number = (uint32_t)(pairing->pair[i] >> 32);
         size_t j = i;

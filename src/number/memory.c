@@ -56,7 +56,7 @@ void sunder_i_free(void *memory)
 bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
 {
     if (need <= *capacity) return true;
-    size_t want = *capacity ? *capacity : 16;
+    size_t want = *capacity ? *capacity : need > 16 ? need : 16; /* a first size that was worked out is kept to */
     while (want < need) {
         if (want > SIZE_MAX / 4) return false;
         want *= 2;
