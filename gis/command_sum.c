@@ -15,7 +15,7 @@ typedef struct sum_run {
     gis_sink_request request; /* the sink borrows it */
     gis_sink *sink;           /* NULL: no layers are written */
     double max_deviation; /* of layers; NaN: none are written */
-    double read, compute, write, start;
+    double read, decompose, compute, write, start;
 } sum_run;
 
 static bool compute(sum_run *run, gis_error *error)
@@ -24,17 +24,20 @@ static bool compute(sum_run *run, gis_error *error)
     const sunder_shape *q = run->operands.q;
     gis_progress progress = gis_progress_of(run->options);
     gis_progress_stage(&progress, 0, 1);
+    run->decompose = run->operands.building;
     if (run->options->given[OPT_REFLECT]) {
+        double begin = gis_clock();
         if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK)
             return gis_fail(error, "Q: %s", why.message);
         q = run->reflected;
+        run->decompose += gis_clock() - begin;
     }
     sunder_sum_options how = {.progress = gis_progress_call, .progress_user = &progress};
     double begin = gis_clock();
     sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
-    run->compute = gis_clock() - begin;
+    run->compute = run->decompose + (gis_clock() - begin);
     gis_progress_done(&progress);
     return true;
 }
@@ -172,6 +175,7 @@ static void json_seconds(gis_json *out, const sum_run *run)
 {
     double decompose, subsums, unite;
     sunder_sum_seconds(run->sum, &decompose, &subsums, &unite);
+    decompose += run->decompose;
     const struct {
         const char *key;
         double seconds;
@@ -281,7 +285,7 @@ int gis_command_sum(const gis_options *options)
     sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
     bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error);
     ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
-    run.read = gis_clock() - run.start;
+    run.read = gis_clock() - run.start - run.operands.building;
     ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));
     ok = ok && compute(&run, &error) && report(&run, &error);
     gis_sink_free(run.sink);

@@ -161,8 +161,8 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     if (!gis_shape_is_text(text))
         return gis_fail(error, "%s: %s in %s is no symbol; expected WKT, disc:R[:N], inside-disc:R[:N], square:SIDE or "
                         "rectangle:WxH", who, text, input->options->text[OPT_SYMBOL_FIELD]);
-    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options),
-                             &own, error)) {
+    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options), &own, NULL,
+                             error)) {
         error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
         return false;
     }
@@ -201,7 +201,7 @@ static bool point_shapes(gis_layer_input *input, gis_error *error)
                                   "rectangle:WxH",
                                   options->text[OPT_SYMBOL]);
         ok = gis_shape_from_text(options->text[OPT_SYMBOL], "--symbol", &input->rule, gis_options_invalid(options),
-                                 &common, error);
+                                 &common, NULL, error);
     }
     if (ok && options->given[OPT_SYMBOL_FIELD]) {
         field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);
@@ -239,6 +239,7 @@ static bool open_source(gis_layer_input *input, gis_error *error)
         gis_options_source(options, options->operand[0], input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS);
     if (!gis_source_open(&request, &input->source, error))
         return hint_at_order(options, error);
+    gis_say_warnings(gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
     if (options->given[OPT_ID_FIELD]) {
         input->id_field = gis_source_field(input->source, options->text[OPT_ID_FIELD]);

@@ -2,6 +2,7 @@
 #include "operand.h"
 
 #include "message.h"
+#include "report.h"
 
 #include <cpl_conv.h>
 #include <stdlib.h>
@@ -75,7 +76,7 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
 }
 
 static bool shape_of_layer(const gis_source *source, gis_invalid policy, const char *who, sunder_shape **out,
-                           gis_error *error)
+                           double *building, gis_error *error)
 {
     gis_polygons all = {0};
     gis_rings rings = {0};
@@ -86,9 +87,12 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
                  append_feature(source, i, &rings, policy, &all, &any_invalid, error);
     if (ok) {
         sunder_error why;
+        double begin = gis_clock();
         ok = sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons,
                                      any_invalid ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
              gis_fail(error, "%s: %s", who, why.message);
+        if (building)
+            *building += gis_clock() - begin;
     }
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
@@ -96,13 +100,14 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
 }
 
 bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
-                           sunder_shape **out, gis_error *error)
+                           sunder_shape **out, double *building, gis_error *error)
 {
     gis_source_request request = gis_options_source(options, path, GIS_TAKES_POLYGONS);
     gis_source *opened;
     if (!gis_source_open(&request, &opened, error))
         return false;
-    if (!shape_of_layer(opened, gis_options_invalid(options), who, out, error)) {
+    gis_say_warnings(gis_source_warnings(opened));
+    if (!shape_of_layer(opened, gis_options_invalid(options), who, out, building, error)) {
         gis_source_close(opened);
         return false;
     }
@@ -131,7 +136,8 @@ bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error 
         if (gis_shape_is_text(options->operand[i]))
             continue;
         any_source = true;
-        ok = gis_shape_from_source(options, options->operand[i], names[i], source[i], shape[i], error);
+        ok = gis_shape_from_source(options, options->operand[i], names[i], source[i], shape[i], &read.building,
+                                   error);
         if (ok && !gis_crs_is_known(read.crs))
             read.crs = gis_source_crs(*source[i]);
     }
@@ -148,7 +154,7 @@ bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error 
     for (int i = 0; ok && i < 2; i++)
         if (!*source[i])
             ok = gis_shape_from_text(options->operand[i], names[i], &read.rule, gis_options_invalid(options), shape[i],
-                                     error);
+                                     &read.building, error);
     if (ok)
         *out = read;
     else

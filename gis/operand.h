@@ -31,13 +31,14 @@ bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_
 bool gis_shape_is_text(const char *text);
 
 /* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` opens messages. A repair is warned
- * of. */
+ * of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
-                         sunder_shape **out, gis_error *error);
+                         sunder_shape **out, double *building, gis_error *error);
 
-/* All polygons of a layer as one polygonal set; the source stays open for its CRS. */
+/* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is printed.
+ * *building as above; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
 bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
-                           sunder_shape **out, gis_error *error);
+                           sunder_shape **out, double *building, gis_error *error);
 
 /* P and Q of sum and pair. */
 typedef struct gis_operands {
@@ -45,6 +46,7 @@ typedef struct gis_operands {
     gis_source *p_source, *q_source; /* NULL where the operand is a text */
     gis_ruler rule;                  /* of the CRS of the operands, if any */
     OGRSpatialReferenceH crs;        /* borrowed from a source, or NULL */
+    double building;                 /* seconds from doubles in memory to p and q */
 } gis_operands;
 
 bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error *error);

@@ -2,6 +2,7 @@
  * rectangle:. */
 #include "message.h"
 #include "operand.h"
+#include "report.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -156,40 +157,53 @@ bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_
     return true;
 }
 
-static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, gis_error *error)
+static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
+                         gis_error *error)
 {
     gis_polygons set = {0};
     bool invalid = false;
     gis_error reason;
-    bool ok =
-        gis_wkt_read(text, who, &set, error) && gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons,
-                                                                      policy, who, out, &invalid, &reason, error);
+    bool ok = gis_wkt_read(text, who, &set, error);
+    double begin = gis_clock();
+    ok = ok && gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, policy, who, out, &invalid,
+                                     &reason, error);
+    *building += gis_clock() - begin;
     if (ok && invalid)
         gis_say_warning("%s: %s; taken as what its rings enclose by the even-odd rule", who, reason.message);
     gis_polygons_clear(&set);
     return ok;
 }
 
-bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
-                         sunder_shape **out, gis_error *error)
+static bool shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+                            sunder_shape **out, double *building, gis_error *error)
 {
     int standard = standard_shape(text);
     if (standard != N_STANDARD) {
         const char *rest = text + strlen(standard_shapes[standard]);
-        if (standard == DISC || standard == INSIDE_DISC)
-            return read_disc(rest, standard == INSIDE_DISC, who, rule, out, error);
-        return read_rectangle(rest, standard == SQUARE, who, rule, out, error);
+        double begin = gis_clock();
+        bool ok = standard == DISC || standard == INSIDE_DISC
+                      ? read_disc(rest, standard == INSIDE_DISC, who, rule, out, error)
+                      : read_rectangle(rest, standard == SQUARE, who, rule, out, error);
+        *building += gis_clock() - begin;
+        return ok;
     }
     if (text[0] == '@') {
         char *wkt;
         if (!read_file(text + 1, who, &wkt, error))
             return false;
-        bool ok = shape_of_wkt(wkt, who, policy, out, error);
+        bool ok = shape_of_wkt(wkt, who, policy, out, building, error);
         free(wkt);
         return ok;
     }
-    if (shape_of_wkt(text, who, policy, out, error))
+    if (shape_of_wkt(text, who, policy, out, building, error))
         return true;
     error->exit_status = GIS_USAGE; /* a literal is part of the command line */
     return false;
+}
+
+bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+                         sunder_shape **out, double *building, gis_error *error)
+{
+    double unasked = 0;
+    return shape_from_text(text, who, rule, policy, out, building ? building : &unasked, error);
 }

@@ -26,6 +26,12 @@ struct gis_source {
 
 /* ---- Opening ---------------------------------------------------------------------------------------------- */
 
+static void keep_warnings(gis_source *source, const gis_listener *listener)
+{
+    for (size_t i = 0; i < listener->warnings.n; i++)
+        gis_list_add(&source->warnings, "%s", listener->warnings.items[i]);
+}
+
 static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
@@ -44,6 +50,7 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
             gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,
                      gis_listener_reason(&listener, "no driver knows it"));
     }
+    keep_warnings(source, &listener);
     gis_listener_clear(&listener);
     return source->dataset != NULL;
 }
@@ -162,8 +169,7 @@ static bool read_all(gis_source *source, gis_error *error)
     else if (done && listener.failures)
         done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
                         source->n, gis_listener_reason(&listener, "no reason given"));
-    source->warnings = listener.warnings;
-    listener.warnings = (gis_list){0};
+    keep_warnings(source, &listener);
     gis_listener_clear(&listener);
     return done;
 }

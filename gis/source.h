@@ -70,7 +70,7 @@ int gis_source_field(const gis_source *source, const char *name);
  * gis_source_count() entries. A bad expression is GIS_USAGE. */
 bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error);
 
-/* What GDAL warned of while reading. */
+/* What GDAL warned of while opening and reading. */
 const gis_list *gis_source_warnings(const gis_source *source);
 
 #endif

@@ -123,4 +123,13 @@ cp metres.gpkg m2.gpkg
 refused 1 'm2.gpkg' sum metres.gpkg m2.gpkg m2.gpkg --overwrite
 expect 0 sum metres.gpkg m2.gpkg m2.gpkg --update
 same "$(count m2.gpkg sum) $(count m2.gpkg c)" '1 1'
+# What the driver warns of while it reads is passed on, and a script still gets its JSON.
+printf 'WKT,n\n"POLYGON ((0 0,1 0,1 1,0 0))",1\n"POLYGON ((5 0,6 0,6 1,5 0))",abc\n' >odd.csv
+printf 'WKT,Integer\n' >odd.csvt
+for call in 'sum odd.csv square:1' 'pair odd.csv square:1' 'check odd.csv' 'separate odd.csv odd.gpkg --overwrite'; do
+    # shellcheck disable=SC2086 # words
+    expect 0 $call --quiet
+    same "$(grep -c '^sunder: warning: .*record 2' err)" 1 "warnings about a number that is none, $call:"
+done
+
 finish

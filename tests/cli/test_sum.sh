@@ -15,6 +15,16 @@ same "$(jq -c '.seconds|keys_unsorted' out)" '["read","decompose","subsums","uni
 same "$(jq -c '[.command,.algorithm,.decomposition,.order]' out)" '["sum","convolution",null,null]'
 same "$(jq -c '.polygons' out)" '[{"outer":[[-1,-1],[4,-1],[4,2],[2,2],[2,4],[-1,4]],"holes":[]}]'
 
+# From doubles in memory to the finished sum: building the shapes is part of it, also for a layer and for -Q.
+printf 'WKT,n\n"%s",1\n' "$ell" | layer ell.gpkg ell POLYGON
+for call in "sum @ell.wkt square:2" "sum @ell.wkt @ell.wkt --reflect" "sum ell.gpkg disc:2"; do
+    echo "$ell" >ell.wkt
+    # shellcheck disable=SC2086 # words
+    expect 0 $call --stats -
+    jq -e '.seconds | .decompose > 0 and .compute >= .decompose and .total >= .compute and .read >= 0' out >/dev/null ||
+        fail "$call: $(jq -c .seconds out)"
+done
+
 expect 0 sum "$ell" square:2 --stats -
 same "$(json 'keys_unsorted' out | tr -d ' \n')" "$keys]" "--stats -"
 expect 0 sum "$ell" square:2 --stats s.json --algorithm auto --seed 7
