@@ -132,6 +132,15 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
     return done;
 }
 
+/* What is renamed over is gone: a device or a pipe would be taken from the whole system. */
+static bool check_is_file(const char *path, gis_error *error)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
+    return true;
+}
+
 /* A file that the output is to have, of a format of one layer a file. */
 static bool check_file(const gis_sink *sink, const char *suffix, gis_error *error)
 {
@@ -144,6 +153,10 @@ static bool check_file(const gis_sink *sink, const char *suffix, gis_error *erro
             done = gis_fail(error, "%s: input and output are the same", path);
         else if (!replace)
             done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
+        else if (is_directory(path))
+            done = gis_fail(error, "%s is a directory; it is not replaced by a file", path);
+        else
+            done = check_is_file(path, error);
     }
     CPLFree(name);
     CPLFree(path);
@@ -163,6 +176,8 @@ static bool check_whole(gis_sink *sink, gis_error *error)
     const char *path = sink->request.path;
     if (!exists(path))
         return true;
+    if (!check_is_file(path, error))
+        return false;
     if (sink->request.update) {
         sink->updating = true;
         return check_layer_names(sink, error);

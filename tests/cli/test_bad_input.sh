@@ -128,4 +128,13 @@ same "$(count unnumbered.gpkg in)" 2
 # Fields of an earlier run are replaced, and that is said.
 expect 0 separate unnumbered.gpkg third.gpkg -q
 says err sunder_st
+# What is no file is neither replaced nor waited for, even where replacing is asked for.
+mkfifo pipe
+mkdir kept
+touch kept/precious
+for format in GeoJSON GPKG; do
+    refused 1 'no ordinary file' separate in.gpkg pipe --input-layer houses --of $format --overwrite
+    refused 1 'is a directory' separate in.gpkg kept --input-layer houses --of $format --overwrite
+done
+rm pipe
 finish
