@@ -1,7 +1,6 @@
 #include "minkowski/boundary.h"
 
 #include "minkowski/boundary_graph.h"
-#include "minkowski/places.h"
 #include "number/sort.h"
 
 #include <string.h>
@@ -165,7 +164,7 @@ static int compare_points(void *context, uint32_t a, uint32_t b)
 }
 
 /* Pieces with both banks covered, joined where one goes on in the next on its line. */
-static bool gather_segments(const sunder_i_coverage *c, const uint32_t *vertex_of, degenerates *d, sunder_sum *out)
+static bool gather_segments(const sunder_i_coverage *c, degenerates *d, sunder_sum *out)
 {
     const uint8_t both = SUNDER_I_LEFT | SUNDER_I_RIGHT;
     size_t n = 0;
@@ -180,7 +179,7 @@ static bool gather_segments(const sunder_i_coverage *c, const uint32_t *vertex_o
         while (j + 1 < c->pieces && c->piece[j + 1].banks == both && c->piece[j + 1].line == c->piece[i].line &&
                c->piece[j + 1].from == c->piece[j].to)
             j++;
-        uint32_t a = vertex_of[c->piece[i].from], b = vertex_of[c->piece[j].to];
+        uint32_t a = c->piece[i].from, b = c->piece[j].to;
         if (compare_points(d, a, b) > 0) {
             const uint32_t t = a;
             a = b;
@@ -202,12 +201,11 @@ static bool gather_segments(const sunder_i_coverage *c, const uint32_t *vertex_o
 }
 
 /* Places that no piece touches. */
-static bool gather_points(const sunder_i_coverage *c, const uint32_t *vertex_of, degenerates *d, sunder_sum *out)
+static bool gather_points(const sunder_i_coverage *c, degenerates *d, sunder_sum *out)
 {
     bool *touched = sunder_i_calloc(out->vertices, sizeof *touched);
     if (!touched) return false;
-    for (size_t i = 0; i < c->pieces; i++)
-        touched[vertex_of[c->piece[i].from]] = touched[vertex_of[c->piece[i].to]] = true;
+    for (size_t i = 0; i < c->pieces; i++) touched[c->piece[i].from] = touched[c->piece[i].to] = true;
     for (uint32_t v = 0; v < out->vertices; v++) out->points += !touched[v];
     out->point = sunder_i_alloc(out->points, sizeof *out->point);
     size_t n = 0;
@@ -221,22 +219,14 @@ sunder_status sunder_i_boundary_build(const sunder_i_subsums *subsums, const sun
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err)
 {
     sunder_i_lattice *lattice = subsums->lattice;
-    uint32_t *vertex_of = sunder_i_alloc(coverage->points, sizeof *vertex_of);
-    if (!vertex_of) return sunder_i_no_memory(err);
-    const size_t places = sunder_i_places_unify(lattice, coverage->point, coverage->points, vertex_of);
-    if (places == SIZE_MAX) {
-        sunder_i_free(vertex_of);
-        return sunder_i_no_memory(err);
-    }
-    out->vertex = coverage->point;
-    out->vertices = (uint32_t)places;
-    coverage->point = NULL;
+    out->vertex = coverage->places.point;
+    out->vertices = (uint32_t)coverage->places.n;
+    coverage->places.point = NULL;
     sunder_i_graph g = {.lattice = lattice, .lines = lines, .vertex = out->vertex,
                         .classes = subsums->classes, .vertices = out->vertices};
     degenerates d = {lattice, out->vertex, NULL};
-    const bool ok = sunder_i_graph_build(&g, coverage, vertex_of) && trace_rings(&g, out) &&
-                    gather_segments(coverage, vertex_of, &d, out) && gather_points(coverage, vertex_of, &d, out);
+    const bool ok = sunder_i_graph_build(&g, coverage) && trace_rings(&g, out) &&
+                    gather_segments(coverage, &d, out) && gather_points(coverage, &d, out);
     sunder_i_graph_free(&g);
-    sunder_i_free(vertex_of);
     return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -4,13 +4,13 @@
 
 #include <string.h>
 
-static bool make_edges(sunder_i_graph *g, const sunder_i_coverage *c, const uint32_t *vertex_of)
+static bool make_edges(sunder_i_graph *g, const sunder_i_coverage *c)
 {
     g->edge = sunder_i_alloc(c->pieces, sizeof *g->edge);
     if (!g->edge) return false;
     for (size_t i = 0; i < c->pieces; i++) {
         const sunder_i_piece *p = &c->piece[i];
-        const uint32_t from = vertex_of[p->from], to = vertex_of[p->to], class = g->lines->line[p->line].class;
+        const uint32_t from = p->from, to = p->to, class = g->lines->line[p->line].class;
         if (p->banks == SUNDER_I_LEFT) g->edge[g->edges++] = (sunder_i_edge){from, to, class, p->line};
         if (p->banks == SUNDER_I_RIGHT) g->edge[g->edges++] = (sunder_i_edge){to, from, class + g->classes, p->line};
     }
@@ -114,9 +114,9 @@ static bool make_walks(sunder_i_graph *g)
     return true;
 }
 
-bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage, const uint32_t *vertex_of)
+bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage)
 {
-    return make_edges(graph, coverage, vertex_of) && make_rays(graph) && make_walks(graph) &&
+    return make_edges(graph, coverage) && make_rays(graph) && make_walks(graph) &&
            sunder_i_graph_components(graph);
 }
 

@@ -46,7 +46,7 @@ static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray
 }
 
 /* Edges, rays, covered walks and components; false if memory is out. */
-bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage, const uint32_t *vertex_of);
+bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage);
 /* Numbers the components (boundary_component.c). */
 bool sunder_i_graph_components(sunder_i_graph *graph);
 /* The edge that follows `edge` on the ring of its component that has the same free face. */

@@ -122,6 +122,7 @@ static bool approximate(builder *b, box *all)
      * 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is used. Subnormals: approx_shift keeps the
      * largest coordinates near 2^500, and the 2^-900 covers what underflows. */
     b->error = 0x1p-48 * most + 0x1p-900;
+    b->out->most = most;
     /* A candidate on the very border must not be missed. */
     widen(all, b->error);
     for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);

@@ -20,6 +20,7 @@ typedef struct sunder_i_cell_pairs {
     size_t n, capacity;
     bool *live;      /* [sides] candidates that pass through an open leaf */
     bool *live_line; /* [lines] lines that hold such a candidate */
+    double most;     /* the largest approximate coordinate */
 } sunder_i_cell_pairs;
 
 /* Fails with SUNDER_ENOMEM, or SUNDER_ECANCEL. */

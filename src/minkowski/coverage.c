@@ -157,19 +157,15 @@ static uint8_t banks(const state *s)
     return (uint8_t)((s->left > 0 ? SUNDER_I_LEFT : 0) | (s->right > 0 ? SUNDER_I_RIGHT : 0));
 }
 
-/* A point of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
-static bool add_point(finder *f, const sunder_i_line *line, const sunder_i_fraction *at, uint32_t corner)
+/* A place of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
+static uint32_t add_place(finder *f, const sunder_i_line *line, const sunder_i_fraction *at, uint32_t corner)
 {
     sunder_i_lattice *l = f->subsums->lattice;
-    sunder_i_coverage *o = f->out;
-    if (o->points == o->points_capacity &&
-        !sunder_i_reserve(&o->point, &o->points_capacity, o->points + 1, sizeof *o->point)) {
-        f->no_memory = true;
-        return false;
-    }
-    o->point[o->points++] = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
-                                                : sunder_i_hpoint_of(l, f->subsums->corner[corner]);
-    return true;
+    const sunder_i_hpoint p = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
+                                                  : sunder_i_hpoint_of(l, f->subsums->corner[corner]);
+    const uint32_t place = sunder_i_places_add(&f->out->places, &p);
+    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
+    return place;
 }
 
 static void add_piece(finder *f, sunder_i_piece piece)
@@ -188,7 +184,7 @@ static void sweep(finder *f, uint32_t number)
 {
     const sunder_i_line *line = &f->lines->line[number];
     state s = {0, 0, 0, 0};
-    uint32_t last = 0; /* the point where the open piece starts, while uncovered(&s) */
+    uint32_t last = 0; /* the place where the open piece starts, while uncovered(&s) */
     for (size_t i = 0; i < f->events_n;) {
         const event *here = &f->events[f->order[i]];
         const state before = s;
@@ -209,10 +205,10 @@ static void sweep(finder *f, uint32_t number)
         /* The place itself: intervals of cover are open, candidates closed. */
         const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
         if (point_free) {
-            if (!add_point(f, line, &here->at, corner)) return;
-            const uint32_t point = (uint32_t)(f->out->points - 1);
-            if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, point, banks(&before)});
-            last = point;
+            const uint32_t place = add_place(f, line, &here->at, corner);
+            if (f->no_memory) return;
+            if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, place, banks(&before)});
+            last = place;
         }
         i = j;
     }
@@ -242,14 +238,14 @@ static void drop_dead_lines(sunder_i_cell_pairs *pairing)
     pairing->n = n;
 }
 
-/* Room for what most lines yield, two points and a piece: growing step by step would touch several times the memory. */
+/* Room for what most lines yield, a piece and one new place: growing step by step would touch several times the memory. */
 static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
 {
     sunder_i_coverage *o = f->out;
     size_t live = 0;
     for (uint32_t i = 0; i < f->lines->n; i++) live += pairing->live_line[i];
-    return sunder_i_reserve(&o->point, &o->points_capacity, 2 * live + 16, sizeof *o->point) &&
-           sunder_i_reserve(&o->piece, &o->pieces_capacity, live + 16, sizeof *o->piece);
+    return sunder_i_places_init(&o->places, f->subsums->lattice, pairing->most, live + live / 8) &&
+           sunder_i_reserve(&o->piece, &o->pieces_capacity, live + live / 8 + 1, sizeof *o->piece);
 }
 
 static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
@@ -282,7 +278,7 @@ sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sund
 
 void sunder_i_coverage_free(sunder_i_coverage *coverage)
 {
-    sunder_i_free(coverage->point);
+    sunder_i_places_free(&coverage->places);
     sunder_i_free(coverage->piece);
     memset(coverage, 0, sizeof *coverage);
 }

@@ -15,20 +15,20 @@
 #define SUNDER_I_COVERAGE_H
 
 #include "minkowski/cells.h"
+#include "minkowski/places.h"
 #include "predicate/predicate.h"
 
 enum { SUNDER_I_LEFT = 1, SUNDER_I_RIGHT = 2 }; /* covered banks of a piece */
 
 typedef struct sunder_i_piece {
     uint32_t line;
-    uint32_t from, to; /* points, in the direction of the line's class */
+    uint32_t from, to; /* places, in the direction of the line's class */
     uint8_t banks;
 } sunder_i_piece;
 
 typedef struct sunder_i_coverage {
-    sunder_i_hpoint *point; /* as met along the lines: the same place may be there several times */
-    size_t points, points_capacity;
-    sunder_i_piece *piece;  /* consecutive along each line */
+    sunder_i_places places;
+    sunder_i_piece *piece; /* consecutive along each line */
     size_t pieces, pieces_capacity;
 } sunder_i_coverage;
 

@@ -4,8 +4,21 @@
 
 #include "predicate/predicate.h"
 
-/* vertex_of[i] becomes the number of the place of point i; point[] is compacted to one of each place, in order of first
- * appearance. Returns how many, or SIZE_MAX if memory is out. */
-size_t sunder_i_places_unify(sunder_i_lattice *lattice, sunder_i_hpoint *point, size_t n, uint32_t *vertex_of);
+typedef struct sunder_i_places {
+    sunder_i_lattice *lattice;
+    sunder_i_hpoint *point; /* one of each place, in order of first appearance */
+    size_t n, capacity;
+    uint32_t *slot;         /* hash table: number of a place + 1, or 0 */
+    size_t mask;
+    double step, error;     /* of the grid; of an approximate coordinate */
+} sunder_i_places;
+
+#define SUNDER_I_NO_PLACE UINT32_MAX
+
+/* most: a bound on the approximate coordinates; expected: a guess at how many places. False if memory is out. */
+bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected);
+/* The number of the place of p, made if it is new; SUNDER_I_NO_PLACE if memory is out. */
+uint32_t sunder_i_places_add(sunder_i_places *places, const sunder_i_hpoint *p);
+void sunder_i_places_free(sunder_i_places *places);
 
 #endif
