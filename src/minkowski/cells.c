@@ -367,12 +367,13 @@ static void settle_half(builder *b, const cell *parent, const half *h)
     b->done += c.share;
 }
 
-/* Room on the stack for both halves and, above them, for the lists in the making; one more side is written than kept. */
+/* Room on the stack for the lists of both halves, the second behind the longest that the first can be; one more side is written
+ * than kept. */
 static bool reserve_halves(builder *b, const cell *c)
 {
     const size_t e = c->entry_to - c->entry_from, s = c->side_to - c->side_from + 1;
-    if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 4 * e, sizeof *b->entries) &&
-        sunder_i_reserve(&b->sides, &b->sides_capacity, b->sides_n + 4 * s, sizeof *b->sides) &&
+    if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 2 * e, sizeof *b->entries) &&
+        sunder_i_reserve(&b->sides, &b->sides_capacity, b->sides_n + 2 * s, sizeof *b->sides) &&
         sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 2, sizeof *b->stack))
         return true;
     b->no_memory = true;
@@ -390,8 +391,8 @@ static void split(builder *b, const cell *c)
     for (int k = 0; k < 2; k++) {
         h[k].cx = h[k].b.low[0] / 2 + h[k].b.high[0] / 2;
         h[k].cy = h[k].b.low[1] / 2 + h[k].b.high[1] / 2;
-        h[k].entries = b->entries + b->entries_n + (2 + (size_t)k) * e;
-        h[k].sides = b->sides + b->sides_n + (2 + (size_t)k) * s;
+        h[k].entries = b->entries + b->entries_n + (size_t)k * e;
+        h[k].sides = b->sides + b->sides_n + (size_t)k * s;
         h[k].stamp = ++b->cells;
     }
     /* The halves are of one size up to rounding; the larger stands for both. */

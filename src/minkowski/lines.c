@@ -8,9 +8,8 @@
 /* A line is its class and the cross product of the class's direction with any of its points: equal exactly for points of one
  * line. */
 typedef struct key {
-    uint32_t class;
     sunder_i_i128 offset; /* the number itself, or on a wide lattice a handle */
-    uint64_t hash;
+    uint32_t class, hash;
 } key;
 
 typedef struct table {
@@ -29,18 +28,20 @@ static uint64_t mix(uint64_t h, uint64_t v)
 static key make_key(const sunder_i_subsums *s, uint32_t side)
 {
     const uint32_t rank = s->rank[side];
-    key k = {rank < s->classes ? rank : rank - s->classes, 0, 0};
+    key k = {0, rank < s->classes ? rank : rank - s->classes, 0};
     const sunder_i_point d = s->direction[k.class], a = s->corner[side];
-    k.hash = mix(0, k.class);
+    uint64_t hash = mix(0, k.class);
     if (s->lattice->narrow) {
         k.offset = sunder_i_narrow_cross(d, a);
-        k.hash = mix(mix(k.hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
+        hash = mix(mix(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
+        k.hash = (uint32_t)(hash >> 32);
         return k;
     }
     const sunder_i_big v =
         sunder_i_wide_cross(s->lattice, sunder_i_wide_get(s->lattice, d), sunder_i_wide_get(s->lattice, a));
     k.offset = sunder_i_lattice_big(s->lattice, v);
-    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) k.hash = mix(k.hash, v.limb[i]);
+    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) hash = mix(hash, v.limb[i]);
+    k.hash = (uint32_t)(hash >> 32);
     return k;
 }
 

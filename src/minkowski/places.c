@@ -3,7 +3,6 @@
  * that the error reaches finds the point. Equality itself is decided exactly. */
 #include "minkowski/places.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef struct square {
@@ -18,9 +17,10 @@ static size_t hash(square q)
     return (size_t)(h ^ h >> 29);
 }
 
+/* Squares are counted from far below the smallest coordinate, so that cutting off the fraction rounds down. */
 static square square_of(const sunder_i_places *g, double x, double y)
 {
-    return (square){(int64_t)floor(x / g->step), (int64_t)floor(y / g->step)};
+    return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
 }
 
 static uint32_t find(const sunder_i_places *g, square q, const sunder_i_hpoint *p)
@@ -68,7 +68,7 @@ bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, do
     memset(places, 0, sizeof *places);
     places->lattice = lattice;
     /* Off the powers of two, where lattice points stand; 2^-40 of the whole keeps different places apart on maps. */
-    places->step = most * 0x1.23456p-40 + 0x1p-800;
+    places->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
     /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
     places->error = most * 0x1p-48;
     return sunder_i_reserve(&places->point, &places->capacity, expected + 1, sizeof *places->point) &&

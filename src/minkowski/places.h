@@ -10,7 +10,8 @@ typedef struct sunder_i_places {
     size_t n, capacity;
     uint32_t *slot;         /* hash table: number of a place + 1, or 0 */
     size_t mask;
-    double step, error;     /* of the grid; of an approximate coordinate */
+    double per_step;        /* squares of the grid for each unit: below 2^40 in all */
+    double error;           /* of an approximate coordinate */
 } sunder_i_places;
 
 #define SUNDER_I_NO_PLACE UINT32_MAX
