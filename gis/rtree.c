@@ -7,6 +7,8 @@
  * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
 #include "rtree.h"
 
+#include "sql.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <inttypes.h>
@@ -19,20 +21,10 @@ enum { HEADER = 4, CELL = 24 };
 
 /* ---- SQL -------------------------------------------------------------------------------------------------- */
 
+/* One statement. */
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
-    if (result)
-        GDALDatasetReleaseResultSet(dataset, result);
-    gis_listen_end();
-    bool done = !listener.failures;
-    if (!done)
-        gis_fail(error, "the spatial index cannot be written: %s",
-                 gis_listener_reason(&listener, "GDAL gives no reason"));
-    gis_listener_clear(&listener);
-    return done;
+    return gis_sql_run(dataset, sql, "the spatial index", error);
 }
 
 /* The text in the first column of the first row, or NULL; CPLFree(). */

@@ -4,6 +4,8 @@
  * the style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
 #include "style.h"
 
+#include "sql.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <string.h>
@@ -17,19 +19,10 @@ static const char make_table[] =
     "styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), ui TEXT(30), "
     "update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))";
 
+/* One statement. */
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
-    if (result)
-        GDALDatasetReleaseResultSet(dataset, result);
-    gis_listen_end();
-    bool done = !listener.failures;
-    if (!done)
-        gis_fail(error, "the styles cannot be written: %s", gis_listener_reason(&listener, "GDAL gives no reason"));
-    gis_listener_clear(&listener);
-    return done;
+    return gis_sql_run(dataset, sql, "the styles", error);
 }
 
 static char *quoted(const char *text)
