@@ -1,0 +1,47 @@
+/* Families that tell orders of insertion apart. */
+#include "family.h"
+
+static size_t at_least_one(size_t n) { return n ? n : 1; }
+
+/* thin upright bars + thin lying bars: each sum of two is a stout rectangle, and they stand in a grid in which some overlap
+ * their neighbours and some do not. Output of order m n; every order of insertion meets much the same map. */
+void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
+{
+    enum { PITCH = 2000 };
+    const size_t columns = at_least_one(m / 4), rows = at_least_one(n / 4);
+    for (size_t i = 0; i < columns; i++) {
+        const int64_t x = (int64_t)i * PITCH + family_integer(&streams->p, -120, 120);
+        family_rectangle(p, x, -family_integer(&streams->p, 600, 1500), x + family_integer(&streams->p, 40, 120),
+                         family_integer(&streams->p, 600, 1500));
+    }
+    for (size_t i = 0; i < rows; i++) {
+        const int64_t y = (int64_t)i * PITCH + family_integer(&streams->q, -120, 120);
+        family_rectangle(q, -family_integer(&streams->q, 300, 900), y, family_integer(&streams->q, 300, 900),
+                         y + family_integer(&streams->q, 40, 120));
+    }
+}
+
+/* blocks and long bars + a ladder of plates: the sum of a block and a plate is nearly a square, and small; that of a bar and a
+ * plate is long, thin by any measure of shape, and covers the whole row of those squares. All rows together leave no gap,
+ * so the sum has order m + n vertices.
+ *
+ * Stoutest first inserts the m n / 2 squares, one beside the other, before the first bar buries them. A random order has a
+ * bar in each row after two insertions there, on average, and finds the rest covered. */
+void family_fat_cover(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
+{
+    enum { PITCH = 2000, BLOCK = 1200 };
+    const size_t half = at_least_one(m / 8), bars = at_least_one(m / 4 - half), rows = at_least_one(n / 4);
+    const int64_t length = (int64_t)(half + 1) * PITCH;
+    for (size_t i = 0; i < half; i++) {
+        const int64_t x = (int64_t)(i + 1) * PITCH - BLOCK / 2 + family_integer(&streams->p, -200, 200);
+        const int64_t y = family_integer(&streams->p, 50, 100);
+        family_rectangle(p, x, y, x + BLOCK, y + family_integer(&streams->p, 20, 50));
+    }
+    for (size_t i = 0; i < bars; i++)
+        family_rectangle(p, -family_integer(&streams->p, 1, 500), -family_integer(&streams->p, 1, 500),
+                         length + family_integer(&streams->p, 1, 500), PITCH + family_integer(&streams->p, 1, 500));
+    for (size_t i = 0; i < rows; i++) {
+        const int64_t y = (int64_t)i * PITCH;
+        family_rectangle(q, family_integer(&streams->q, -50, -20), y, family_integer(&streams->q, 20, 50), y + BLOCK);
+    }
+}
