@@ -1,5 +1,6 @@
 /* command_check.c: sunder check. The exact list of what overlaps or is too close, whoever made the layer. */
 #include "commands.h"
+#include "deliver.h"
 #include "layer_output.h"
 #include "message.h"
 #include "report.h"
@@ -12,48 +13,43 @@
 typedef struct check_run {
     const gis_options *options;
     gis_layer_input input;
+    char *layer;    /* LAYER_conflicts, unless --output-layer gives another name; the sink borrows it */
+    gis_sink *sink; /* NULL: no OUTPUT */
     sunder_report *report;
     sunder_layer_summary summary;
     gis_progress progress;
 } check_run;
 
-static bool check(check_run *run, gis_error *error)
+/* Opened before the work is done. */
+static bool open_sink(check_run *run, gis_error *error)
 {
-    sunder_layer_options how = gis_layer_core_options(&run->input);
-    sunder_error why;
-    gis_progress_stage(&run->progress, 0.3, 0.9);
-    how.progress = gis_progress_call;
-    how.progress_user = &run->progress;
-    sunder_status status = sunder_layer_check(run->input.layer, &how, &run->report, &why);
-    if (status == SUNDER_ECANCEL)
-        return gis_fail(error, "interrupted");
-    if (status == SUNDER_EARG)
-        return gis_fail_usage(error, "%s", why.message);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "layer %s: %s", gis_source_name(run->input.source), why.message);
-    sunder_report_summary(run->report, &run->summary);
-    return true;
+    const char *path = run->options->operand[1], *source = gis_source_name(run->input.source);
+    if (!path)
+        return true;
+    size_t size = strlen(source) + sizeof "_conflicts";
+    run->layer = malloc(size);
+    if (!run->layer)
+        return gis_no_memory(error);
+    snprintf(run->layer, size, "%s_conflicts", source);
+    gis_sink_request request = gis_options_sink(run->options, path, run->layer);
+    return gis_sink_open(&request, run->input.source, &run->sink, error);
 }
 
-/* LAYER_conflicts, or the name that --output-layer gives. */
-static bool write_layer(const check_run *run, const char *path, gis_error *error)
+/* All but the last step, which is gis_deliver()'s. */
+static bool check_and_write(check_run *run, gis_error *error)
 {
-    const char *source = gis_source_name(run->input.source);
-    size_t size = strlen(source) + sizeof "_conflicts";
-    char *name = malloc(size);
-    if (!name)
-        return gis_no_memory(error);
-    snprintf(name, size, "%s_conflicts", source);
-    gis_sink_request request = gis_options_sink(run->options, path, name);
-    gis_sink *sink;
     gis_sink_result result;
-    bool ok = gis_sink_open(&request, run->input.source, &sink, error);
-    if (ok) {
-        ok = gis_write_conflicts(sink, &run->input, run->report, "", error) && gis_output_finish(sink, &result, error);
-        gis_sink_free(sink);
-    }
-    free(name);
-    return ok;
+    if (!open_sink(run, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.3, 0.9);
+    if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.9, 1);
+    if (run->sink && (!gis_write_conflicts(run->sink, &run->input, run->report, "", error) ||
+                      !gis_sink_finish(run->sink, &result, error)))
+        return false;
+    gis_progress_done(&run->progress);
+    return true;
 }
 
 /* Tabs and line breaks in a user's key would break the columns: they become blanks. */
@@ -103,51 +99,44 @@ static bool print_lines(const check_run *run, gis_error *error)
     return ok;
 }
 
-static void print_summary(const check_run *run)
+static bool print(const void *checked, gis_error *error)
 {
-    const sunder_conflict_counts *counts = &run->summary.before;
-    printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, duplicate %zu, "
-           "inside blocks %zu\n",
-           gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
-           counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
-}
-
-static bool write_stats(const check_run *run, const char *path, gis_error *error)
-{
-    gis_json out = {0};
-    gis_json_open(&out, '{');
-    gis_json_key(&out, "command");
-    gis_json_string(&out, "check");
-    gis_json_key(&out, "features");
-    gis_json_size(&out, run->input.n);
-    gis_json_key(&out, "pairs_tested");
-    gis_json_size(&out, run->summary.pairs_tested);
-    gis_json_key(&out, "conflicts");
-    gis_json_conflict_counts(&out, &run->summary.before);
-    gis_json_close(&out, '}');
-    gis_json_raw(&out, "\n");
-    bool ok = (gis_json_text(&out) || gis_no_memory(error)) &&
-              gis_write_text(path, gis_json_text(&out), out.length, "--stats", error);
-    gis_json_clear(&out);
-    return ok;
-}
-
-static bool report(check_run *run, bool taken, gis_error *error)
-{
-    const char *stats = gis_stats_path(run->options), *output = run->options->operand[1];
-    gis_progress_stage(&run->progress, 0.9, 1);
-    if (output && !write_layer(run, output, error))
-        return false;
-    gis_progress_done(&run->progress);
-    if (stats && !write_stats(run, stats, error))
-        return false;
-    if (taken)
-        return true;
+    const check_run *run = checked;
     if (!print_lines(run, error))
         return false;
+    const sunder_conflict_counts *counts = &run->summary.before;
     if (!run->options->given[OPT_QUIET])
-        print_summary(run);
+        printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, "
+               "duplicate %zu, inside blocks %zu\n",
+               gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
+               counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
     return true;
+}
+
+static void json_check(gis_json *out, const check_run *run)
+{
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "check");
+    gis_json_key(out, "features");
+    gis_json_size(out, run->input.n);
+    gis_json_key(out, "pairs_tested");
+    gis_json_size(out, run->summary.pairs_tested);
+    gis_json_key(out, "conflicts");
+    gis_json_conflict_counts(out, &run->summary.before);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+static bool deliver(const check_run *run, bool taken, gis_error *error)
+{
+    gis_json stats = {0};
+    if (gis_stats_path(run->options))
+        json_check(&stats, run);
+    const gis_delivery delivery = {run->options, run->sink, &stats, taken ? NULL : print, run};
+    bool ok = gis_deliver(&delivery, error);
+    gis_json_clear(&stats);
+    return ok;
 }
 
 int gis_command_check(const gis_options *options)
@@ -156,10 +145,11 @@ int gis_command_check(const gis_options *options)
     check_run run = {.options = options, .progress = gis_progress_of(options)};
     bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
     gis_progress_stage(&run.progress, 0, 0.3);
-    ok = ok && gis_layer_input_read(options, &run.input, &error) && check(&run, &error) && report(&run, taken, &error);
-    int status = !ok ? gis_say_failure(&error)
-                 : gis_any_conflict(&run.summary.before) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
-                                                                                                 : GIS_DONE;
+    ok = ok && gis_layer_input_read(options, &run.input, &error) && check_and_write(&run, &error) &&
+         deliver(&run, taken, &error);
+    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.before);
+    gis_sink_free(run.sink);
+    free(run.layer);
     sunder_report_free(run.report);
     gis_layer_input_clear(&run.input);
     return status;

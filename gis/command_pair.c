@@ -1,8 +1,9 @@
 /* command_pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer
  * `pair`: the line from the anchor of Q to where it goes. */
 #include "commands.h"
+#include "deliver.h"
 #include "message.h"
-#include "report.h"
+#include "operand.h"
 
 static void json_pair(gis_json *out, const sunder_separation *answer)
 {
@@ -27,16 +28,6 @@ static void json_pair(gis_json *out, const sunder_separation *answer)
     gis_json_bool(out, answer->rounded_is_free);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
-}
-
-static bool print_pair(const sunder_separation *answer, const char *path, const char *what, gis_error *error)
-{
-    gis_json out = {0};
-    json_pair(&out, answer);
-    bool ok = (gis_json_text(&out) || gis_no_memory(error)) &&
-              gis_write_text(path, gis_json_text(&out), out.length, what, error);
-    gis_json_clear(&out);
-    return ok;
 }
 
 static bool add_translation(gis_sink *sink, const gis_operands *operands, const sunder_separation *answer,
@@ -71,17 +62,24 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
     return gis_sink_write(layer, NULL, line, values, error);
 }
 
-static bool write_pair(const gis_options *options, const gis_operands *operands, const sunder_separation *answer,
-                       gis_error *error)
+static bool open_sink(const gis_options *options, const gis_operands *operands, gis_sink **sink, gis_error *error)
 {
     gis_sink_request request = gis_options_sink(options, options->operand[2], "pair");
-    gis_sink *sink;
+    return gis_operands_spare(operands, options, options->operand[2], error) &&
+           gis_sink_open(&request, gis_operands_source(operands), sink, error);
+}
+
+static bool report(const gis_options *options, const gis_operands *operands, const sunder_separation *answer,
+                   gis_sink *sink, bool taken, gis_error *error)
+{
+    gis_json text = {0};
     gis_sink_result result;
-    if (!gis_operands_spare(operands, options, options->operand[2], error) ||
-        !gis_sink_open(&request, gis_operands_source(operands), &sink, error))
-        return false;
-    bool ok = add_translation(sink, operands, answer, error) && gis_output_finish(sink, &result, error);
-    gis_sink_free(sink);
+    json_pair(&text, answer);
+    const gis_delivery delivery = {options, sink, &text, sink || taken ? NULL : gis_print_json, &text};
+    bool ok = (gis_json_text(&text) || gis_no_memory(error)) &&
+              (!sink || (add_translation(sink, operands, answer, error) && gis_sink_finish(sink, &result, error))) &&
+              gis_deliver(&delivery, error);
+    gis_json_clear(&text);
     return ok;
 }
 
@@ -90,21 +88,18 @@ int gis_command_pair(const gis_options *options)
     gis_error error;
     gis_operands operands = {0};
     sunder_separation answer = {0};
+    gis_sink *sink = NULL;
     sunder_error why;
     double gap = 0;
-    const char *stats = gis_stats_path(options), *output = options->operand[2];
-    bool taken, ok = gis_stdout_taken(options, output, &taken, &error) && gis_stats_check(options, &error) &&
-                     gis_operands_read(options, &operands, &error);
+    bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error) &&
+                     gis_stats_check(options, &error) && gis_operands_read(options, &operands, &error);
     if (ok && options->given[OPT_GAP])
         ok = gis_length_in_layer_units(&options->length[OPT_GAP], &operands.rule, "--gap", &gap, &error);
+    ok = ok && (!options->operand[2] || open_sink(options, &operands, &sink, &error));
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
         ok = gis_fail(&error, "%s", why.message);
-    if (ok && output)
-        ok = write_pair(options, &operands, &answer, &error);
-    if (ok && stats)
-        ok = print_pair(&answer, stats, "--stats", &error);
-    if (ok && !output && !taken)
-        ok = print_pair(&answer, "-", "the translation", &error);
+    ok = ok && report(options, &operands, &answer, sink, taken, &error);
+    gis_sink_free(sink);
     sunder_separation_clear(&answer);
     gis_operands_clear(&operands);
     return ok ? GIS_DONE : gis_say_failure(&error);

@@ -1,48 +1,28 @@
 /* command_separate.c: sunder separate. Read, separate, write, say what came of it. */
 #include "commands.h"
+#include "deliver.h"
 #include "layer_output.h"
 #include "message.h"
 #include "report.h"
 
 #include <cpl_conv.h>
-#include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct separate_run {
     const gis_options *options;
     gis_layer_input input;
+    const char *suffixes[4]; /* of the layers besides the main one; the sink borrows them */
+    gis_sink *sink;
     sunder_report *report;
     sunder_layer_summary summary;
     gis_progress progress;
     bool verified;
-    gis_json losses; /* ready as JSON, since the sink that lists them is gone when they are printed */
-    double start, read, solve, write;
+    double start, read, write;
 } separate_run;
 
-static bool solve(separate_run *run, gis_error *error)
+static bool write_layers(const separate_run *run, unsigned chosen, gis_error *error)
 {
-    sunder_layer_options how = gis_layer_core_options(&run->input);
-    sunder_error why;
-    gis_progress_stage(&run->progress, 0.1, 0.8);
-    how.progress = gis_progress_call;
-    how.progress_user = &run->progress;
-    double begin = gis_clock();
-    sunder_status status = sunder_layer_separate(run->input.layer, &how, &run->report, &why);
-    if (status == SUNDER_ECANCEL)
-        return gis_fail(error, "interrupted");
-    if (status == SUNDER_EARG)
-        return gis_fail_usage(error, "%s", why.message);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "layer %s: %s", gis_source_name(run->input.source), why.message);
-    run->solve = gis_clock() - begin;
-    sunder_report_summary(run->report, &run->summary);
-    return true;
-}
-
-static bool write_layers(const separate_run *run, gis_sink *sink, unsigned chosen, gis_error *error)
-{
+    gis_sink *sink = run->sink;
     const gis_layer_input *input = &run->input;
     if ((chosen & GIS_LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
         return false;
@@ -54,65 +34,45 @@ static bool write_layers(const separate_run *run, gis_sink *sink, unsigned chose
 }
 
 /* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
-static bool open_sink(const separate_run *run, const char *const *suffixes, gis_sink **sink, gis_error *error)
+static bool open_sink(separate_run *run, unsigned *chosen, gis_error *error)
 {
+    size_t n = 0;
+    if (!gis_layers_chosen(run->options, run->input.points, chosen, error))
+        return false;
+    if (*chosen & GIS_LAYER_DISPLACEMENT)
+        run->suffixes[n++] = "displacement";
+    if (*chosen & GIS_LAYER_CONFLICTS)
+        run->suffixes[n++] = "conflicts";
+    if (*chosen & GIS_LAYER_SYMBOLS)
+        run->suffixes[n++] = "symbols";
     gis_sink_request request =
         gis_options_sink(run->options, run->options->operand[1], gis_source_name(run->input.source));
-    request.suffixes = suffixes;
-    return gis_sink_open(&request, run->input.source, sink, error);
+    request.suffixes = run->suffixes;
+    if (!gis_sink_open(&request, run->input.source, &run->sink, error))
+        return false;
+    if (!gis_sink_takes_more(run->sink))
+        *chosen = GIS_LAYER_MAIN;
+    return true;
 }
 
-static void note_losses(separate_run *run, const gis_sink *sink, const gis_sink_result *result)
-{
-    run->verified = run->summary.verified && result->exact;
-    const gis_list *losses = gis_sink_losses(sink);
-    gis_json_open(&run->losses, '[');
-    for (size_t i = 0; i < losses->n; i++)
-        gis_json_string(&run->losses, losses->items[i]);
-    if (!result->exact) {
-        char sentence[160];
-        if (isfinite(result->deviation))
-            snprintf(sentence, sizeof sentence, "the format rounds coordinates: they are off by up to %.9g",
-                     result->deviation);
-        else
-            snprintf(sentence, sizeof sentence, "the format changes geometries: they do not read back as written");
-        gis_say_warning("%s", sentence);
-        gis_json_string(&run->losses, sentence);
-    }
-    gis_json_close(&run->losses, ']');
-}
-
+/* All but the last step, which is gis_deliver()'s. */
 static bool solve_and_write(separate_run *run, gis_error *error)
 {
     unsigned chosen;
-    gis_sink *sink;
     gis_sink_result result;
-    const char *suffixes[4] = {NULL};
-    if (!gis_layers_chosen(run->options, run->input.points, &chosen, error))
+    if (!open_sink(run, &chosen, error))
         return false;
-    size_t n = 0;
-    if (chosen & GIS_LAYER_DISPLACEMENT)
-        suffixes[n++] = "displacement";
-    if (chosen & GIS_LAYER_CONFLICTS)
-        suffixes[n++] = "conflicts";
-    if (chosen & GIS_LAYER_SYMBOLS)
-        suffixes[n++] = "symbols";
-    if (!open_sink(run, suffixes, &sink, error))
+    gis_progress_stage(&run->progress, 0.1, 0.8);
+    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
-    if (!gis_sink_takes_more(sink))
-        chosen = GIS_LAYER_MAIN;
-    bool ok = solve(run, error);
+    gis_progress_stage(&run->progress, 0.8, 1);
     double begin = gis_clock();
-    if (ok)
-        gis_progress_stage(&run->progress, 0.8, 1);
-    ok = ok && write_layers(run, sink, chosen, error) && gis_output_finish(sink, &result, error);
-    if (ok)
-        note_losses(run, sink, &result);
-    gis_sink_free(sink);
+    if (!write_layers(run, chosen, error) || !gis_sink_finish(run->sink, &result, error))
+        return false;
     run->write = gis_clock() - begin;
-    if (ok)
-        gis_progress_done(&run->progress);
-    return ok;
+    run->verified = run->summary.verified && result.exact;
+    gis_progress_done(&run->progress);
+    return true;
 }
 
 static void json_number(gis_json *out, const char *key, double value)
@@ -165,6 +125,14 @@ static const char *unit_name(const separate_run *run)
     return name ? name : "unknown"; /* the CRS owns it */
 }
 
+static void json_losses(gis_json *out, const gis_list *losses)
+{
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < losses->n; i++)
+        gis_json_string(out, losses->items[i]);
+    gis_json_close(out, ']');
+}
+
 static void json_separate(gis_json *out, const separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -202,7 +170,7 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_key(out, "verified");
     gis_json_bool(out, run->verified);
     gis_json_key(out, "losses");
-    gis_json_raw(out, gis_json_text(&run->losses));
+    json_losses(out, gis_sink_losses(run->sink));
     gis_json_line(out);
     gis_json_key(out, "seconds");
     gis_json_open(out, '{');
@@ -217,20 +185,10 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_raw(out, "\n");
 }
 
-static bool write_stats(const separate_run *run, const char *path, gis_error *error)
+static bool print_summary(const void *separated, gis_error *error)
 {
-    gis_json out = {0};
-    if (!gis_json_text(&run->losses))
-        return gis_no_memory(error);
-    json_separate(&out, run);
-    bool ok = (gis_json_text(&out) || gis_no_memory(error)) &&
-              gis_write_text(path, gis_json_text(&out), out.length, "--stats", error);
-    gis_json_clear(&out);
-    return ok;
-}
-
-static void print_summary(const separate_run *run)
-{
+    const separate_run *run = separated;
+    (void)error; /* what stdio refuses shows when it is flushed */
     const sunder_layer_summary *summary = &run->summary;
     const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
     const struct {
@@ -257,16 +215,19 @@ static void print_summary(const separate_run *run)
            optimality_gap(summary));
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
            gis_clock() - run->start);
+    return true;
 }
 
-static bool report(const separate_run *run, bool taken, gis_error *error)
+static bool deliver(const separate_run *run, bool taken, gis_error *error)
 {
-    const char *stats = gis_stats_path(run->options);
-    if (stats && !write_stats(run, stats, error))
-        return false;
-    if (!taken && !run->options->given[OPT_QUIET])
-        print_summary(run);
-    return true;
+    gis_json stats = {0};
+    if (gis_stats_path(run->options))
+        json_separate(&stats, run);
+    const gis_delivery delivery = {run->options, run->sink, &stats,
+                                   taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+    bool ok = gis_deliver(&delivery, error);
+    gis_json_clear(&stats);
+    return ok;
 }
 
 int gis_command_separate(const gis_options *options)
@@ -277,11 +238,9 @@ int gis_command_separate(const gis_options *options)
     gis_progress_stage(&run.progress, 0, 0.1);
     ok = ok && gis_layer_input_read(options, &run.input, &error);
     run.read = gis_clock() - run.start;
-    ok = ok && solve_and_write(&run, &error) && report(&run, taken, &error);
-    int status = !ok ? gis_say_failure(&error)
-                 : gis_any_conflict(&run.summary.after) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
-                                                                                                 : GIS_DONE;
-    gis_json_clear(&run.losses);
+    ok = ok && solve_and_write(&run, &error) && deliver(&run, taken, &error);
+    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.after);
+    gis_sink_free(run.sink);
     sunder_report_free(run.report);
     gis_layer_input_clear(&run.input);
     return status;

@@ -1,6 +1,8 @@
 /* command_sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
 #include "commands.h"
+#include "deliver.h"
 #include "message.h"
+#include "operand.h"
 #include "report.h"
 #include "sum_layers.h"
 
@@ -226,17 +228,6 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
     return true;
 }
 
-static bool print_json(const sum_run *run, const char *path, const char *geometry, const char *what, gis_error *error)
-{
-    gis_json out = {0};
-    bool ok = json_sum(&out, run, geometry, error);
-    if (ok && !gis_json_text(&out))
-        ok = gis_no_memory(error);
-    ok = ok && gis_write_text(path, gis_json_text(&out), out.length, what, error);
-    gis_json_clear(&out);
-    return ok;
-}
-
 /* Opened before the work is done: what can be refused is refused at once. */
 static bool open_sink(sum_run *run, const char *path, gis_error *error)
 {
@@ -247,35 +238,35 @@ static bool open_sink(sum_run *run, const char *path, gis_error *error)
            gis_sink_open(&run->request, gis_operands_source(&run->operands), &run->sink, error);
 }
 
+/* All but the last step, which is gis_deliver()'s. */
 static bool write_layers(sum_run *run, gis_error *error)
 {
     gis_sink_result result;
     if (!gis_write_sum(run->sink, run->sum, run->operands.crs, &run->max_deviation, error) ||
-        !gis_output_finish(run->sink, &result, error))
+        !gis_sink_finish(run->sink, &result, error))
         return false;
     if (!result.exact)
         run->max_deviation += result.deviation;
     return true;
 }
 
-static bool report(sum_run *run, gis_error *error)
+static bool report(sum_run *run, bool taken, gis_error *error)
 {
-    const char *output = run->options->operand[2], *stats = gis_stats_path(run->options);
-    bool taken, ok = true;
+    bool wanted = !run->sink && !taken; /* the whole sum, on standard output */
+    gis_json geometry = {.need_comma = true}, whole = {0}, stats = {0};
     double begin = gis_clock();
-    if (!gis_stdout_taken(run->options, output, &taken, error))
-        return false;
-    gis_json geometry = {.need_comma = true};
-    if (output)
-        ok = write_layers(run, error);
-    else if (!taken)
-        ok = json_geometry(&geometry, run, error) && (gis_json_text(&geometry) || gis_no_memory(error));
+    bool ok = run->sink ? write_layers(run, error)
+                        : !wanted || (json_geometry(&geometry, run, error) &&
+                                      (gis_json_text(&geometry) || gis_no_memory(error)));
     run->write = gis_clock() - begin;
-    if (ok && stats)
-        ok = print_json(run, stats, NULL, "--stats", error);
-    if (ok && !output && !taken)
-        ok = print_json(run, "-", gis_json_text(&geometry), "the sum", error);
+    ok = ok && (!gis_stats_path(run->options) || json_sum(&stats, run, NULL, error));
+    ok = ok && (!wanted || (json_sum(&whole, run, gis_json_text(&geometry), error) &&
+                            (gis_json_text(&whole) || gis_no_memory(error))));
+    const gis_delivery delivery = {run->options, run->sink, &stats, wanted ? gis_print_json : NULL, &whole};
+    ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&geometry);
+    gis_json_clear(&whole);
+    gis_json_clear(&stats);
     return ok;
 }
 
@@ -287,7 +278,7 @@ int gis_command_sum(const gis_options *options)
     ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
     run.read = gis_clock() - run.start - run.operands.building;
     ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));
-    ok = ok && compute(&run, &error) && report(&run, &error);
+    ok = ok && compute(&run, &error) && report(&run, taken, &error);
     gis_sink_free(run.sink);
     sunder_sum_free(run.sum);
     sunder_shape_free(run.reflected);

@@ -1,14 +1,11 @@
 /* json.c: see json.h. */
 #include "json.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 void gis_json_clear(gis_json *out)
 {
@@ -160,43 +157,4 @@ void gis_number_text(double value, char text[GIS_NUMBER_MAX])
         if (strtod(text, NULL) == value)
             return;
     }
-}
-
-static bool write_stdout(const char *text, size_t length, const char *what, gis_error *error)
-{
-    if (fwrite(text, 1, length, stdout) == length && fflush(stdout) == 0)
-        return true;
-    return gis_fail(error, "%s: cannot write to standard output: %s", what, strerror(errno));
-}
-
-bool gis_write_text(const char *path, const char *text, size_t length, const char *what, gis_error *error)
-{
-    if (strcmp(path, "-") == 0)
-        return write_stdout(text, length, what, error);
-    /* A pipe or a device (/dev/stdout, /dev/null) cannot be renamed over: it is written straight. */
-    struct stat info;
-    bool special = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
-    size_t size = strlen(path) + 32;
-    char *name = malloc(size);
-    if (!name)
-        return gis_no_memory(error);
-    if (special)
-        snprintf(name, size, "%s", path);
-    else
-        snprintf(name, size, "%s.%ld.part", path, (long)getpid());
-    FILE *file = fopen(name, "w");
-    bool ok = file != NULL;
-    if (file) {
-        ok = fwrite(text, 1, length, file) == length;
-        ok = fclose(file) == 0 && ok;
-    }
-    if (ok && !special)
-        ok = rename(name, path) == 0;
-    if (!ok) {
-        gis_fail(error, "%s: cannot write %s: %s", what, path, strerror(errno));
-        if (file && !special)
-            remove(name);
-    }
-    free(name);
-    return ok;
 }

@@ -7,8 +7,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "error.h"
-
 typedef struct gis_json {
     char *text;
     size_t length, capacity;
@@ -36,9 +34,5 @@ void gis_json_raw(gis_json *out, const char *text); /* as it is, commas and all;
 /* The shortest decimal that reads back as the same double, at most 32 bytes with its end; -0 is 0. */
 #define GIS_NUMBER_MAX 32
 void gis_number_text(double value, char text[GIS_NUMBER_MAX]);
-
-/* Writes the text to a file as a whole or not at all (a temporary name beside it, then a rename); "-" is stdout. `what`
- * names the file's role in the message of a failure. */
-bool gis_write_text(const char *path, const char *text, size_t length, const char *what, gis_error *error);
 
 #endif

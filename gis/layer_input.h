@@ -3,6 +3,7 @@
 #define GIS_LAYER_INPUT_H
 
 #include "operand.h"
+#include "report.h"
 #include "sunder.h"
 
 typedef struct gis_layer_input {
@@ -37,7 +38,11 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-wh
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);  /* --block-field */
 bool gis_layer_weights(gis_layer_input *input, gis_error *error); /* --weight, --weight-field */
 
-/* The options of the core. */
-sunder_layer_options gis_layer_core_options(const gis_layer_input *input);
+/* sunder_layer_separate or sunder_layer_check. */
+typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,
+                                     sunder_report **out, sunder_error *err);
+/* Has the core do it, after the options; a call that it refuses as wrong is wrong usage. */
+bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
+                   sunder_layer_summary *summary, gis_error *error);
 
 #endif

@@ -183,7 +183,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
     return true;
 }
 
-sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
+static sunder_layer_options core_options(const gis_layer_input *input)
 {
     const gis_options *options = input->options;
     /* Symbols that lie on each other are what a layer of points is separated for; buildings that do belong together. */
@@ -200,4 +200,22 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     double threads = options->given[OPT_THREADS] ? options->number[OPT_THREADS] : 0;
     core.threads = threads > 4096 ? 4096 : (unsigned)threads;
     return core;
+}
+
+bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
+                   sunder_layer_summary *summary, gis_error *error)
+{
+    sunder_layer_options how = core_options(input);
+    sunder_error why;
+    how.progress = gis_progress_call;
+    how.progress_user = progress;
+    sunder_status status = work(input->layer, &how, report, &why);
+    if (status == SUNDER_ECANCEL)
+        return gis_fail(error, "interrupted");
+    if (status == SUNDER_EARG)
+        return gis_fail_usage(error, "%s", why.message);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why.message);
+    sunder_report_summary(*report, summary);
+    return true;
 }

@@ -3,15 +3,12 @@
 
 #include "message.h"
 
-#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 double gis_clock(void)
 {
@@ -64,40 +61,10 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
     gis_json_close(out, '}');
 }
 
-const char *gis_stats_path(const gis_options *options)
+int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts)
 {
-    return options->given[OPT_STATS] ? options->text[OPT_STATS] : NULL;
-}
-
-bool gis_stats_check(const gis_options *options, gis_error *error)
-{
-    const char *path = gis_stats_path(options);
-    struct stat info;
-    if (!path || strcmp(path, "-") == 0)
-        return true;
-    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
-        return gis_fail(error, "--stats: %s is a directory", path);
-    char directory[4096];
-    const char *slash = strrchr(path, '/');
-    snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
-    if (access(directory, W_OK) != 0)
-        return gis_fail(error, "--stats: cannot write to %s: %s", directory, strerror(errno));
-    return true;
-}
-
-bool gis_any_conflict(const sunder_conflict_counts *counts)
-{
-    return counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
-}
-
-bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error)
-{
-    bool by_stats = options->given[OPT_STATS] && strcmp(options->text[OPT_STATS], "-") == 0;
-    bool by_layer = output && strncmp(output, "/vsistdout", 10) == 0;
-    if (by_stats && by_layer)
-        return gis_fail_usage(error, "--stats - and the output /vsistdout/ cannot share standard output");
-    *taken = by_stats || by_layer;
-    return true;
+    bool any = counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
+    return any && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS : GIS_DONE;
 }
 
 /* The one variable of the program that is not handed from function to function: a signal has no other way in. */
@@ -171,31 +138,4 @@ void gis_progress_done(gis_progress *progress)
     gis_progress_stage(progress, 1, 1);
     if (progress->kind == GIS_PROGRESS_BAR)
         fputs(" - done.\n", stderr);
-}
-
-gis_sink_request gis_options_sink(const gis_options *options, const char *path, const char *main_layer)
-{
-    return (gis_sink_request){
-        .path = path,
-        .format = options->text[OPT_OF],
-        .layer_options = options->list[OPT_LCO],
-        .dataset_options = options->list[OPT_CO],
-        .main_layer = options->given[OPT_OUTPUT_LAYER] ? options->text[OPT_OUTPUT_LAYER] : main_layer,
-        .overwrite = options->given[OPT_OVERWRITE],
-        .update = options->given[OPT_UPDATE],
-        .overwrite_layer = options->given[OPT_OVERWRITE_LAYER],
-        .strict = options->given[OPT_STRICT],
-        .allow_inexact = options->given[OPT_ALLOW_INEXACT_OUTPUT],
-        .no_styles = options->given[OPT_NO_STYLES],
-    };
-}
-
-bool gis_output_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
-{
-    bool ok = gis_sink_commit(sink, result, error);
-    if (ok) {
-        gis_say_warnings(gis_sink_warnings(sink));
-        gis_say_warnings(gis_sink_losses(sink));
-    }
-    return ok;
 }

@@ -3,8 +3,7 @@
 #define GIS_REPORT_H
 
 #include "json.h"
-#include "operand.h"
-#include "sink.h"
+#include "options.h"
 #include "sunder.h"
 
 /* Seconds of a clock that never goes back. */
@@ -17,15 +16,8 @@ void gis_json_seconds(gis_json *out, const char *key, double seconds);
 void gis_json_operations(gis_json *out, const sunder_operations *operations);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
 
-/* Where --stats goes; NULL if nowhere. */
-const char *gis_stats_path(const gis_options *options);
-/* Can the file of --stats be made? Asked before the work, so that its failure does not come when all is done. */
-bool gis_stats_check(const gis_options *options, gis_error *error);
-/* Is anything in conflict between blocks? */
-bool gis_any_conflict(const sunder_conflict_counts *counts);
-/* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
- * once is wrong usage. */
-bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error);
+/* The exit status: is anything in conflict between blocks, and does that matter? */
+int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts);
 
 /* From here on SIGINT and SIGTERM do not end the process but make gis_interrupted() true (and the next one ends it), so
  * that temporary files go. */
@@ -45,11 +37,5 @@ void gis_progress_stage(gis_progress *progress, double from, double to);
 /* A sunder_progress; user is a gis_progress. False when a signal asked to stop. */
 bool gis_progress_call(double fraction, void *user);
 void gis_progress_done(gis_progress *progress);
-
-/* The options of the output; `main_layer` is its name unless --output-layer says another. */
-gis_sink_request gis_options_sink(const gis_options *options, const char *path, const char *main_layer);
-
-/* Commits, and prints what the sink has to warn of: warnings, losses. */
-bool gis_output_finish(gis_sink *sink, gis_sink_result *result, gis_error *error);
 
 #endif

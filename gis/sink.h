@@ -3,8 +3,9 @@
  *   gis_sink_open      checks what can be checked before the work: format, permission, what exists
  *   gis_sink_add       adds a layer; the first is the main one. Write it whole before adding the next:
  *   gis_sink_write     one feature
- *   gis_sink_commit    closes, reads back where the format may have rounded, and puts all in place
- *   gis_sink_free      after a commit: releases; without one: undoes everything
+ *   gis_sink_finish    closes, and reads back where the format may have rounded
+ *   gis_sink_publish   puts all in place
+ *   gis_sink_free      when published: releases; else: undoes everything
  *
  * Files are made in a new directory beside the output and renamed into place; the main file last; an update works on
  * a copy. A database gets one transaction. /vsistdout/ gets the main layer only, when it is complete. */
@@ -98,16 +99,18 @@ typedef struct gis_sink_result {
                          or the geometries are not there */
 } gis_sink_result;
 
-/* Closes everything (errors of closing count), compares with what was sent where the format needs it, applies strict,
- * renames. On failure what was there before is there again. Once only; then gis_sink_free(). */
-bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error);
+/* Closes everything (errors of closing count), compares with what was sent where the format needs it, applies strict:
+ * all that can fail, but for the last step. Once only. */
+bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error);
+/* The last step: renames, or ends the transaction. On failure what was there before is there again. */
+bool gis_sink_publish(gis_sink *sink, gis_error *error);
 void gis_sink_free(gis_sink *sink);
 
-/* What the format could not hold, a sentence each (a field is named once); complete after the commit. */
+/* What the format could not hold, a sentence each (a field is named once); complete when finished. */
 const gis_list *gis_sink_losses(const gis_sink *sink);
 /* Other things worth a warning (fields replaced, what GDAL said). */
 const gis_list *gis_sink_warnings(const gis_sink *sink);
-/* Where the main layer can be opened after the commit, and its name there. */
+/* Where the main layer can be opened when published, and its name there. */
 const char *gis_sink_layer_name(const gis_sink_layer *layer);
 
 #endif

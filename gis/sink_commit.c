@@ -7,6 +7,7 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -167,7 +168,7 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* ---- Commit ----------------------------------------------------------------------------------------------- */
+/* ---- Finish and publish ----------------------------------------------------------------------------------------------- */
 
 static bool write_styles(gis_sink *sink, gis_error *error)
 {
@@ -204,26 +205,38 @@ static bool close_all(gis_sink *sink, gis_error *error)
     return gis_sink_close(sink, NULL, error);
 }
 
-bool gis_sink_commit(gis_sink *sink, gis_sink_result *result, gis_error *error)
+/* A format that rounds or changes geometries loses something, too. */
+static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
+{
+    if (seen->exact)
+        return;
+    if (isfinite(seen->deviation))
+        gis_list_add(&sink->losses, "the format rounds coordinates: they are off by up to %.9g", seen->deviation);
+    else
+        gis_list_add(&sink->losses, "the format changes geometries: they do not read back as written");
+}
+
+bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     gis_sink_result seen = {true, 0};
     if (sink->place == GIS_PLACE_DATABASE) {
         if (!gis_sink_flush(sink, error))
             return false;
         inspect_database(sink, &seen);
-        if (!apply_strict(sink, error) || !close_all(sink, error))
-            return false;
-    } else {
-        if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error))
-            return false;
-        if (!inspect(sink, &seen, error) || !apply_strict(sink, error))
-            return false;
-        bool placed = sink->place == GIS_PLACE_FILE ? gis_stage_publish(sink->stage, sink->request.overwrite, error)
-                                                    : publish_memory(sink, error);
-        if (!placed)
-            return false;
+    } else if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error) ||
+               !inspect(sink, &seen, error)) {
+        return false;
     }
-    sink->committed = true;
+    note_inexact(sink, &seen);
+    if (!apply_strict(sink, error))
+        return false;
     *result = seen;
     return true;
+}
+
+bool gis_sink_publish(gis_sink *sink, gis_error *error)
+{
+    return sink->place == GIS_PLACE_DATABASE ? close_all(sink, error)
+           : sink->place == GIS_PLACE_FILE   ? gis_stage_publish(sink->stage, sink->request.overwrite, error)
+                                             : publish_memory(sink, error);
 }

@@ -62,7 +62,7 @@ struct gis_sink {
     char *memory;      /* directory of GIS_PLACE_MEMORY */
     char *main_file;   /* base name of the main file in the stage */
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
-    bool in_transaction, set_date, set_rewind, committed;
+    bool in_transaction, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;
     gis_list losses, warnings;

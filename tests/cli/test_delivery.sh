@@ -1,0 +1,74 @@
+# shellcheck shell=bash disable=SC1091
+# The end of a run: the output, the file of --stats and standard output all come, or no file has changed. What fails here
+# fails after all the work is done.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+X
+echo 'of an earlier run' >s.json
+echo precious >taken.dbf
+
+# failed WORDS STDOUT ARGS: status 1, one line on stderr, and every file as it was.
+failed() {
+    local words=$1 to=$2 status=0
+    shift 2
+    listing >before
+    "$SUNDER" "$@" >"$to" 2>err || status=$?
+    listing >after
+    [ "$status" -eq 1 ] || fail "exit status $status, not 1: sunder $*"
+    [ "$(wc -l <err)" -eq 1 ] && grep -q '^sunder: error: ..' err || fail "not one line: sunder $*"
+    says err "$words"
+    cmp -s before after || fail "files changed: sunder $* $(diff before after)"
+}
+
+if [ -w /dev/full ]; then
+    full='No space left on device'
+    for stats in "" "--stats s.json" "--stats new.json" "--stats -"; do
+        for command in "separate in.gpkg o.gpkg" "separate in.gpkg o.shp" "check in.gpkg" "check in.gpkg o.gpkg" \
+            "sum square:1 square:1" "pair square:1 square:1"; do
+            # shellcheck disable=SC2086 # words
+            failed "$full" /dev/full $command $stats
+        done
+    done
+    failed "$full" /dev/full sum square:1 square:1 o.gpkg --stats -
+    failed "$full" /dev/full pair square:1 square:1 o.gpkg --stats -
+    failed "$full" /dev/full separate in.gpkg /vsistdout/ --of GeoJSON --stats s.json
+    for command in "separate in.gpkg o.gpkg" "separate in.gpkg o.shp" "check in.gpkg o.gpkg" "sum square:1 square:1 o.gpkg" \
+        "pair square:1 square:1 o.gpkg" "check in.gpkg" "sum square:1 square:1" "pair square:1 square:1"; do
+        # shellcheck disable=SC2086 # words
+        failed "--stats: cannot write /dev/full: $full" out $command --stats /dev/full
+        [ ! -s out ] || fail "something on stdout: $command"
+    done
+    expect 0 separate in.gpkg kept.gpkg -q
+    failed "$full" /dev/full separate in.gpkg kept.gpkg --overwrite
+    failed "$full" /dev/full separate in.gpkg kept.gpkg --update --output-layer other
+else
+    echo "not tried: there is no /dev/full"
+fi
+
+# A file of the output that is in the way shows at the last step: the statistics, which are in place by then, go again.
+failed 'taken.dbf' out separate in.gpkg taken.shp --stats s.json --quiet
+failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet
+
+refused 1 '--stats' separate in.gpkg o.gpkg --stats /proc/nothing.json
+refused 2 'that is the output' separate in.gpkg o.gpkg --stats ./o.gpkg
+refused 2 'that is an input' separate in.gpkg o.gpkg --stats ./in.gpkg
+refused 2 'that is an input' check in.gpkg --stats in.gpkg
+echo 'POLYGON((0 0,1 0,0 1))' >p.wkt
+refused 2 'that is an input' sum @p.wkt square:1 --stats p.wkt
+chmod 444 s.json
+[ -w s.json ] || refused 1 's.json' separate in.gpkg o.gpkg --stats s.json # (root writes everything)
+chmod 644 s.json
+
+# What succeeds replaces the statistics, also through a link, which stays one, and leaves nothing else.
+ln -s s.json link.json
+listing | cut -d' ' -f1 >before
+expect 0 sum @p.wkt square:1 --stats link.json
+listing | cut -d' ' -f1 >after
+cmp -s before after || fail "other files than before: $(diff before after)"
+[ -L link.json ] || fail "the link was replaced"
+same "$(json .command s.json)" sum "the statistics"
+finish
