@@ -38,14 +38,15 @@ typedef struct fork_plan {
     int64_t left, right;  /* where the upward ones begin: P's at -left, Q's at right */
 } fork_plan;
 
-static size_t fork_teeth(size_t n) { return n < 16 ? 1 : n / 8; }
+/* In either direction: four vertices each, three if pointed. */
+static size_t fork_teeth(size_t n, bool slanted) { return n < 16 ? 1 : slanted ? n / 6 - 1 : n / 8; }
 
 static fork_plan plan_fork(size_t m, size_t n, bool slanted)
 {
     fork_plan f;
     f.pitch = slanted ? 48 : 8;
     f.thick = slanted ? 12 : 2;
-    f.extent = f.pitch * (int64_t)(fork_teeth(m) * fork_teeth(n));
+    f.extent = f.pitch * (int64_t)(fork_teeth(m, slanted) * fork_teeth(n, slanted));
     f.length = f.extent + 4 * f.pitch;
     f.at = f.length / 2 + f.pitch;
     f.left = f.extent + f.pitch;
@@ -122,8 +123,8 @@ static void fork_q(family_set *set, town_random *random, size_t teeth, const for
 static void forks(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams, bool slanted)
 {
     const fork_plan f = plan_fork(m, n, slanted);
-    fork_p(p, &streams->p, fork_teeth(m), &f, slanted);
-    fork_q(q, &streams->q, fork_teeth(n), &f, f.pitch * (int64_t)fork_teeth(m), slanted);
+    fork_p(p, &streams->p, fork_teeth(m, slanted), &f, slanted);
+    fork_q(q, &streams->q, fork_teeth(n, slanted), &f, f.pitch * (int64_t)fork_teeth(m, slanted), slanted);
 }
 
 void family_fork(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)

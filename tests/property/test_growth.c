@@ -1,0 +1,202 @@
+/* How large the sums of the families are, and how much is done for them, as functions of the sizes of P and Q: counts of the
+ * output and of operations, never time. The families come from sunder-families, so this asks too whether the generator draws
+ * what it says. */
+#include "polyset.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SKIPPED 77
+
+typedef struct growth {
+    size_t m, n; /* vertices of P and of Q */
+    sunder_sum_counts out;
+    sunder_operations operations;
+} growth;
+
+static char *program(void)
+{
+    const char *build = getenv("SUNDER_BUILD");
+    return test_format("%s/sunder-families", build ? build : ".");
+}
+
+/* What sunder-families prints with these arguments. */
+static char *generated(const char *arguments)
+{
+    char *path = program(), *command = test_format("'%s' %s", path, arguments);
+    FILE *pipe = popen(command, "r");
+    size_t n = 0, room = 1 << 16;
+    char *text = test_alloc(room, 1);
+    assert_non_null(pipe);
+    for (size_t got; (got = fread(text + n, 1, room - n - 1, pipe)) > 0; n += got)
+        if (room - n - got < 1024) text = test_resize(text, room *= 2, 1);
+    text[n] = '\0';
+    if (pclose(pipe) != 0) fail_msg("%s failed", command);
+    free(path);
+    free(command);
+    return text;
+}
+
+static growth grow(const char *family, size_t m, size_t n, unsigned seed)
+{
+    char *arguments = test_format("%s --size %zu --size-q %zu --seed %u", family, m, n, seed), *text = generated(arguments);
+    const char *end;
+    polyset p, q;
+    assert_true(polyset_read_wkt(&p, text, &end) && polyset_read_wkt(&q, end, NULL));
+    sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
+    sunder_sum *sum = NULL;
+    assert_true(a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK);
+    growth g = {.m = sunder_shape_vertices(a), .n = sunder_shape_vertices(b)};
+    sunder_sum_count(sum, &g.out);
+    sunder_sum_operations(sum, &g.operations);
+    print_message("%-40s %zu + %zu: %zu vertices, %zu holes, %llu crossings\n", arguments, g.m, g.n, g.out.vertices, g.out.holes,
+                  (unsigned long long)g.operations.segment_intersections);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    polyset_free(&p);
+    polyset_free(&q);
+    free(text);
+    free(arguments);
+    return g;
+}
+
+/* low <= b / a <= high */
+static void assert_ratio(size_t a, size_t b, size_t low, size_t high)
+{
+    if (b < low * a || b > high * a) fail_msg("%zu is not %zu to %zu times %zu", b, low, high, a);
+}
+
+static void test_convex(void **state)
+{
+    static const size_t sizes[][2] = {{8, 8}, {8, 200}, {50, 13}, {400, 400}, {9, 3000}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        for (unsigned seed = 1; seed <= 5; seed++) {
+            const growth g = grow("convex", sizes[i][0], sizes[i][1], seed);
+            assert_int_equal(g.out.polygons, 1);
+            assert_int_equal(g.out.holes + g.out.degenerate_segments + g.out.degenerate_points, 0);
+            assert_true(g.out.vertices <= g.m + g.n);
+        }
+}
+
+/* Half of the m vertices are tips, and each tip shows nearly half of Q. */
+static void test_comb(void **state)
+{
+    growth before = grow("comb", 20, 20, 1);
+    for (size_t n = 40; n <= 640; n *= 2) {
+        const growth g = grow("comb", n, n, 1), wider = grow("comb", n, 2 * n, 1), longer = grow("comb", 2 * n, n, 1);
+        assert_true(8 * g.out.vertices >= g.m * g.n && g.out.vertices <= g.m * g.n);
+        assert_ratio(before.out.vertices, g.out.vertices, 3, 5);
+        assert_true(2 * wider.out.vertices > 3 * g.out.vertices && 2 * wider.out.vertices < 5 * g.out.vertices);
+        assert_true(2 * longer.out.vertices > 3 * g.out.vertices && 2 * longer.out.vertices < 5 * g.out.vertices);
+        before = g;
+    }
+}
+
+/* The holes of the grid, and no more vertices than crossings of all pairs of sums of teeth allow. */
+static void test_fork(void **state)
+{
+    static const char *const names[] = {"fork", "slanted-fork"};
+    for (int slanted = 0; slanted < 2; slanted++) {
+        growth before = {0};
+        for (size_t n = 16; n <= 128; n *= 2) {
+            const size_t teeth = n == 16 ? slanted ? 1 : 2 : slanted ? n / 6 - 1 : n / 8;
+            const growth g = grow(names[slanted], n, n, 1);
+            assert_true(g.out.holes >= (teeth * teeth - 1) * (teeth * teeth - 1));
+            assert_true(g.out.vertices <= g.m * g.m * g.n * g.n);
+            if (n > 32) assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more while the forks are short */
+            if (n > 32) assert_ratio(before.operations.segment_intersections, g.operations.segment_intersections, 8, 40);
+            before = g;
+        }
+        const growth wide = grow(names[slanted], 32, 128, 1), square = grow(names[slanted], 32, 64, 1);
+        assert_ratio(square.out.vertices, wide.out.vertices, 3, 6); /* n^2 alone */
+    }
+}
+
+/* A sum no larger than its operands, on top of the fork's; what is covered is discarded before it is arranged. */
+static void test_covered_fork(void **state)
+{
+    for (size_t n = 16; n <= 256; n *= 2) {
+        const growth g = grow("covered-fork", n, n, 1);
+        assert_int_equal(g.out.polygons, 1);
+        assert_int_equal(g.out.holes, 0);
+        assert_true(g.out.vertices <= g.m + g.n);
+    }
+    const growth covered = grow("covered-fork", 128, 128, 1), bare = grow("fork", 128, 128, 1);
+    assert_ratio(covered.out.vertices, bare.out.vertices, 1000, SIZE_MAX / (covered.out.vertices + 1));
+    assert_ratio(covered.operations.segment_intersections, bare.operations.segment_intersections, 20,
+                 SIZE_MAX / (covered.operations.segment_intersections + 1));
+}
+
+static void test_fat(void **state)
+{
+    for (size_t n = 16; n <= 512; n *= 2) {
+        const growth grid = grow("fat-grid", n, n, 1), cover = grow("fat-cover", n, n, 1);
+        assert_true(8 * grid.out.vertices >= grid.m * grid.n && grid.out.vertices <= grid.m * grid.n);
+        assert_true(cover.out.vertices <= 2 * (cover.m + cover.n));
+        assert_int_equal(cover.out.polygons, 1);
+    }
+}
+
+/* Every room a hole, every passage a segment, the blind one too. */
+static void test_tight(void **state)
+{
+    for (size_t m = 8; m <= 264; m = 2 * m - 4)
+        for (unsigned seed = 1; seed <= 8; seed++) {
+            const growth g = grow("tight", m, 8 + 5 * (seed - 1), seed);
+            const size_t rooms = m < 24 ? 1 : m / 8 - 1;
+            assert_int_equal(g.out.polygons, 1);
+            assert_int_equal(g.out.holes, rooms);
+            assert_int_equal(g.out.degenerate_segments, rooms + 1);
+            assert_int_equal(g.out.degenerate_points, 0);
+        }
+}
+
+/* The inputs kept in tests/golden are what the generator draws, to the byte. */
+static void test_committed(void **state)
+{
+    static const char *const kept[][2] = {{"fork", "fork --size 16"},
+                                          {"comb-swapped", "comb --size 12 --swap --seed 2"},
+                                          {"tight-rooms", "tight --size 40 --size-q 8 --seed 3"},
+                                          {"slanted-fork", "slanted-fork --size 20"},
+                                          {"covered-fork-map", "covered-fork --size 16 --coordinates map"},
+                                          {"convex", "convex --size 16"},
+                                          {"star-map", "star --size 10 --coordinates map"},
+                                          {"random-map", "random --size 10 --coordinates map"},
+                                          {"robot", "robot --size 16"},
+                                          {"fat-grid", "fat-grid --size 16"},
+                                          {"fat-cover", "fat-cover --size 16"},
+                                          {"tight-map", "tight --size 10 --coordinates map"}};
+    const char *source = getenv("SUNDER_SOURCE");
+    for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
+        char *path = test_format("%s/tests/golden/family-%s.wkt", source ? source : SUNDER_SOURCE, kept[i][0]);
+        char *want = test_read_file(path), *got = generated(kept[i][1]);
+        assert_non_null(want);
+        assert_string_equal(got, want);
+        free(path);
+        free(want);
+        free(got);
+    }
+}
+
+int main(void)
+{
+    char *path = program();
+    FILE *there = fopen(path, "rb");
+    if (!there) {
+        print_message("%s is not there: skipped\n", path);
+        free(path);
+        return SKIPPED;
+    }
+    fclose(there);
+    free(path);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_convex),       cmocka_unit_test(test_comb),
+                                       cmocka_unit_test(test_fork),         cmocka_unit_test(test_covered_fork),
+                                       cmocka_unit_test(test_fat),          cmocka_unit_test(test_tight),
+                                       cmocka_unit_test(test_committed)};
+    return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
+}
