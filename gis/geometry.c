@@ -7,9 +7,6 @@
 #include <cpl_conv.h>
 #include <float.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 
 static bool is_polygon(OGRwkbGeometryType flat)
 {
@@ -71,26 +68,9 @@ bool gis_geometry_is_finite(OGRGeometryH geometry)
 
 /* ---- Polygons to arrays ----------------------------------------------------------------------------------- */
 
-static bool reserve(void *array, size_t *capacity, size_t need, size_t size)
+static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *error)
 {
-    if (need <= *capacity)
-        return true;
-    size_t grown = *capacity ? *capacity : 16;
-    while (grown < need)
-        grown *= 2;
-    void *old;
-    memcpy(&old, array, sizeof old);
-    void *larger = realloc(old, grown * size);
-    if (!larger)
-        return false;
-    memcpy(array, &larger, sizeof larger);
-    *capacity = grown;
-    return true;
-}
-
-static bool append_polygon(OGRGeometryH polygon, gis_rings *rings, gis_error *error)
-{
-    size_t rings_before = rings->rings;
+    size_t rings_before = set->rings;
     for (int r = 0; r < OGR_G_GetGeometryCount(polygon); r++) {
         OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
         int n = OGR_G_GetPointCount(ring);
@@ -99,20 +79,15 @@ static bool append_polygon(OGRGeometryH polygon, gis_rings *rings, gis_error *er
                 return true; /* no outer ring: the polygon encloses nothing, whatever its holes */
             continue;
         }
-        if (!reserve(&rings->xy, &rings->xy_capacity, 2 * (rings->vertices + (size_t)n), sizeof *rings->xy) ||
-            !reserve(&rings->ring_end, &rings->ring_capacity, rings->rings + 1, sizeof *rings->ring_end))
-            return gis_no_memory(error);
-        double *to = rings->xy + 2 * rings->vertices;
+        if (!gis_polygons_reserve(set, (size_t)n, error))
+            return false;
+        double *to = set->xy + 2 * set->vertices;
         OGR_G_GetPoints(ring, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
-        rings->vertices += (size_t)n;
-        rings->ring_end[rings->rings++] = rings->vertices;
+        set->vertices += (size_t)n;
+        if (!gis_polygons_end_ring(set, error))
+            return false;
     }
-    if (rings->rings == rings_before)
-        return true;
-    if (!reserve(&rings->poly_end, &rings->poly_capacity, rings->polygons + 1, sizeof *rings->poly_end))
-        return gis_no_memory(error);
-    rings->poly_end[rings->polygons++] = rings->rings;
-    return true;
+    return set->rings == rings_before || gis_polygons_end_polygon(set, error);
 }
 
 static bool append_polygons(OGRGeometryH geometry, gis_rings *rings, gis_error *error)
@@ -121,7 +96,7 @@ static bool append_polygons(OGRGeometryH geometry, gis_rings *rings, gis_error *
         return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
     if (is_polygon(flat))
-        return append_polygon(geometry, rings, error);
+        return append_polygon(geometry, &rings->set, error);
     if (is_leaf(flat) || flat == wkbCompoundCurve) {
         rings->other_parts = true;
         return true;
@@ -203,7 +178,7 @@ static bool arcs_deviation(OGRGeometryH geometry, double *deviation, gis_error *
 
 bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *error)
 {
-    rings->vertices = rings->rings = rings->polygons = 0;
+    rings->set.vertices = rings->set.rings = rings->set.polygons = 0;
     rings->linearised = 0;
     rings->other_parts = false;
     if (!geometry)
@@ -220,9 +195,7 @@ bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *erro
 
 void gis_rings_clear(gis_rings *rings)
 {
-    free(rings->xy);
-    free(rings->ring_end);
-    free(rings->poly_end);
+    gis_polygons_clear(&rings->set);
     *rings = (gis_rings){0};
 }
 

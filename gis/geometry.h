@@ -4,21 +4,17 @@
 
 #include <ogr_api.h>
 
-#include "error.h"
-#include "sunder.h"
+#include "polygons.h"
 
-/* The polygons of a geometry, laid out for sunder_shape_from_rings(). A zeroed struct is empty; it can be filled again
- * and again and keeps its memory until gis_rings_clear(). */
+/* The polygons of a geometry. A zeroed struct is empty; it can be filled again and again and keeps its memory until
+ * gis_rings_clear(). */
 typedef struct gis_rings {
-    double *xy;
-    size_t *ring_end, *poly_end;
-    size_t vertices, rings, polygons;
+    gis_polygons set;
     /* > 0 if arcs were replaced by chords: no point of a true arc is farther than this from the chords. So the true
      * polygons lie in the Minkowski sum of the polygons given and a disc of this radius; grow them by it (or by
      * sunder_shape_disc(linearised, n, false, ...)) before anything is proved of them. 0: no arcs. */
     double linearised;
     bool other_parts; /* lines or points stood beside the polygons, and were left out */
-    size_t xy_capacity, ring_capacity, poly_capacity;
 } gis_rings;
 
 typedef enum gis_content {

@@ -16,6 +16,8 @@
 
 static const unsigned growth_segments = 16;
 
+#define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
+
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
 {
     GIntBig fid = gis_source_fid(input->source, i);
@@ -55,8 +57,7 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
     if (!ok)
         core_failed(who, &why, error);
     ok = ok && gis_round_sum(sum, &rounded, error);
-    if (ok && sunder_shape_from_rings(rounded.set.xy, rounded.set.ring_end, rounded.set.poly_end, rounded.set.polygons,
-                                      SUNDER_STRICT, &grown, &why) != SUNDER_OK)
+    if (ok && gis_polygons_shape(&rounded.set, SUNDER_STRICT, &grown, &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_rounded_clear(&rounded);
     sunder_sum_free(sum);
@@ -76,8 +77,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gi
     if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error))
         return false;
     gis_feature_name(input, i, who, sizeof who);
-    bool ok = gis_shape_of_polygons(rings->xy, rings->ring_end, rings->poly_end, rings->polygons, policy, who, &shape,
-                                    &invalid, &reason, error);
+    bool ok = gis_shape_of_polygons(&rings->set, policy, who, &shape, &invalid, &reason, error);
     if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
         return false;
     if (invalid) {
@@ -105,17 +105,7 @@ static bool append_translate(const sunder_shape *symbol, const double at[2], gis
     bool exact;
     if (sunder_shape_translate(symbol, at[0], at[1], &moved, &exact, &why) != SUNDER_OK)
         return core_failed(who, &why, error);
-    bool ok = true;
-    for (size_t p = 0; ok && p < sunder_shape_polygons(moved); p++) {
-        for (size_t r = 0; ok && r < sunder_shape_rings(moved, p); r++) {
-            size_t n;
-            const double *xy = sunder_shape_ring(moved, p, r, &n);
-            for (size_t v = 0; ok && v < n; v++)
-                ok = gis_polygons_vertex(all, xy[2 * v], xy[2 * v + 1], error);
-            ok = ok && gis_polygons_end_ring(all, error);
-        }
-        ok = ok && gis_polygons_end_polygon(all, error);
-    }
+    bool ok = gis_polygons_append_shape(all, moved, 0, 0, error);
     sunder_shape_free(moved);
     return ok;
 }
@@ -135,10 +125,8 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     CPLFree(at);
     sunder_error why;
     /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
-    if (ok && sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_STRICT, &input->shape[i],
-                                      &why) != SUNDER_OK &&
-        sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons, SUNDER_EVEN_ODD, &input->shape[i],
-                                &why) != SUNDER_OK)
+    if (ok && gis_polygons_shape(&all, SUNDER_STRICT, &input->shape[i], &why) != SUNDER_OK &&
+        gis_polygons_shape(&all, SUNDER_EVEN_ODD, &input->shape[i], &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_polygons_clear(&all);
     return ok;
@@ -159,8 +147,8 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     sunder_shape *own;
     const char *text = OGR_F_GetFieldAsString(feature, field);
     if (!gis_shape_is_text(text))
-        return gis_fail(error, "%s: %s in %s is no symbol; expected WKT, disc:R[:N], inside-disc:R[:N], square:SIDE or "
-                        "rectangle:WxH", who, text, input->options->text[OPT_SYMBOL_FIELD]);
+        return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
+                        input->options->text[OPT_SYMBOL_FIELD]);
     if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options), &own, NULL,
                              error)) {
         error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
@@ -171,54 +159,49 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     return ok;
 }
 
-static bool polygon_shapes(gis_layer_input *input, gis_error *error)
-{
-    gis_rings rings = {0};
-    bool ok = true;
-    for (size_t i = 0; ok && i < input->n; i++) {
-        gis_content content = gis_source_content(input->source, i);
-        if (gis_interrupted())
-            ok = gis_fail(error, "interrupted");
-        input->null += content == GIS_NOTHING;
-        input->other += content == GIS_POINTS || content == GIS_OTHER;
-        if (ok && content == GIS_POLYGONS)
-            ok = polygon_shape(input, i, &rings, error);
-    }
-    gis_rings_clear(&rings);
-    return ok;
-}
+/* What makes the shapes: rings is room for one feature's; the symbols are of points. */
+typedef struct shaping {
+    gis_rings rings;
+    sunder_shape *symbol; /* NULL: every point has its own */
+    int symbol_field;     /* -1: none has */
+} shaping;
 
-static bool point_shapes(gis_layer_input *input, gis_error *error)
+/* --symbol and --symbol-field. */
+static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *error)
 {
     const gis_options *options = input->options;
-    sunder_shape *common = NULL;
-    int field = -1;
-    bool ok = true;
-    if (options->given[OPT_SYMBOL]) {
-        if (!gis_shape_is_text(options->text[OPT_SYMBOL]))
-            return gis_fail_usage(error,
-                                  "--symbol %s: expected WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or "
-                                  "rectangle:WxH",
-                                  options->text[OPT_SYMBOL]);
-        ok = gis_shape_from_text(options->text[OPT_SYMBOL], "--symbol", &input->rule, gis_options_invalid(options),
-                                 &common, NULL, error);
+    const char *symbol = options->text[OPT_SYMBOL];
+    if (options->given[OPT_SYMBOL_FIELD]) {
+        how->symbol_field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);
+        if (how->symbol_field < 0)
+            return gis_fail(error, "--symbol-field: layer %s has no field %s", gis_source_name(input->source),
+                            options->text[OPT_SYMBOL_FIELD]);
     }
-    if (ok && options->given[OPT_SYMBOL_FIELD]) {
-        field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);
-        if (field < 0)
-            ok = gis_fail(error, "--symbol-field: layer %s has no field %s", gis_source_name(input->source),
-                          options->text[OPT_SYMBOL_FIELD]);
-    }
+    if (!options->given[OPT_SYMBOL])
+        return true;
+    if (!gis_shape_is_text(symbol))
+        return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
+    return gis_shape_from_text(symbol, "--symbol", &input->rule, gis_options_invalid(options), &how->symbol, NULL,
+                               error);
+}
+
+static bool make_shapes(gis_layer_input *input, gis_error *error)
+{
+    shaping how = {.symbol_field = -1};
+    gis_content wanted = input->points ? GIS_POINTS : GIS_POLYGONS;
+    bool ok = !input->points || read_symbols(input, &how, error);
     for (size_t i = 0; ok && i < input->n; i++) {
         gis_content content = gis_source_content(input->source, i);
+        input->null += content == GIS_NOTHING;
+        input->other += content != GIS_NOTHING && content != wanted;
         if (gis_interrupted())
             ok = gis_fail(error, "interrupted");
-        input->null += content == GIS_NOTHING;
-        input->other += content == GIS_POLYGONS || content == GIS_OTHER;
-        if (ok && content == GIS_POINTS)
-            ok = point_shape(input, i, field, common, error);
+        else if (content == wanted)
+            ok = input->points ? point_shape(input, i, how.symbol_field, how.symbol, error)
+                               : polygon_shape(input, i, &how.rings, error);
     }
-    sunder_shape_free(common);
+    sunder_shape_free(how.symbol);
+    gis_rings_clear(&how.rings);
     return ok;
 }
 
@@ -286,7 +269,7 @@ bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_
     out->feature = calloc(out->n + 1, sizeof *out->feature);
     if (!out->shape || !out->feature)
         return gis_no_memory(error);
-    if (!gis_layer_lengths(out, error) || !(out->points ? point_shapes(out, error) : polygon_shapes(out, error)))
+    if (!gis_layer_lengths(out, error) || !make_shapes(out, error))
         return false;
     for (size_t i = 0; i < out->n; i++) {
         bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);

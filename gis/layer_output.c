@@ -2,7 +2,6 @@
 #include "layer_output.h"
 
 #include "report.h"
-#include "wkt.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -130,17 +129,7 @@ bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const 
 static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double dy, bool multi, gis_error *error)
 {
     gis_polygons all = {0};
-    bool ok = true;
-    for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++) {
-        for (size_t r = 0; ok && r < sunder_shape_rings(shape, p); r++) {
-            size_t n;
-            const double *xy = sunder_shape_ring(shape, p, r, &n);
-            for (size_t v = 0; ok && v < n; v++)
-                ok = gis_polygons_vertex(&all, xy[2 * v] + dx, xy[2 * v + 1] + dy, error);
-            ok = ok && gis_polygons_end_ring(&all, error);
-        }
-        ok = ok && gis_polygons_end_polygon(&all, error);
-    }
+    bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
     OGRGeometryH geometry = ok ? gis_geometry_polygons(all.xy, all.ring_end, all.poly_end, all.polygons, multi) : NULL;
     if (ok && !geometry)
         gis_no_memory(error);

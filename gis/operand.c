@@ -50,8 +50,7 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
     sunder_shape *alone = NULL;
     bool invalid;
     gis_error reason;
-    bool ok = gis_shape_of_polygons(rings->xy, rings->ring_end, rings->poly_end, rings->polygons, policy, who, &alone,
-                                    &invalid, &reason, error);
+    bool ok = gis_shape_of_polygons(&rings->set, policy, who, &alone, &invalid, &reason, error);
     sunder_shape_free(alone);
     if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
         return false;
@@ -61,17 +60,10 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
     if (!ok)
         return true;
     *any_invalid = *any_invalid || invalid;
-    for (size_t p = 0, r = 0, v = 0; p < rings->polygons; p++) {
-        for (; r < rings->poly_end[p]; r++) {
-            for (; v < rings->ring_end[r]; v++)
-                if (!gis_polygons_vertex(all, rings->xy[2 * v], rings->xy[2 * v + 1], error))
-                    return false;
-            if (!gis_polygons_end_ring(all, error))
-                return false;
-        }
-        if (!gis_polygons_end_polygon(all, error))
+    const gis_polygons *set = &rings->set;
+    for (size_t p = 0; p < set->polygons; p++)
+        if (!gis_polygons_append(all, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error))
             return false;
-    }
     return true;
 }
 
@@ -88,8 +80,7 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
     if (ok) {
         sunder_error why;
         double begin = gis_clock();
-        ok = sunder_shape_from_rings(all.xy, all.ring_end, all.poly_end, all.polygons,
-                                     any_invalid ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
+        ok = gis_polygons_shape(&all, any_invalid ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
              gis_fail(error, "%s: %s", who, why.message);
         if (building)
             *building += gis_clock() - begin;

@@ -23,9 +23,8 @@ void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *b
 
 /* A polygonal set from rings. Invalid rings: repaired (the even-odd set; *invalid is set, and the reason stands in
  * reason), else an error. `who` opens messages. */
-bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                           gis_invalid policy, const char *who, sunder_shape **out, bool *invalid, gis_error *reason,
-                           gis_error *error);
+bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
+                           bool *invalid, gis_error *reason, gis_error *error);
 
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);

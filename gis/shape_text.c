@@ -137,13 +137,12 @@ static bool read_file(const char *name, const char *who, char **text, gis_error 
     return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
 }
 
-bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                           gis_invalid policy, const char *who, sunder_shape **out, bool *invalid, gis_error *reason,
-                           gis_error *error)
+bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
+                           bool *invalid, gis_error *reason, gis_error *error)
 {
     sunder_error why;
     *invalid = false;
-    sunder_status status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_STRICT, out, &why);
+    sunder_status status = gis_polygons_shape(set, SUNDER_STRICT, out, &why);
     if (status == SUNDER_OK)
         return true;
     if (status != SUNDER_EINVALID)
@@ -152,7 +151,7 @@ bool gis_shape_of_polygons(const double *xy, const size_t *ring_end, const size_
     gis_fail(reason, "%s", why.message);
     if (policy != GIS_INVALID_REPAIR)
         return gis_fail(error, "%s: %s", who, why.message);
-    if (sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_EVEN_ODD, out, &why) != SUNDER_OK)
+    if (gis_polygons_shape(set, SUNDER_EVEN_ODD, out, &why) != SUNDER_OK)
         return gis_fail(error, "%s: %s", who, why.message);
     return true;
 }
@@ -165,8 +164,7 @@ static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, 
     gis_error reason;
     bool ok = gis_wkt_read(text, who, &set, error);
     double begin = gis_clock();
-    ok = ok && gis_shape_of_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, policy, who, out, &invalid,
-                                     &reason, error);
+    ok = ok && gis_shape_of_polygons(&set, policy, who, out, &invalid, &reason, error);
     *building += gis_clock() - begin;
     if (ok && invalid)
         gis_say_warning("%s: %s; taken as what its rings enclose by the even-odd rule", who, reason.message);

@@ -70,13 +70,13 @@ static bool belongs_to_source(const gis_sink *sink, const char *path)
 
 /* ---- What exists ------------------------------------------------------------------------------------------ */
 
-static bool exists(const char *path)
+bool gis_sink_exists(const char *path)
 {
     VSIStatBufL status;
     return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG) == 0;
 }
 
-static bool is_directory(const char *path)
+bool gis_sink_is_directory(const char *path)
 {
     VSIStatBufL status;
     return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 && VSI_ISDIR(status.st_mode);
@@ -148,12 +148,12 @@ static bool check_file(const gis_sink *sink, const char *suffix, gis_error *erro
     char *path = CPLStrdup(CPLFormFilename(CPLGetPath(sink->request.path), name, NULL));
     bool replace = sink->request.overwrite || sink->request.overwrite_layer;
     bool done = true;
-    if (exists(path)) {
+    if (gis_sink_exists(path)) {
         if (belongs_to_source(sink, path))
             done = gis_fail(error, "%s: input and output are the same", path);
         else if (!replace)
             done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
-        else if (is_directory(path))
+        else if (gis_sink_is_directory(path))
             done = gis_fail(error, "%s is a directory; it is not replaced by a file", path);
         else
             done = check_is_file(path, error);
@@ -174,7 +174,7 @@ static bool check_files(const gis_sink *sink, gis_error *error)
 static bool check_whole(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
-    if (!exists(path))
+    if (!gis_sink_exists(path))
         return true;
     if (!check_is_file(path, error))
         return false;
@@ -186,7 +186,7 @@ static bool check_whole(gis_sink *sink, gis_error *error)
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
     if (!sink->request.overwrite)
         return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
-    if (is_directory(path)) { /* take no directory away that is not a dataset of the kind that will replace it */
+    if (gis_sink_is_directory(path)) { /* take no directory away that is not a dataset of the kind that will replace it */
         GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
         if (!old)
             return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);

@@ -95,7 +95,7 @@ static int order_members(const void *a, const void *b)
 }
 
 /* Members in `members`, their rings in `views`; both are large enough. */
-static void normalise(const gis_rings *rings, member *members, ring_view *views)
+static void normalise(const gis_polygons *rings, member *members, ring_view *views)
 {
     size_t r = 0;
     for (size_t p = 0; p < rings->polygons; p++) {
@@ -111,7 +111,7 @@ static void normalise(const gis_rings *rings, member *members, ring_view *views)
     qsort(members, rings->polygons, sizeof *members, order_members);
 }
 
-static bool identical(const gis_rings *a, const gis_rings *b)
+static bool identical(const gis_polygons *a, const gis_polygons *b)
 {
     return a->vertices == b->vertices && a->rings == b->rings && a->polygons == b->polygons &&
            (!a->polygons || (memcmp(a->poly_end, b->poly_end, a->polygons * sizeof *a->poly_end) == 0 &&
@@ -119,7 +119,7 @@ static bool identical(const gis_rings *a, const gis_rings *b)
                              memcmp(a->xy, b->xy, 2 * a->vertices * sizeof *a->xy) == 0));
 }
 
-static bool same_polygons(const gis_rings *a, const gis_rings *b, bool *same, gis_error *error)
+static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *same, gis_error *error)
 {
     *same = identical(a, b);
     if (*same || a->polygons != b->polygons || a->rings != b->rings)
@@ -142,7 +142,7 @@ static bool same_polygons(const gis_rings *a, const gis_rings *b, bool *same, gi
 /* ---- How far off ------------------------------------------------------------------------------------------ */
 
 /* The largest distance of a vertex of a from the nearest vertex of b. Quadratic, and only run where they differ. */
-static double vertex_distance(const gis_rings *a, const gis_rings *b)
+static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
 {
     double largest = 0;
     for (size_t i = 0; i < a->vertices; i++) {
@@ -154,7 +154,7 @@ static double vertex_distance(const gis_rings *a, const gis_rings *b)
     return largest;
 }
 
-static double polygon_deviation(const gis_rings *a, const gis_rings *b)
+static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
 {
     if (a->polygons != b->polygons || a->rings != b->rings || a->vertices != b->vertices)
         return INFINITY;
@@ -203,10 +203,10 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
         return compare_vertices(sent, kept, result, error);
     bool same;
     if (!gis_geometry_rings(sent, &work->sent, error) || !gis_geometry_rings(kept, &work->kept, error) ||
-        !same_polygons(&work->sent, &work->kept, &same, error))
+        !same_polygons(&work->sent.set, &work->kept.set, &same, error))
         return false;
     if (!same)
-        differ(result, polygon_deviation(&work->sent, &work->kept));
+        differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
     return true;
 }
 

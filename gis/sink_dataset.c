@@ -8,18 +8,6 @@
 #include <cpl_vsi.h>
 #include <string.h>
 
-static bool exists(const char *path)
-{
-    VSIStatBufL status;
-    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG) == 0;
-}
-
-static bool is_directory(const char *path)
-{
-    VSIStatBufL status;
-    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 && VSI_ISDIR(status.st_mode);
-}
-
 /* What SQLite leaves beside a file that is open or was not closed well: part of the data. */
 static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
 enum { COMPANIONS_WITH_DATA = 2 };
@@ -30,11 +18,11 @@ enum { COMPANIONS_WITH_DATA = 2 };
 static void supersede(gis_sink *sink, const char *path)
 {
     gis_stage_supersede(sink->stage, path);
-    if (is_directory(path))
+    if (gis_sink_is_directory(path))
         return;
     for (size_t i = 0; i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
         char *companion = CPLStrdup(CPLSPrintf("%s%s", path, sqlite_companions[i]));
-        if (exists(companion))
+        if (gis_sink_exists(companion))
             gis_stage_supersede(sink->stage, companion);
         CPLFree(companion);
     }
@@ -59,7 +47,7 @@ static void supersede_existing(gis_sink *sink, const char *file)
     if (sink->place != GIS_PLACE_FILE)
         return;
     char *outside = gis_stage_outside(sink->stage, file);
-    if (exists(outside))
+    if (gis_sink_exists(outside))
         supersede(sink, outside);
     CPLFree(outside);
 }
@@ -114,7 +102,7 @@ static bool copy_in(gis_sink *sink, gis_error *error)
     bool done = true;
     for (size_t i = 0; done && i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
         char *companion = CPLStrdup(CPLSPrintf("%s%s", outside, sqlite_companions[i]));
-        if (exists(companion)) {
+        if (gis_sink_exists(companion)) {
             if (i < COMPANIONS_WITH_DATA)
                 done = gis_stage_copy_in(sink->stage, companion, error);
             else

@@ -74,6 +74,10 @@ char *gis_sink_inside(const gis_sink *sink, const char *file);
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 
+/* Of any path that GDAL knows. */
+bool gis_sink_exists(const char *path);
+bool gis_sink_is_directory(const char *path);
+
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 /* A database may have put off rows of the last layer written: sends them, and hears what it thinks of them. */
 bool gis_sink_flush(gis_sink *sink, gis_error *error);

@@ -110,6 +110,16 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
     return done;
 }
 
+/* The feature has all it needs; it is fitted to the format, and written. */
+static bool send(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+{
+    if (layer->promote)
+        promote(to);
+    note_losses(layer, to);
+    return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
+           create_feature(layer, to, feature, error);
+}
+
 bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
                     gis_error *error)
 {
@@ -122,13 +132,7 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
     if (done && layer->keep_sent)
         done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, 0, 0}, error);
     OGR_F_SetGeometryDirectly(to, geometry);
-    if (done && layer->promote)
-        promote(to);
-    if (done)
-        note_losses(layer, to);
-    if (done && layer->wind)
-        done = gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error);
-    done = done && create_feature(layer, to, feature, error);
+    done = done && send(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;
 }
@@ -142,15 +146,7 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
         done = remember(layer, (gis_sent){feature, NULL, dx, dy}, error);
-    if (done) {
-        gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error);
-        if (layer->promote)
-            promote(to);
-        note_losses(layer, to);
-    }
-    if (done && layer->wind)
-        done = gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error);
-    done = done && create_feature(layer, to, feature, error);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;
 }

@@ -60,19 +60,6 @@ bool gis_polygon_is_valid(const gis_polygons *set, size_t first, size_t last, gi
     return *valid || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
 }
 
-/* Appends rings [from, to) of a set, as one polygon. */
-static bool append_polygon(const gis_polygons *set, size_t from, size_t to, gis_polygons *out, gis_error *error)
-{
-    for (size_t r = from; r < to; r++) {
-        for (size_t v = r ? set->ring_end[r - 1] : 0; v < set->ring_end[r]; v++)
-            if (!gis_polygons_vertex(out, set->xy[2 * v], set->xy[2 * v + 1], error))
-                return false;
-        if (!gis_polygons_end_ring(out, error))
-            return false;
-    }
-    return gis_polygons_end_polygon(out, error);
-}
-
 /* ---- Bending ---------------------------------------------------------------------------------------------- */
 
 typedef struct bend {
@@ -201,8 +188,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
 {
     sunder_shape *shape = NULL;
     sunder_error why;
-    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_EVEN_ODD, &shape, &why) !=
-        SUNDER_OK)
+    if (gis_polygons_shape(set, SUNDER_EVEN_ODD, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     bool ok = true;
     for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
@@ -220,7 +206,7 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
         size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
         bool valid;
         if (!gis_polygon_is_valid(set, from, to, error, &valid) ||
-            !append_polygon(set, from, to, valid ? done : broken, error))
+            !gis_polygons_append(valid ? done : broken, set, from, to, error))
             return false;
     }
     return true;
@@ -244,7 +230,7 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
 {
     gis_polygons work = {0};
     double total = 0;
-    bool ok = append_polygon(set, first, set->rings, &work, error);
+    bool ok = gis_polygons_append(&work, set, first, set->rings, error);
     set->vertices = first ? set->ring_end[first - 1] : 0;
     set->rings = first;
     for (int round = 0; ok && round < MENDING_ROUNDS && work.polygons; round++) {

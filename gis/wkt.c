@@ -4,7 +4,6 @@
 
 #include <ctype.h>
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -17,56 +16,6 @@ typedef struct reader {
     gis_polygons *out;
     gis_error *error;
 } reader;
-
-void gis_polygons_clear(gis_polygons *set)
-{
-    free(set->xy);
-    free(set->ring_end);
-    free(set->poly_end);
-    *set = (gis_polygons){0};
-}
-
-static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, gis_error *error)
-{
-    if (needed <= *capacity)
-        return true;
-    size_t larger = *capacity * 2 + 16;
-    if (larger < needed)
-        larger = needed;
-    void **memory = array;
-    void *grown = larger > SIZE_MAX / size ? NULL : realloc(*memory, larger * size);
-    if (!grown)
-        return gis_no_memory(error);
-    *memory = grown;
-    *capacity = larger;
-    return true;
-}
-
-bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error)
-{
-    if (!reserve(&set->xy, &set->xy_capacity, set->vertices + 1, 2 * sizeof *set->xy, error))
-        return false;
-    set->xy[2 * set->vertices] = x;
-    set->xy[2 * set->vertices + 1] = y;
-    set->vertices++;
-    return true;
-}
-
-bool gis_polygons_end_ring(gis_polygons *set, gis_error *error)
-{
-    if (!reserve(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error))
-        return false;
-    set->ring_end[set->rings++] = set->vertices;
-    return true;
-}
-
-bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error)
-{
-    if (!reserve(&set->poly_end, &set->poly_capacity, set->polygons + 1, sizeof *set->poly_end, error))
-        return false;
-    set->poly_end[set->polygons++] = set->rings;
-    return true;
-}
 
 static void skip_blanks(reader *in)
 {

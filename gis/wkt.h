@@ -4,20 +4,7 @@
 #ifndef GIS_WKT_H
 #define GIS_WKT_H
 
-#include "error.h"
-
-/* Rings of a polygonal set that grows, laid out for sunder_shape_from_rings(). Start zeroed. */
-typedef struct gis_polygons {
-    double *xy;
-    size_t *ring_end, *poly_end;
-    size_t vertices, rings, polygons;
-    size_t xy_capacity, ring_capacity, poly_capacity;
-} gis_polygons;
-
-void gis_polygons_clear(gis_polygons *set);
-bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error);
-bool gis_polygons_end_ring(gis_polygons *set, gis_error *error);
-bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error);
+#include "polygons.h"
 
 /* Does the text begin as WKT does: a word, then Z, M, EMPTY or a bracket? */
 bool gis_wkt_looks_like(const char *text);
