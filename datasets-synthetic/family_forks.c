@@ -143,7 +143,7 @@ void family_slanted_fork(family_set *p, family_set *q, size_t m, size_t n, famil
 void family_covered_fork(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
     const fork_plan f = plan_fork(m, n, false);
-    const int64_t far = 4 * (f.right + f.extent + 2 * f.length), off = far / 4, thick = far / 96;
+    const int64_t far = 2 * (f.right + f.extent + 2 * f.length), off = far / 4, thick = far / 96;
     forks(p, q, m, n, streams, false);
     family_vertex(p, -far, -off);
     family_vertex(p, far, -off);

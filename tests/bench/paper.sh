@@ -1,0 +1,225 @@
+#!/usr/bin/env bash
+# The experiments on planar Minkowski sums, in one command: every road to a sum, every convex decomposition and both orders
+# of insertion, on the families of datasets-synthetic.
+#
+#   paper.sh [FAMILY ...]     all families unless some are named
+#
+# Installs what is missing and builds (not if SUNDER_BUILD names a build), runs, and writes to the output folder
+#
+#   paper.csv                 a line a run: sizes, seconds by phase, counts by phase, memory, hash of the exact result
+#   run.txt                   machine, compiler, commit, seed, limits
+#   growth.md                 exponents of time and counts in n, fitted over the sizes
+#   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
+#
+# A run that takes longer than the limit or more memory than allowed is recorded as such, and larger sizes of the same kind are not
+# tried. PAPER.md says what was found.
+#
+#   SUNDER_PAPER_OUT            output folder (build/paper)
+#   SUNDER_PAPER_SIZES          sizes of both operands (10 20 50 100 200)
+#   SUNDER_PAPER_SEED           seed of the families and of random orders (1)
+#   SUNDER_PAPER_SECONDS        limit of one run (60)
+#   SUNDER_PAPER_MEMORY         limit of one run in KiB (4194304)
+#   SUNDER_PAPER_DECOMPOSED     largest size on which all decompositions are compared (50)
+#   SUNDER_PAPER_COMPARED       largest size on which the exact results of all runs are compared (50)
+#   SUNDER_PAPER_BASE           decomposition of the comparison of roads (angle-bisector)
+#   SUNDER_PAPER_REPEAT         runs of which the median counts, where they are short (3)
+set -euo pipefail
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
+if [[ -z ${SUNDER_BUILD:-} ]]; then
+  # shellcheck source=../../gis/setup.sh
+  . "$source/gis/setup.sh"
+  SUNDER_BUILD=$source/build/release
+  setup_toolchain
+  setup_need jq jq jq --version
+  setup_need gnuplot gnuplot-nox gnuplot --version
+  setup_need Python python3 python3 --version
+  setup_install
+  setup_build "$source" "$SUNDER_BUILD" sunder sunder-families
+fi
+sunder=$SUNDER_BUILD/sunder families=$SUNDER_BUILD/sunder-families
+for tool in "$sunder" "$families" jq gnuplot python3; do
+  command -v "$tool" >/dev/null || { echo "paper.sh: no $tool" >&2; exit 1; }
+done
+
+out=${SUNDER_PAPER_OUT:-$source/build/paper}
+sizes=${SUNDER_PAPER_SIZES:-10 20 50 100 200}
+seed=${SUNDER_PAPER_SEED:-1}
+limit=${SUNDER_PAPER_SECONDS:-60}
+memory=${SUNDER_PAPER_MEMORY:-4194304}
+decomposed=${SUNDER_PAPER_DECOMPOSED:-50}
+compared=${SUNDER_PAPER_COMPARED:-50}
+base=${SUNDER_PAPER_BASE:-angle-bisector}
+repeat=${SUNDER_PAPER_REPEAT:-3}
+names=("$@")
+if [[ $# -eq 0 ]]; then
+  names=(convex comb comb-swapped fork slanted-fork covered-fork star random robot fat-grid fat-cover tight)
+fi
+mkdir -p "$out/inputs"
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# The choices of an option, from the program's own help; nothing where it has no such option.
+choices() { "$sunder" sum --help | sed -n "s/.*$1 \([a-z-]*|[a-z|-]*\).*/\1/p" | tr '|' ' '; }
+algorithms=$(choices --algorithm) decompositions=$(choices --decomposition) orders=$(choices --order)
+
+phases='decompose subsums union'
+counts='comparisons orientation_tests segment_intersections exact_fallbacks'
+columns="family,size,seed,algorithm,decomposition,used,order,p_vertices,q_vertices,status"
+columns+=",polygons,holes,vertices,degenerate_segments,degenerate_points"
+columns+=",seconds,seconds_decompose,seconds_subsums,seconds_union,peak_rss_bytes"
+for count in $counts; do columns+=",$count"; done
+for phase in $phases; do for count in $counts; do columns+=",${phase}_$count"; done; done
+columns+=",result"
+# shellcheck disable=SC2016 # jq's variables
+row='[.decomposition, .p.vertices, .q.vertices, .result.polygons, .result.holes, .result.vertices, .result.degenerate_segments,
+      .result.degenerate_points, .seconds.compute, .seconds.decompose, .seconds.subsums, .seconds.union, .peak_rss_bytes,
+      (.operations as $o | ("comparisons", "orientation_tests", "segment_intersections", "exact_fallbacks") | $o[.]),
+      (.operations.phases as $f | ("decompose", "subsums", "union") as $p |
+       ("comparisons", "orientation_tests", "segment_intersections", "exact_fallbacks") | $f[$p][.])] | @csv'
+fields=13+4+12
+
+header() {
+  local cc
+  cc=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")
+  echo "machine    $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, $(uname -sr), load $(cut -d' ' -f1 /proc/loadavg)"
+  echo "compiler   $("$cc" --version | head -n 1), $(sed -n 's/^CMAKE_BUILD_TYPE:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt") $(sed -n 's/^CMAKE_C_FLAGS_RELEASE:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")"
+  echo "commit     $(git -C "$source" describe --always --dirty 2>/dev/null || echo unknown)"
+  echo "inputs     sunder-families, sizes $sizes, seed $seed"
+  echo "limits     $limit s and $memory KiB a run; median of $repeat runs below a second"
+  echo "roads      ${algorithms:-none but the default}; decompositions: ${decompositions:-none}; orders: ${orders:-none}"
+}
+
+# The two operands of a family as $p and $q.
+draw() {
+  local family=${1%-swapped} swap=()
+  [[ $1 == *-swapped ]] && swap=(--swap)
+  local stem=$out/inputs/${1}_$2
+  "$families" "$family" --size "$2" --seed "$seed" "${swap[@]}" >"$stem.wkt"
+  p=$stem.p.wkt q=$stem.q.wkt
+  sed -n 1p "$stem.wkt" >"$p"
+  sed -n 2p "$stem.wkt" >"$q"
+}
+
+limited() { (ulimit -v "$memory" && exec timeout "$limit" "$sunder" sum "$@" "@$p" "@$q" 2>"$scratch/err"); }
+
+# Runs once or, where that is short, several times; the summary of the median in $scratch/stats. Sets status.
+measure() {
+  local i code=0 seconds
+  for ((i = 0; i < repeat; i++)); do
+    limited --stats - "$@" >"$scratch/stats.$i" || code=$?
+    case $code in
+      0) ;;
+      124) status=timeout; return ;;
+      *) status=failed
+         if grep -qi memory "$scratch/err"; then status=memory; fi
+         return ;;
+    esac
+    seconds=$(jq .seconds.compute "$scratch/stats.$i")
+    if awk -v s="$seconds" 'BEGIN { exit !(s > 1) }'; then i=$((i + 1)); break; fi
+  done
+  status=ok
+  local order
+  order=$(for ((j = 0; j < i; j++)); do echo "$(jq .seconds.compute "$scratch/stats.$j") $j"; done | sort -g | sed -n "$(((i + 1) / 2))s/.* //p")
+  cp "$scratch/stats.$order" "$scratch/stats"
+}
+
+# Hash of the exact result, on sizes where results are compared.
+result() {
+  if ((size > compared)); then return; fi
+  if limited --exact "$@" >"$scratch/exact"; then
+    jq -c '[.result.area, .polygons, .degenerate_segments, .degenerate_points]' "$scratch/exact" | cksum | tr ' ' '-'
+  else
+    echo failed
+  fi
+}
+
+# A run of one kind (algorithm decomposition order) on the current input, unless a smaller size of it was stopped or it has been run.
+one() {
+  local algorithm=$1 decomposition=$2 order=$3 options=(--algorithm "$1") kind="$name $*" line
+  if [[ -n ${seen["$kind $size"]:-} ]]; then return; fi
+  seen["$kind $size"]=1
+  [[ -n $decomposition ]] && options+=(--decomposition "$decomposition")
+  [[ -n $order ]] && options+=(--order "$order" --seed "$seed")
+  if [[ -n ${stopped[$kind]:-} ]]; then
+    status=skipped
+  else
+    measure "${options[@]}"
+  fi
+  if [[ $status == ok ]]; then
+    line=$(jq -r "$row" "$scratch/stats" | tr -d '"')
+    local used=${line%%,*} rest=${line#*,}
+    local sizes_=${rest%%,*} more=${rest#*,}
+    echo "$name,$size,$seed,$algorithm,$decomposition,$used,$order,$sizes_,${more%%,*},ok,${more#*,},$(result "${options[@]}")" >>"$out/paper.csv"
+    echo "$name $size $* $(jq -r '"\(.seconds.compute) s, \(.result.vertices) vertices"' "$scratch/stats")"
+  else
+    [[ $status == skipped ]] || stopped[$kind]=$status
+    # Unknown from p_vertices on, but for the status; fields and the hash follow it.
+    echo "$name,$size,$seed,$algorithm,$decomposition,,$order,,,$status$(printf ',%.0s' $(seq $((fields - 3))))," >>"$out/paper.csv"
+    echo "$name $size $* $status"
+  fi
+}
+
+experiments() {
+  local algorithm decomposition order
+  for name in "${names[@]}"; do
+    for size in $sizes; do
+      draw "$name" "$size"
+      one convolution '' ''
+      for algorithm in $algorithms; do
+        case $algorithm in auto | convolution) continue ;; esac
+        for order in random fat; do one "$algorithm" "$base" "$order"; done
+        if ((size <= decomposed)); then
+          for decomposition in $decompositions; do one "$algorithm" "$decomposition" random; done
+        fi
+      done
+    done
+  done
+}
+
+# picture NAME TITLE FAMILY OPTIONS... [-- OPTIONS OF sum]: a picture of P, Q and P + Q from what the program prints.
+picture() {
+  local file=$1 title=$2
+  shift 2
+  local family=() p=$scratch/p q=$scratch/q
+  while [[ $# -gt 0 && $1 != -- ]]; do family+=("$1"); shift; done
+  [[ $# -gt 0 ]] && shift
+  "$families" "${family[@]}" >"$scratch/pair"
+  sed -n 1p "$scratch/pair" >"$p"
+  sed -n 2p "$scratch/pair" >"$q"
+  "$sunder" sum "$@" "@$p" "@$q" >"$scratch/sum.json"
+  local map=()
+  if [[ $picture_map == yes ]] && command -v ogr2ogr >/dev/null; then
+    "$sunder" sum --quiet --planar-map --algorithm arrangement "$@" "@$p" "@$q" "$scratch/map.gpkg" --overwrite >/dev/null &&
+      ogr2ogr -f GeoJSON "$scratch/faces.json" "$scratch/map.gpkg" sum_faces -overwrite && map=("$scratch/faces.json")
+  fi
+  python3 "$source/tests/bench/paper_picture.py" "$title" "$p" "$q" "$scratch/sum.json" "${map[@]}" >"$out/$file.svg"
+}
+
+pictures() {
+  picture_map=no
+  picture figure-1 "A robot among obstacles: P the obstacles, Q the robot, P + -Q where its reference point may not be" \
+    robot --size 12 --size-q 48 --swap --seed 4 -- --reflect
+  picture figure-2 "One operand convex: order mn" comb --size 16 --size-q 12
+  picture figure-3 "A tight passage: the inner room is reached along a degenerate segment only" tight --size 10 --size-q 8 --seed 5 -- --reflect
+  picture figure-4 "Two forks: order m²n²" fork --size 40
+  picture figure-7-fat-grid "Fat grid" fat-grid --size 28
+  if "$sunder" sum --help | grep -q -- --planar-map; then picture_map=yes; fi
+  picture figure-7-covered-fork "Covered fork: the arrangement beneath, darker where more subsums lie" covered-fork --size 24
+  picture figure-7-fat-cover "Fat cover: the arrangement beneath" fat-cover --size 40
+}
+
+# Different exact results for one input are an error of ours.
+agreement() {
+  awk -F, 'NR > 1 && $NF != "" { k = $1 " " $2; n[k]++; if ((k in h) && h[k] != $NF) bad[k] = 1; h[k] = $NF }
+           END { for (k in n) { inputs++; runs += n[k] }; for (k in bad) { print "results differ: " k; wrong = 1 }
+                 print runs + 0 " runs on " inputs + 0 " inputs compared exactly" (wrong ? "" : ", all equal"); exit wrong }' "$out/paper.csv"
+}
+
+declare -A seen=() stopped=()
+header | tee "$out/run.txt"
+echo "$columns" >"$out/paper.csv"
+pictures
+experiments
+python3 "$source/tests/bench/paper_charts.py" "$out/paper.csv" "$out"
+agreement | tee -a "$out/run.txt"
+echo "$out"

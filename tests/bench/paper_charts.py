@@ -1,0 +1,135 @@
+"""paper_charts.py CSV FOLDER: bar charts (figure-5.svg, figure-6.svg, figure-7.svg, by gnuplot) and growth.md from the runs of paper.sh."""
+import csv
+import math
+import os
+import subprocess
+import sys
+
+BASE = os.environ.get("SUNDER_PAPER_BASE", "angle-bisector")
+ROADS = ("convolution", "arrangement", "incremental", "divide")
+DECOMPOSITIONS = ("angle-bisector", "vertical", "triangulation", "hertel-mehlhorn", "optimal", "mixed")
+COLOURS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb", "#222222")
+
+
+def read(file):
+    with open(file, newline="") as lines:
+        return list(csv.DictReader(lines))
+
+
+def pick(runs, **wanted):
+    """The runs that ended well and have these values."""
+    return [r for r in runs if r["status"] == "ok" and all(r[k] == v for k, v in wanted.items())]
+
+
+def value(runs, column, **wanted):
+    found = pick(runs, **wanted)
+    return float(found[0][column]) if found and found[0][column] else None
+
+
+def ordered(runs, column):
+    return list(dict.fromkeys(r[column] for r in runs))
+
+
+def kind(algorithm, order, decomposition=BASE):
+    if algorithm == "convolution":
+        return {"algorithm": algorithm}
+    return {"algorithm": algorithm, "order": order, "decomposition": decomposition}
+
+
+def bars(folder, name, title, what, families, series):
+    """A group of bars a family, a bar a series; `series` is a list of (label, function from family to number or None)."""
+    series = [(label, f) for label, f in series if any(f(family) for family in families)]
+    families = [f for f in families if any(of(f) for _, of in series)]
+    if not series or not families:
+        return False
+    data = os.path.join(folder, name + ".dat")
+    with open(data, "w") as out:
+        for family in families:
+            cells = [f(family) for _, f in series]
+            print(f'"{family}"', *("NaN" if c is None else f"{c:.9g}" for c in cells), file=out)
+    plots = ", ".join(f'"{data}" using {i + 2}:xtic(1) title "{label}" lc rgb "{COLOURS[i % len(COLOURS)]}"'
+                      for i, (label, _) in enumerate(series))
+    script = f"""set terminal svg size 980,430 font "sans,12" background rgb "white"
+set output "{os.path.join(folder, name + '.svg')}"
+set title "{title}"
+set ylabel "{what}"
+set logscale y
+set format y "10^{{%L}}"
+set style data histograms
+set style histogram clustered gap 1.5
+set style fill solid 0.9 noborder
+set boxwidth 0.95
+set key outside right top vertical
+set grid ytics lc rgb "#dddddd"
+set xtics rotate by -20 scale 0
+plot {plots}
+"""
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
+    os.remove(data)
+    return True
+
+
+def largest_common(runs, families, kinds):
+    """The largest size at which most kinds of run have ended on most families."""
+    def done(size):
+        return sum(1 for f in families for k in kinds if pick(runs, family=f, size=size, **k))
+    sizes = sorted(ordered(runs, "size"), key=int)
+    best = max((done(s) for s in sizes), default=0)
+    return max((s for s in sizes if done(s) >= 0.9 * best), key=int)
+
+
+def charts(runs, folder):
+    families = ordered(runs, "family")
+    plain = [f for f in families if f not in ("covered-fork", "fat-grid", "fat-cover")]
+    roads = [("convolution", "")] + [(a, "random") for a in ROADS[1:]] + [("incremental", "fat")]
+    size = largest_common(runs, plain, [kind(*r) for r in roads])
+    bars(folder, "figure-5", f"Roads to the sum, n = {size}, decomposition {BASE}", "seconds", plain,
+         [(f"{a} {o}".strip(), lambda f, a=a, o=o: value(runs, "seconds", family=f, size=size, **kind(a, o))) for a, o in roads])
+    incremental = [kind("incremental", "random", d) for d in DECOMPOSITIONS]
+    size = largest_common(runs, families, incremental)
+    bars(folder, "figure-6", f"Decompositions, incremental road, random order, n = {size}", "seconds", families,
+         [(d, lambda f, k=k: value(runs, "seconds", family=f, size=size, **k)) for d, k in zip(DECOMPOSITIONS, incremental)])
+    special = [f for f in families if f not in plain]
+    both = [(a, o) for a in ("incremental", "divide", "arrangement") for o in ("random", "fat")]
+    size = largest_common(runs, special, [kind(*b) for b in both]) if special else "0"
+
+    def tests(family, a, o):
+        return value(runs, "orientation_tests", family=family, size=size, **kind(a, o))
+    bars(folder, "figure-7", f"Orders of insertion, n = {size}, decomposition {BASE}", "orientation tests", special,
+         [(f"{a} {o}", lambda f, a=a, o=o: tests(f, a, o)) for a, o in both])
+
+
+def exponent(points):
+    """Slope of the least-squares line through (log n, log v); None below two points."""
+    points = [(math.log(n), math.log(v)) for n, v in points if n > 0 and v > 0]
+    if len(points) < 2:
+        return None
+    x, y = (sum(c) / len(points) for c in zip(*points))
+    spread = sum((a - x) ** 2 for a, _ in points)
+    return sum((a - x) * (b - y) for a, b in points) / spread if spread else None
+
+
+def growth(runs, folder):
+    columns = ("vertices", "segment_intersections", "orientation_tests", "comparisons", "seconds", "peak_rss_bytes")
+    with open(os.path.join(folder, "growth.md"), "w") as out:
+        print("Exponents in n (vertices of P), least squares in logarithms over the sizes from 20 on; `out` is that of the result.\n", file=out)
+        print("| family | road | sizes | out | crossings | orientation tests | comparisons | seconds | memory |", file=out)
+        print("|---|---|---|---|---|---|---|---|---|", file=out)
+        for family in ordered(runs, "family"):
+            for road in [("convolution", "")] + [(a, o) for a in ROADS[1:] for o in ("random", "fat")]:
+                found = [r for r in pick(runs, family=family, **kind(*road)) if int(r["size"]) >= 20]
+                if len(found) < 2:
+                    continue
+                slopes = [exponent([(float(r["p_vertices"]), float(r[c] or 0)) for r in found]) for c in columns]
+                cells = ("-" if s is None else f"{s:.1f}" for s in slopes)
+                span = f'{found[0]["size"]}-{found[-1]["size"]}'
+                print("|", " | ".join((family, " ".join(road).strip(), span, *cells)), "|", file=out)
+
+
+def main():
+    runs = read(sys.argv[1])
+    charts(runs, sys.argv[2])
+    growth(runs, sys.argv[2])
+
+
+main()
