@@ -5,25 +5,23 @@
 
 typedef struct outer {
     uint32_t walk;
-    double low[2], high[2], area; /* approximate; the box is widened by the error of the coordinates */
+    double low[2], high[2]; /* approximate, widened by the error of the coordinates */
 } outer;
 
 static double margin(double v) { return fabs(v) * 0x1p-48 + 0x1p-900; }
 
 static outer measure(const sunder_i_graph *g, uint32_t walk)
 {
-    outer o = {walk, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}, 0};
+    outer o = {walk, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     const uint32_t start = g->walk_start[walk];
-    const sunder_i_hpoint *base = &g->vertex[g->edge[start].from];
     uint32_t e = start;
     do {
-        const sunder_i_hpoint *a = &g->vertex[g->edge[e].from], *b = &g->vertex[g->edge[e].to];
+        const sunder_i_hpoint *a = &g->vertex[g->edge[e].from];
         const double c[2] = {a->ax, a->ay};
         for (int k = 0; k < 2; k++) {
             o.low[k] = fmin(o.low[k], c[k] - margin(c[k]));
             o.high[k] = fmax(o.high[k], c[k] + margin(c[k]));
         }
-        o.area += (a->ax - base->ax) * (b->ay - base->ay) - (a->ay - base->ay) * (b->ax - base->ax);
         e = sunder_i_graph_next_covered(g, e);
     } while (e != start);
     return o;
@@ -52,16 +50,16 @@ static bool left_is_inside(const sunder_i_graph *g, const outer *o, uint32_t v)
     return inside;
 }
 
-/* Outer walks that hold one place are nested, each inside a hole of the one around it. The innermost is the one that holds the
- * fewest others' smallest vertices; areas tell in practice, and nested walks with areas too close for doubles are told apart by
- * the order of their smallest vertices: an inner one never starts before an outer one. */
+/* Of two outer walks that hold one place, is a the inner one? Components are disjoint, so what the two enclose is nested, and the
+ * inner walk has no vertex before the smallest one of the outer walk. Where both start in one vertex, the outer walk's lowest
+ * ray is below everything that it encloses there; no two walks share an edge, so the two rays differ. (Areas would need exact
+ * numbers: those of long slanted shapes are lost in doubles.) */
 static bool inner_of(const sunder_i_graph *g, const outer *a, const outer *b)
 {
-    const double slack = 0x1p-40 * (a->area + b->area);
-    if (a->area < b->area - slack) return true;
-    if (b->area < a->area - slack) return false;
-    return sunder_i_hpoint_cmp(g->lattice, &g->vertex[g->edge[g->walk_start[a->walk]].from],
-                               &g->vertex[g->edge[g->walk_start[b->walk]].from]) > 0;
+    const uint32_t ea = g->walk_start[a->walk], eb = g->walk_start[b->walk]; /* of outer walks they leave */
+    const uint32_t va = g->edge[ea].from, vb = g->edge[eb].from;
+    if (va != vb) return sunder_i_hpoint_cmp(g->lattice, &g->vertex[va], &g->vertex[vb]) > 0;
+    return sunder_i_ray_height(g, 2 * ea) > sunder_i_ray_height(g, 2 * eb);
 }
 
 static uint32_t owner_of(const sunder_i_graph *g, const outer *outers, uint32_t n, uint32_t walk)

@@ -72,6 +72,82 @@ static void test_same_operand(void **state)
     sunder_shape_free(q);
 }
 
+/* Adds the ring of the square of half side r, its corners (u, v) put at (a u + c v, b u + d v). */
+static void skewed_square(polyset *set, const double m[4], double r, bool hole)
+{
+    static const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (int i = 0; i < 4; i++) {
+        const double *k = corner[hole ? 3 - i : i];
+        polyset_vertex(set, r * (m[0] * k[0] + m[2] * k[1]), r * (m[1] * k[0] + m[3] * k[1]));
+    }
+    polyset_end_ring(set);
+}
+
+static void skewed_frame(polyset *set, const double m[4], double outer, double inner)
+{
+    skewed_square(set, m, outer, false);
+    skewed_square(set, m, inner, true);
+    polyset_end_polygon(set);
+}
+
+/* Each polygon's area, by its outer ring less its hole in units of the frame, says which frame it is. */
+static void expect_frames(const sunder_sum *sum, const double m[4])
+{
+    static const double outer[3] = {91, 61, 31}, inner[3] = {79, 49, 19};
+    bool found[3] = {false, false, false};
+    sunder_sum_counts n;
+    sunder_sum_count(sum, &n);
+    assert_int_equal(n.polygons, 3);
+    assert_int_equal(n.holes, 3);
+    for (size_t p = 0; p < 3; p++) {
+        double half[2];
+        assert_int_equal(sunder_sum_rings(sum, p), 2);
+        for (size_t r = 0; r < 2; r++) {
+            size_t corners;
+            const uint32_t *ring = sunder_sum_ring(sum, p, r, &corners);
+            double a[2], b[2];
+            assert_int_equal(corners, 4);
+            sunder_sum_vertex(sum, ring[0], a);
+            sunder_sum_vertex(sum, ring[2], b); /* the opposite one: the difference is 2 r (+-(a, b) +- (c, d)) */
+            half[r] = fabs(b[0] - a[0]) / (2 * (m[0] + m[2])); /* exact: all are integers below 2^53 */
+        }
+        for (int k = 0; k < 3; k++) found[k] = found[k] || (half[0] == outer[k] && half[1] == inner[k]);
+    }
+    assert_true(found[0] && found[1] && found[2]);
+}
+
+/* Three frames, each inside the hole of the next, drawn so slanted (by matrices of determinant 1) that their areas taken in doubles are
+ * mostly noise: each hole belongs to its own frame, in whatever order the members come. */
+static void test_nested_slivers(void **state)
+{
+    (void)state;
+    static const double slant[][4] = {
+        {1, 0, 0, 1}, {3, 5, 7, 12}, {105306629, 118888914, 21388489, 24147143}, {80940767, 92324486, 18670575, 21296453},
+        {461049256, 472683321, 404719687, 414932338}, {5432089498, 4394162675, 45677851, 36950037}};
+    static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    static const double outer[3] = {90, 60, 30}, inner[3] = {80, 50, 20};
+    for (size_t i = 0; i < sizeof slant / sizeof *slant; i++)
+        for (int k = 0; k < 6; k++) {
+            polyset frames, unit;
+            sunder_sum *sum = NULL;
+            polyset_init(&frames);
+            polyset_init(&unit);
+            for (int j = 0; j < 3; j++) skewed_frame(&frames, slant[i], outer[order[k][j]], inner[order[k][j]]);
+            skewed_square(&unit, slant[i], 1, false);
+            polyset_end_polygon(&unit);
+            sunder_shape *p = polyset_shape(&frames), *q = polyset_shape(&unit);
+            assert_non_null(p);
+            assert_non_null(q);
+            assert_int_equal(sunder_minkowski_sum(p, q, NULL, &sum, NULL), SUNDER_OK);
+            expect_frames(sum, slant[i]);
+            sunder_sum_free(sum);
+            sunder_shape_free(p);
+            sunder_shape_free(q);
+            polyset_free(&frames);
+            polyset_free(&unit);
+        }
+}
+
 typedef struct watch {
     int calls, allowed;
     double last;
@@ -201,7 +277,8 @@ static void test_beyond_doubles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_empty), cmocka_unit_test(test_same_operand),
-                                       cmocka_unit_test(test_progress), cmocka_unit_test(test_out_of_memory),
+                                       cmocka_unit_test(test_nested_slivers), cmocka_unit_test(test_progress),
+                                       cmocka_unit_test(test_out_of_memory),
                                        cmocka_unit_test(test_beyond_doubles)};
     return cmocka_run_group_tests_name("the interface of sums", tests, NULL, NULL);
 }
