@@ -8,7 +8,7 @@
 #
 #   paper.csv                 a line a run: sizes, seconds by phase, counts by phase, memory, hash of the exact result
 #   run.txt                   machine, compiler, commit, seed, limits
-#   growth.md                 exponents of time and counts in n, fitted over the sizes
+#   tables.md                 exponents in n fitted over the sizes; phases; orders; decompositions
 #   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
 #
 # A run that takes longer than the limit or more memory than allowed is recorded as such, and larger sizes of the same kind are not
@@ -20,6 +20,7 @@
 #   SUNDER_PAPER_SECONDS        limit of one run (60)
 #   SUNDER_PAPER_MEMORY         limit of one run in KiB (4194304)
 #   SUNDER_PAPER_DECOMPOSED     largest size on which all decompositions are compared (50)
+#   SUNDER_PAPER_ALL            largest size on which every order is tried with every decomposition (20)
 #   SUNDER_PAPER_COMPARED       largest size on which the exact results of all runs are compared (50)
 #   SUNDER_PAPER_BASE           decomposition of the comparison of roads (angle-bisector)
 #   SUNDER_PAPER_REPEAT         runs of which the median counts, where they are short (3)
@@ -47,6 +48,7 @@ seed=${SUNDER_PAPER_SEED:-1}
 limit=${SUNDER_PAPER_SECONDS:-60}
 memory=${SUNDER_PAPER_MEMORY:-4194304}
 decomposed=${SUNDER_PAPER_DECOMPOSED:-50}
+all=${SUNDER_PAPER_ALL:-20}
 compared=${SUNDER_PAPER_COMPARED:-50}
 base=${SUNDER_PAPER_BASE:-angle-bisector}
 repeat=${SUNDER_PAPER_REPEAT:-3}
@@ -168,9 +170,10 @@ experiments() {
       for algorithm in $algorithms; do
         case $algorithm in auto | convolution) continue ;; esac
         for order in random fat; do one "$algorithm" "$base" "$order"; done
-        if ((size <= decomposed)); then
-          for decomposition in $decompositions; do one "$algorithm" "$decomposition" random; done
-        fi
+        for decomposition in $decompositions; do
+          if ((size <= decomposed)); then one "$algorithm" "$decomposition" random; fi
+          if ((size <= all)); then for order in $orders; do one "$algorithm" "$decomposition" "$order"; done; fi
+        done
       done
     done
   done

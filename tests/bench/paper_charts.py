@@ -1,4 +1,4 @@
-"""paper_charts.py CSV FOLDER: bar charts (figure-5.svg, figure-6.svg, figure-7.svg, by gnuplot) and growth.md from the runs of paper.sh."""
+"""paper_charts.py CSV FOLDER: bar charts (figure-5.svg, figure-6.svg, figure-7.svg, by gnuplot) and tables.md from the runs of paper.sh."""
 import csv
 import math
 import os
@@ -109,27 +109,88 @@ def exponent(points):
     return sum((a - x) * (b - y) for a, b in points) / spread if spread else None
 
 
-def growth(runs, folder):
+def all_roads():
+    return [("convolution", "")] + [(a, o) for a in ROADS[1:] for o in ("random", "fat")]
+
+
+def table(out, title, heads, rows):
+    print(title + "\n", file=out)
+    for cells in (heads, ["---"] * len(heads), *rows):
+        print("|", " | ".join(cells), "|", file=out)
+    print(file=out)
+
+
+def number(v, digits=3):
+    return "-" if v is None or v == "" else f"{float(v):.{digits}g}"
+
+
+def growth(runs):
     columns = ("vertices", "segment_intersections", "orientation_tests", "comparisons", "seconds", "peak_rss_bytes")
-    with open(os.path.join(folder, "growth.md"), "w") as out:
-        print("Exponents in n (vertices of P), least squares in logarithms over the sizes from 20 on; `out` is that of the result.\n", file=out)
-        print("| family | road | sizes | out | crossings | orientation tests | comparisons | seconds | memory |", file=out)
-        print("|---|---|---|---|---|---|---|---|---|", file=out)
-        for family in ordered(runs, "family"):
-            for road in [("convolution", "")] + [(a, o) for a in ROADS[1:] for o in ("random", "fat")]:
-                found = [r for r in pick(runs, family=family, **kind(*road)) if int(r["size"]) >= 20]
-                if len(found) < 2:
-                    continue
+    for family in ordered(runs, "family"):
+        for road in all_roads():
+            found = [r for r in pick(runs, family=family, **kind(*road)) if int(r["size"]) >= 20]
+            if len(found) > 1:
                 slopes = [exponent([(float(r["p_vertices"]), float(r[c] or 0)) for r in found]) for c in columns]
-                cells = ("-" if s is None else f"{s:.1f}" for s in slopes)
-                span = f'{found[0]["size"]}-{found[-1]["size"]}'
-                print("|", " | ".join((family, " ".join(road).strip(), span, *cells)), "|", file=out)
+                cells = ["-" if s is None else f"{s:.1f}" for s in slopes]
+                yield [family, " ".join(road).strip(), f'{found[0]["size"]}-{found[-1]["size"]}', *cells]
+
+
+def largest(runs, family, road):
+    found = pick(runs, family=family, **kind(*road))
+    return max(found, key=lambda r: int(r["size"])) if found else None
+
+
+def phases(runs):
+    for family in ordered(runs, "family"):
+        for road in all_roads():
+            r = largest(runs, family, road)
+            if r:
+                yield [family, " ".join(road).strip(), r["size"], r["vertices"], r["holes"],
+                       *(number(r["seconds" + s]) for s in ("", "_decompose", "_subsums", "_union")),
+                       number(float(r["peak_rss_bytes"]) / 2**20), r["segment_intersections"], r["orientation_tests"],
+                       r["exact_fallbacks"]]
+
+
+def orders(runs):
+    """What the fat order costs, in parts of what the random order costs."""
+    for family in ordered(runs, "family"):
+        for road in ROADS[1:]:
+            for size in ordered(runs, "size"):
+                pair = [pick(runs, family=family, size=size, **kind(road, o)) for o in ("random", "fat")]
+                if all(pair) and int(size) >= 20:
+                    ratios = [float(pair[1][0][c]) / (float(pair[0][0][c]) or 1)
+                              for c in ("segment_intersections", "orientation_tests", "seconds")]
+                    yield [family, road, size, *(f"{r:.2f}" for r in ratios)]
+
+
+def decompositions(runs):
+    for family in ordered(runs, "family"):
+        for road in ROADS[1:]:
+            sizes = [r["size"] for r in pick(runs, family=family, algorithm=road, order="random") if r["decomposition"] != BASE]
+            if sizes:
+                size = max(sizes, key=int)
+                found = [pick(runs, family=family, size=size, **kind(road, "random", d)) for d in DECOMPOSITIONS]
+                yield [family, road, size, *(f'{number(f[0]["seconds_decompose"], 2)} / {number(f[0]["seconds"], 2)}' if f else "-"
+                                             for f in found)]
+
+
+def tables(runs, folder):
+    with open(os.path.join(folder, "tables.md"), "w") as out:
+        table(out, "Exponents in n (vertices of P): least squares in logarithms over the sizes from 20 on.",
+              ["family", "road", "sizes", "output", "crossings", "orientation tests", "comparisons", "seconds", "memory"], growth(runs))
+        table(out, f"The largest input that each road finished, decomposition {BASE}.",
+              ["family", "road", "n", "vertices", "holes", "seconds", "decompose", "subsums", "union", "MiB", "crossings",
+               "orientation tests", "left open by the filter"], phases(runs))
+        table(out, "The order by fatness: its cost in parts of that of the random order.",
+              ["family", "road", "n", "crossings", "orientation tests", "seconds"], orders(runs))
+        table(out, "Decompositions: seconds to decompose / in all, random order.", ["family", "road", "n", *DECOMPOSITIONS],
+              decompositions(runs))
 
 
 def main():
     runs = read(sys.argv[1])
     charts(runs, sys.argv[2])
-    growth(runs, sys.argv[2])
+    tables(runs, sys.argv[2])
 
 
 main()

@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 
 #include <cmocka.h>
 
@@ -183,6 +184,26 @@ static void test_committed(void **state)
     }
 }
 
+/* Status 2 and nothing on standard output for what is no family, no size, no seed. */
+static void test_refused(void **state)
+{
+    static const char *const wrong[] = {"",          "spoon",          "fork --size",           "fork --size 7",
+                                        "fork comb", "fork --size -9", "fork --size 1e3",       "fork --seed x",
+                                        "fork --map", "fork --size ''", "fork --coordinates km", "fork --size 99999999999999999999"};
+    char *path = program(), c;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        char *command = test_format("'%s' %s 2>/dev/null", path, wrong[i]);
+        FILE *pipe = popen(command, "r");
+        assert_non_null(pipe);
+        assert_int_equal(fread(&c, 1, 1, pipe), 0);
+        const int status = pclose(pipe);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 2);
+        free(command);
+    }
+    free(path);
+}
+
 int main(void)
 {
     char *path = program();
@@ -197,6 +218,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_convex),       cmocka_unit_test(test_comb),
                                        cmocka_unit_test(test_fork),         cmocka_unit_test(test_covered_fork),
                                        cmocka_unit_test(test_fat),          cmocka_unit_test(test_tight),
-                                       cmocka_unit_test(test_committed)};
+                                       cmocka_unit_test(test_committed),
+                                       cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
 }
