@@ -132,6 +132,20 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     return ok;
 }
 
+static bool read_symbol(const gis_layer_input *input, const char *text, const char *who, sunder_shape **out,
+                        gis_error *error)
+{
+    sunder_shape *symbol;
+    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options), &symbol, NULL, error))
+        return false;
+    if (sunder_shape_is_empty(symbol)) {
+        sunder_shape_free(symbol);
+        return gis_fail_usage(error, "%s (%s): the symbol is empty; it must enclose something", who, text);
+    }
+    *out = symbol;
+    return true;
+}
+
 /* The feature's own symbol, from --symbol-field, else the common one. */
 static bool point_shape(gis_layer_input *input, size_t i, int field, const sunder_shape *common, gis_error *error)
 {
@@ -144,13 +158,12 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
         return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
                         input->options->text[OPT_SYMBOL_FIELD]);
     }
-    sunder_shape *own;
+    sunder_shape *own = NULL;
     const char *text = OGR_F_GetFieldAsString(feature, field);
     if (!gis_shape_is_text(text))
         return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
                         input->options->text[OPT_SYMBOL_FIELD]);
-    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options), &own, NULL,
-                             error)) {
+    if (!read_symbol(input, text, who, &own, error)) {
         error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
         return false;
     }
@@ -171,18 +184,13 @@ static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *
 {
     const gis_options *options = input->options;
     const char *symbol = options->text[OPT_SYMBOL];
-    if (options->given[OPT_SYMBOL_FIELD]) {
-        how->symbol_field = gis_source_field(input->source, options->text[OPT_SYMBOL_FIELD]);
-        if (how->symbol_field < 0)
-            return gis_fail(error, "--symbol-field: layer %s has no field %s", gis_source_name(input->source),
-                            options->text[OPT_SYMBOL_FIELD]);
-    }
+    if (!gis_layer_field(input, OPT_SYMBOL_FIELD, &how->symbol_field, error))
+        return false;
     if (!options->given[OPT_SYMBOL])
         return true;
     if (!gis_shape_is_text(symbol))
         return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
-    return gis_shape_from_text(symbol, "--symbol", &input->rule, gis_options_invalid(options), &how->symbol, NULL,
-                               error);
+    return read_symbol(input, symbol, "--symbol", &how->symbol, error);
 }
 
 static bool make_shapes(gis_layer_input *input, gis_error *error)
@@ -224,13 +232,7 @@ static bool open_source(gis_layer_input *input, gis_error *error)
         return hint_at_order(options, error);
     gis_say_warnings(gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
-    if (options->given[OPT_ID_FIELD]) {
-        input->id_field = gis_source_field(input->source, options->text[OPT_ID_FIELD]);
-        if (input->id_field < 0)
-            return gis_fail(error, "--id-field: layer %s has no field %s", gis_source_name(input->source),
-                            options->text[OPT_ID_FIELD]);
-    }
-    return true;
+    return gis_layer_field(input, OPT_ID_FIELD, &input->id_field, error);
 }
 
 static void warn_of_crs(const gis_layer_input *input)

@@ -32,6 +32,10 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
 /* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
 bool gis_field_is_blank(OGRFeatureH feature, int field);
 
+/* The field that an option names; *field is -1 where it is not given. A field that is not there is an error that knows
+ * which one was probably meant. */
+bool gis_layer_field(const gis_layer_input *input, gis_option_id option, int *field, gis_error *error);
+
 /* The stages, in this order: shapes (layer_input.c) and rules (layer_rules.c). */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error);
 bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-where, --fixed-where */

@@ -1,6 +1,9 @@
 /* layer_rules.c: what the options say of each feature: lengths, who is fixed or ignored, blocks by a field, weights. */
 #include "layer_input.h"
+#include "nearest.h"
 
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +16,22 @@ bool gis_field_is_blank(OGRFeatureH feature, int field)
         return false;
     const char *text = OGR_F_GetFieldAsString(feature, field);
     return text[strspn(text, " ")] == '\0';
+}
+
+bool gis_layer_field(const gis_layer_input *input, gis_option_id option, int *field, gis_error *error)
+{
+    const char *name = input->options->text[option], *layer = gis_source_name(input->source);
+    *field = name ? gis_source_field(input->source, name) : -1;
+    if (!name || *field >= 0)
+        return true;
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(gis_source_layer(input->source));
+    gis_nearest search = gis_nearest_to(name, strlen(name));
+    for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++) {
+        const char *other = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
+        gis_nearest_offer(&search, other, strlen(other));
+    }
+    return gis_fail(error, search.best ? "%s: layer %s has no field %s; did you mean %s?" : "%s: layer %s has no field %s",
+                    gis_option_table[option].names, layer, name, search.best);
 }
 
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
@@ -83,12 +102,11 @@ static char *key_of(OGRFeatureH feature, int field)
 
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
 {
-    const char *name = input->options->text[OPT_BLOCK_FIELD];
-    if (!name)
-        return true;
-    int field = gis_source_field(input->source, name);
+    int field;
+    if (!gis_layer_field(input, OPT_BLOCK_FIELD, &field, error))
+        return false;
     if (field < 0)
-        return gis_fail(error, "--block-field: layer %s has no field %s", gis_source_name(input->source), name);
+        return true;
     keyed *keys = calloc(input->n + 1, sizeof *keys);
     if (!keys)
         return gis_no_memory(error);
@@ -141,21 +159,43 @@ static bool weigh_by_area(gis_layer_input *input, bool root, gis_error *error)
     return true;
 }
 
-static bool weigh_by_field(gis_layer_input *input, const char *name, gis_error *error)
+/* A number, also one that a text holds; NAN for anything else. */
+static double number_in(OGRFeatureH feature, int field)
 {
-    int field = gis_source_field(input->source, name);
+    double value;
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString)
+        return OGR_F_GetFieldAsDouble(feature, field);
+    const char *text = OGR_F_GetFieldAsString(feature, field);
+    text += strspn(text, " ");
+    size_t n = strlen(text);
+    while (n && text[n - 1] == ' ')
+        n--;
+    return gis_length_parse_number(text, n, &value) ? value : NAN;
+}
+
+static bool weigh_by_field(gis_layer_input *input, gis_error *error)
+{
+    int field;
+    if (!gis_layer_field(input, OPT_WEIGHT_FIELD, &field, error))
+        return false;
     if (field < 0)
-        return gis_fail(error, "--weight-field: layer %s has no field %s", gis_source_name(input->source), name);
+        return true;
+    OGRFieldDefnH definition = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(input->source)), field);
+    OGRFieldType type = OGR_Fld_GetType(definition);
+    if (type != OFTInteger && type != OFTInteger64 && type != OFTReal && type != OFTString)
+        return gis_fail(error, "--weight-field: field %s of layer %s is of type %s; numbers are needed",
+                        OGR_Fld_GetNameRef(definition), gis_source_name(input->source), OGR_GetFieldTypeName(type));
     for (size_t i = 0; i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (input->feature[i].ignored || gis_field_is_blank(feature, field))
             continue;
-        double weight = OGR_F_GetFieldAsDouble(feature, field);
+        double weight = number_in(feature, field);
         if (!(weight > 0) || !isfinite(weight)) {
             char who[512];
             gis_feature_name(input, i, who, sizeof who);
-            return gis_fail(error, "%s: the weight in %s is %s; it must be a finite number greater than 0", who, name,
-                            OGR_F_GetFieldAsString(feature, field));
+            return gis_fail(error, "%s: the weight in %s is %s; it must be a finite number greater than 0", who,
+                            OGR_Fld_GetNameRef(definition),
+                            type == OFTReal ? CPLSPrintf("%g", weight) : OGR_F_GetFieldAsString(feature, field));
         }
         input->feature[i].weight *= weight;
     }
@@ -168,7 +208,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
     const char *kind = options->text[OPT_WEIGHT];
     if (kind && strcmp(kind, "1") != 0 && !weigh_by_area(input, strcmp(kind, "sqrt-area") == 0, error))
         return false;
-    if (options->given[OPT_WEIGHT_FIELD] && !weigh_by_field(input, options->text[OPT_WEIGHT_FIELD], error))
+    if (!weigh_by_field(input, error))
         return false;
     for (size_t i = 0; i < input->n; i++) {
         double weight = input->feature[i].weight;

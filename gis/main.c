@@ -1,6 +1,7 @@
 /* main.c: which command, with which options. */
 #include "commands.h"
 #include "message.h"
+#include "nearest.h"
 #include "report.h"
 #include "sunder.h"
 
@@ -84,6 +85,21 @@ static int close_stdout(int status)
     return status;
 }
 
+static int unknown_command(const char *word)
+{
+    gis_error error;
+    gis_nearest search = gis_nearest_to(word, strlen(word));
+    for (size_t i = 0; i < gis_n_commands; i++)
+        gis_nearest_offer(&search, gis_commands[i].name, strlen(gis_commands[i].name));
+    if (search.best)
+        gis_fail_usage(&error, "unknown command %s; did you mean %s? `sunder --help` lists the commands", word,
+                       search.best);
+    else
+        gis_fail_usage(&error, "unknown %s %s; `sunder --help` lists the commands", *word == '-' ? "option" : "command",
+                       word);
+    return gis_say_failure(&error);
+}
+
 int main(int argc, char **argv)
 {
     CPLSetErrorHandler(hear_gdal);
@@ -101,9 +117,7 @@ int main(int argc, char **argv)
     } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         gis_help_program();
     } else {
-        gis_fail_usage(&error, "unknown %s %s; `sunder --help` lists the commands",
-                       *first == '-' ? "option" : "command", first);
-        status = gis_say_failure(&error);
+        status = unknown_command(first);
     }
     return close_stdout(status);
 }

@@ -29,10 +29,13 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);
 
-/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` opens messages. A repair is warned
- * of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
+/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` and the text open messages. A repair is
+ * warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error);
+
+/* The standard shape ("disc:") that a text with a misspelt one was probably to be; NULL: none. */
+const char *gis_shape_prefix_meant(const char *text);
 
 /* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is printed.
  * *building as above; that each feature is judged by itself, to name the one at fault, belongs to the reading. */

@@ -3,6 +3,8 @@
  * no option is an error, never an operand, so that a misspelt option cannot become a file name. */
 #include "options.h"
 
+#include "nearest.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -180,14 +182,47 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     return true;
 }
 
+static size_t dashes(const char *word, size_t n)
+{
+    size_t count = strspn(word, "-");
+    return count < n ? count : n;
+}
+
+/* The nearest spelling, if one is near, and whether another command knows the option. */
+static bool unknown_option(const gis_command *command, const char *word, size_t n, gis_error *error)
+{
+    const gis_option *elsewhere = find_option(GIS_ALL, word, n);
+    gis_nearest search = gis_nearest_to(word + dashes(word, n), n - dashes(word, n));
+    const char *spelling = NULL;
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_option *option = &gis_option_table[i];
+        if (!(option->commands & command->bit))
+            continue;
+        for (const char *c = option->names; *c; c += strspn(c, " ")) {
+            size_t length = strcspn(c, " "), skip = dashes(c, length);
+            const char *before = search.best;
+            gis_nearest_offer(&search, c + skip, length - skip);
+            if (search.best != before)
+                spelling = c;
+            c += length;
+        }
+    }
+    if (elsewhere)
+        return gis_fail_usage(error, "unknown option %.*s: it belongs to other commands than %s; `sunder %s --help` "
+                              "lists them", (int)n, word, command->name, command->name);
+    if (spelling)
+        return gis_fail_usage(error, "unknown option %.*s; did you mean %.*s? `sunder %s --help` lists them", (int)n,
+                              word, (int)strcspn(spelling, " "), spelling, command->name);
+    return gis_fail_usage(error, "unknown option %.*s; `sunder %s --help` lists them", (int)n, word, command->name);
+}
+
 static bool parse_option(const char *word, arguments *in, gis_options *out, gis_error *error)
 {
-    const char *command = out->command->name;
     const char *equals = strchr(word, '=');
     size_t n = equals ? (size_t)(equals - word) : strlen(word);
     const gis_option *option = find_option(out->command->bit, word, n);
     if (!option)
-        return gis_fail_usage(error, "unknown option %.*s; `sunder %s --help` lists them", (int)n, word, command);
+        return unknown_option(out->command, word, n, error);
     bool repeatable = option->type == GIS_TYPE_LIST || option->type == GIS_TYPE_PAIRS || option->type == GIS_TYPE_FLAG;
     if (out->given[option->id] && !repeatable)
         return gis_fail_usage(error, "%.*s is given twice", name_length(option), option->names);

@@ -1,6 +1,7 @@
 /* shape_text.c: shapes written on the command line or in a field: WKT, @FILE, @-, disc:, inside-disc:, square:,
  * rectangle:. */
 #include "message.h"
+#include "nearest.h"
 #include "operand.h"
 #include "report.h"
 
@@ -32,15 +33,18 @@ bool gis_shape_is_text(const char *text)
     return gis_wkt_looks_like(text) && access(text, F_OK) != 0;
 }
 
-static bool read_length(const char *text, size_t n, const char *who, const gis_ruler *rule, double *out,
-                        gis_error *error)
+/* One measure of a standard shape: its radius, side, width or height. */
+static bool read_length(const char *text, size_t n, const char *what, const char *who, const gis_ruler *rule,
+                        double *out, gis_error *error)
 {
     gis_length length;
     const char *why;
+    if (n == 0)
+        return gis_fail_usage(error, "%s: the %s is missing", who, what);
     if (!gis_length_parse(text, n, &length, &why))
-        return gis_fail_usage(error, "%s: the length %.*s: %s", who, (int)n, text, why);
+        return gis_fail_usage(error, "%s: the %s, %.*s: %s", who, what, (int)n, text, why);
     if (length.value == 0)
-        return gis_fail_usage(error, "%s: the length %.*s must be greater than 0", who, (int)n, text);
+        return gis_fail_usage(error, "%s: the %s must be greater than 0", who, what);
     return gis_length_in_layer_units(&length, rule, who, out, error);
 }
 
@@ -57,10 +61,12 @@ static bool read_disc(const char *text, bool inside, const char *who, const gis_
 {
     size_t n = strcspn(text, ":");
     double radius, segments = default_segments;
-    if (!read_length(text, n, who, rule, &radius, error))
+    if (!read_length(text, n, "radius", who, rule, &radius, error))
         return false;
     if (text[n] == ':') {
         const char *count = text + n + 1;
+        if (!*count)
+            return gis_fail_usage(error, "%s: the number of segments is missing", who);
         if (strspn(count, "0123456789") != strlen(count) || !gis_length_parse_number(count, strlen(count), &segments))
             return gis_fail_usage(error, "%s: %s is not a number of segments", who, count);
     }
@@ -79,10 +85,10 @@ static bool read_rectangle(const char *text, bool square, const char *who, const
     size_t n = square ? strlen(text) : strcspn(text, "x");
     if (!square && text[n] != 'x')
         return gis_fail_usage(error, "%s: expected rectangle:WIDTHxHEIGHT, as in rectangle:4x2.5", who);
-    if (!read_length(text, n, who, rule, &width, error))
+    if (!read_length(text, n, square ? "side" : "width", who, rule, &width, error))
         return false;
     height = width;
-    if (!square && !read_length(text + n + 1, strlen(text + n + 1), who, rule, &height, error))
+    if (!square && !read_length(text + n + 1, strlen(text + n + 1), "height", who, rule, &height, error))
         return false;
     sunder_error why;
     if (sunder_shape_rectangle(width, height, out, &why) != SUNDER_OK)
@@ -122,6 +128,8 @@ static bool read_stream(FILE *file, char **text, gis_error *error)
 static bool read_file(const char *name, const char *who, char **text, gis_error *error)
 {
     bool standard = strcmp(name, "-") == 0;
+    if (!*name)
+        return gis_fail_usage(error, "%s: the name of the file is missing; @- is standard input", who);
     FILE *file = standard ? stdin : fopen(name, "r");
     if (!file)
         return gis_fail(error, "%s: cannot read %s: %s", who, name, strerror(errno));
@@ -186,7 +194,7 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
         return ok;
     }
     if (text[0] == '@') {
-        char *wkt;
+        char *wkt = NULL;
         if (!read_file(text + 1, who, &wkt, error))
             return false;
         bool ok = shape_of_wkt(wkt, who, policy, out, building, error);
@@ -199,9 +207,31 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
     return false;
 }
 
+/* "P (disc:4)": long texts are cut, at the end of a character. */
+static void name_shape(const char *who, const char *text, char *name, size_t size)
+{
+    enum { SHOWN = 48 };
+    size_t n = strlen(text);
+    if (n > SHOWN)
+        for (n = SHOWN; n > 0 && ((unsigned char)text[n] & 0xC0) == 0x80;)
+            n--;
+    snprintf(name, size, "%s (%.*s%s)", who, (int)n, text, text[n] ? "..." : "");
+}
+
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error)
 {
     double unasked = 0;
-    return shape_from_text(text, who, rule, policy, out, building ? building : &unasked, error);
+    char name[640];
+    name_shape(who, text, name, sizeof name);
+    return shape_from_text(text, name, rule, policy, out, building ? building : &unasked, error);
+}
+
+const char *gis_shape_prefix_meant(const char *text)
+{
+    gis_nearest search = gis_nearest_to(text, strcspn(text, ":"));
+    if (text[search.n] == ':')
+        for (int i = 0; i < N_STANDARD; i++)
+            gis_nearest_offer(&search, standard_shapes[i], strlen(standard_shapes[i]) - 1);
+    return search.best;
 }

@@ -57,7 +57,7 @@ refused 2 'expected a number' sum 'POLYGON ((0 0, 0x1 0, 1 1))' square:1
 # Rings that cross are repaired, with a warning, unless that is not wanted.
 bow='POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))'
 expect 0 sum "$bow" square:1
-same "$(grep -c '^sunder: warning: P: ' err)" 1 "warnings about a bow"
+same "$(grep -c '^sunder: warning: P (POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))): ' err)" 1 "warnings about a bow"
 refused 2 'crosses' sum "$bow" square:1 --invalid fail
 
 # Discs contain, or lie in, the true disc: pi r^2 is between their areas.
@@ -79,8 +79,19 @@ expect 0 pair 'rectangle:4x2.5' square:1
 same "$(json .dy out)" '-7/4'
 for shape in disc:0 disc:-1 disc:1:2 disc:1:0 disc:1:x disc:nan disc:inf disc: inside-disc:0 square:0 square:-2 square:x \
              rectangle:2 rectangle:2x0 rectangle:2x rectangle:x2 disc:1:99999999999; do
-    refused 2 'P: ' sum "$shape" square:1
+    refused 2 "P ($shape): " sum "$shape" square:1
 done
+# The operand and what is wrong with it are both named.
+refused 2 'P (disc:): the radius is missing' sum disc: square:1
+refused 2 'P (square:): the side is missing' sum square: square:1
+refused 2 'Q (rectangle:2x): the height is missing' pair square:1 rectangle:2x
+refused 2 'Q (disc:-1): the radius, -1: negative' sum square:1 disc:-1
+refused 2 'P (disc:1:): the number of segments is missing' sum disc:1: square:1
+refused 2 'the name of the file is missing' sum @ square:1
+refused 1 'disk:4): no such file, and no shape; did you mean disc:?' sum disk:4 square:1
+refused 2 'P (POLYGON ((0 0, 1 1))): WKT, character 19: a ring of 2 points' sum 'POLYGON ((0 0, 1 1))' square:1
+refused 2 "P (POLYGON ((0 0, 1 0, 1 1), (0.11 0, 0.22 0, 0.33 ...): WKT, character" \
+    sum 'POLYGON ((0 0, 1 0, 1 1), (0.11 0, 0.22 0, 0.33 a, 0.44 0))' square:1
 
 layer two.gpkg a POLYGON <<'X'
 id,WKT

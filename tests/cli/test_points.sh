@@ -47,6 +47,17 @@ refused 1 'no field nothing' separate p.gpkg never.gpkg --symbol-field nothing
 refused 2 '--symbol' separate p.gpkg never.gpkg --symbol disc:0
 refused 2 '--symbol' separate p.gpkg never.gpkg --symbol circle
 refused 2 '--symbol' separate p.gpkg never.gpkg --symbol 'POINT (0 0)'
+for empty in 'MULTIPOLYGON EMPTY' 'POLYGON EMPTY'; do
+    refused 2 "$empty" separate p.gpkg never.gpkg --symbol "$empty"
+    refused 2 "$empty" check p.gpkg --symbol "$empty"
+done
+says err 'enclose'
+layer hollow.gpkg hollow POINT <<'X'
+id,sym,WKT
+1,disc:1,POINT(0 0)
+2,POLYGON EMPTY,POINT(9 0)
+X
+refused 1 'FID 2 (POLYGON EMPTY): the symbol is empty' separate hollow.gpkg never.gpkg --symbol-field sym
 layer wrong.gpkg wrong POINT <<'X'
 id,sym,WKT
 1,disc:1,POINT(0 0)

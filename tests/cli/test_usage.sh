@@ -31,6 +31,16 @@ refused 2 'unknown command' route a b
 refused 2 'which command'
 refused 2 'unknown option' --nonsense
 
+# A slip of the pen is told from nonsense.
+refused 2 'did you mean separate?' seperate a b
+refused 2 'did you mean --overwrite?' separate a b --overwite
+refused 2 'did you mean --gap?' separate a b -gap 3
+refused 2 'did you mean --gap?' separate a b --gpa=3
+refused 2 'did you mean --touch-tolerance?' separate a b --tolerance 3
+refused 2 'did you mean --exact?' sum square:1 square:1 --EXACT
+refused 2 'belongs to other commands' check a --max-shift 3
+refused 2 'unknown option --zzz; `sunder' check a --zzz
+
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
@@ -71,6 +81,8 @@ refused 2 'OUTPUT is given twice' check in.gpkg a.gpkg --output b.gpkg
 refused 2 'neither P nor Q is one' sum square:1 square:1 --where 'a = 1'
 refused 2 'expected K=V' check in.gpkg --config NAME
 refused 2 'is empty' check in.gpkg --where ''
+refused 1 'no field idd; did you mean id?' separate in.gpkg o.gpkg --id-field idd
+refused 1 'no field wait' check in.gpkg --block-field wait
 refused 1 'is a directory' separate in.gpkg o.gpkg --stats .
 refused 1 '--stats' separate in.gpkg o.gpkg --stats no/such/dir.json
 
