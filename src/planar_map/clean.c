@@ -1,0 +1,177 @@
+/* Cleaning: the map of many regions becomes that of their union.
+ *
+ * What is covered goes: an edge whose relative interior lies inside some region, a vertex that does. Edges first: all those at
+ * a covered vertex are covered, so it is isolated when its turn comes. An edge or vertex that no region covers stays, also
+ * between covered faces: there it is a degenerate hole. Then vertices in the middle of straight edges with equal counts go.
+ *
+ * The union then counts as one region that has every remaining edge on its boundary: sides 1 towards a covered face and 0
+ * towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should.
+ *
+ * The step of the incremental union does the same with what the polygon inserted last has touched: its inside, found by a
+ * flood from its boundary, and the boundary itself. Elsewhere nothing has changed. */
+#include "planar_map/map.h"
+
+static void settle_edge(sunder_i_planar_map *map, uint32_t e)
+{
+    sunder_i_map_edge *edge = &map->edge[e];
+    edge->sides[0] = map->trapezoid[edge->up].covered != 0;
+    edge->sides[1] = map->trapezoid[edge->down].covered != 0;
+}
+
+static void settle_vertex(sunder_i_planar_map *map, uint32_t v)
+{
+    map->vertex[v].below = map->trapezoid[sunder_i_map_below_vertex(map, v)].covered != 0;
+}
+
+/* Removes the edges of edges_inside and the vertices of vertices_inside, all covered; both sides count 1 already. */
+static bool remove_covered(sunder_i_planar_map *map)
+{
+    for (size_t i = 0; i < map->edges_inside.n; i++) {
+        const uint32_t e = map->edges_inside.item[i];
+        map->edge[e].sides[0] = map->edge[e].sides[1] = 0; /* so that the face that they leave is covered */
+        if (!sunder_i_edge_remove(map, e)) return false;
+    }
+    for (size_t i = 0; i < map->vertices_inside.n; i++) sunder_i_edge_drop_vertex(map, map->vertices_inside.item[i]);
+    return true;
+}
+
+bool sunder_i_planar_map_mergeable(sunder_i_planar_map *map, uint32_t v)
+{
+    const uint32_t h = map->vertex[v].out;
+    if (h == NOWHERE || (h & 1)) return false;
+    const uint32_t g = sunder_i_planar_map_ccw(map, h);
+    if (!(g & 1) || sunder_i_planar_map_ccw(map, g) != h) return false;
+    const sunder_i_map_edge *right = &map->edge[h >> 1], *left = &map->edge[g >> 1];
+    return right->sides[0] == left->sides[0] && right->sides[1] == left->sides[1] &&
+           sunder_i_line_turn(map, &map->line[left->line], &map->line[right->line]) == 0;
+}
+
+sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *err)
+{
+    assert(map->marked);
+    sunder_i_map_drop_faces(map);
+    map->edges_inside.n = map->vertices_inside.n = 0;
+    for (uint32_t e = 0; e < map->edges; e++)
+        if (map->edge[e].end[0] != NOWHERE && sunder_i_planar_map_edge_covered(map, e) > 0 &&
+            !sunder_i_map_push(map, &map->edges_inside, e))
+            return sunder_i_no_memory(err);
+    for (uint32_t v = 0; v < map->vertices; v++)
+        if (map->vertex[v].alive && sunder_i_planar_map_vertex_covered(map, v) > 0 &&
+            !sunder_i_map_push(map, &map->vertices_inside, v))
+            return sunder_i_no_memory(err);
+    for (uint32_t t = 0; t < map->trapezoids; t++)
+        if (map->trapezoid[t].node != NOWHERE) map->trapezoid[t].covered = map->trapezoid[t].covered != 0;
+    if (!remove_covered(map)) return sunder_i_no_memory(err);
+    for (uint32_t e = 0; e < map->edges; e++)
+        if (map->edge[e].end[0] != NOWHERE) settle_edge(map, e);
+    for (uint32_t v = 0; v < map->vertices; v++) {
+        if (!map->vertex[v].alive) continue;
+        settle_vertex(map, v);
+        if (sunder_i_planar_map_mergeable(map, v)) sunder_i_edge_merge(map, v);
+    }
+    return sunder_i_map_status(map, err);
+}
+
+/* ---- The step of the incremental union ---- */
+
+static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
+{
+    sunder_i_trapezoid *z = &map->trapezoid[t];
+    if (z->stamp == stamp) return true;
+    z->stamp = stamp;
+    return sunder_i_map_push(map, &map->inside, t);
+}
+
+/* The trapezoids, edges and vertices strictly inside the ring. Ring edges and vertices bear the stamp already. */
+static bool flood(sunder_i_planar_map *map, uint32_t stamp)
+{
+    map->inside.n = map->edges_inside.n = map->vertices_inside.n = 0;
+    for (size_t i = 0; i < map->ring.n; i++)
+        if (!see(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
+    for (size_t i = 0; i < map->inside.n; i++) { /* the list is its own queue */
+        const uint32_t t = map->inside.item[i];
+        uint32_t to[6];
+        int64_t step[6];
+        const size_t n = sunder_i_map_around(map, t, stamp, to, step);
+        for (size_t k = 0; k < n; k++)
+            if (!see(map, to[k], stamp)) return false;
+        const uint32_t e = map->trapezoid[t].bottom, v = map->trapezoid[t].left;
+        if (map->edge[e].up == t && map->edge[e].stamp != stamp && !sunder_i_map_push(map, &map->edges_inside, e))
+            return false;
+        if (map->vertex[v].stamp != stamp) {
+            map->vertex[v].stamp = stamp;
+            if (!sunder_i_map_push(map, &map->vertices_inside, v)) return false;
+        }
+    }
+    return true;
+}
+
+static bool clean_ring(sunder_i_planar_map *map)
+{
+    const uint32_t stamp = ++map->stamp;
+    for (size_t i = 0; i < map->ring.n; i++) {
+        const uint32_t h = map->ring.item[i];
+        map->edge[h >> 1].stamp = stamp;
+        map->vertex[sunder_i_planar_map_origin(map, h)].stamp = stamp;
+    }
+    if (!flood(map, stamp)) return false;
+    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered++;
+    /* Each vertex of the ring begins one of its half-edges. Those that stay wait on the stack; ring keeps its edges that stay. */
+    map->stack.n = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < map->ring.n; i++) {
+        const uint32_t h = map->ring.item[i], v = sunder_i_planar_map_origin(map, h);
+        const bool covered = sunder_i_planar_map_vertex_covered(map, v) > 0;
+        if (!sunder_i_map_push(map, covered ? &map->vertices_inside : &map->stack, v)) return false;
+        if (sunder_i_planar_map_edge_covered(map, h >> 1) == 0)
+            map->ring.item[kept++] = h;
+        else if (!sunder_i_map_push(map, &map->edges_inside, h >> 1))
+            return false;
+    }
+    map->ring.n = kept;
+    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered = 1;
+    if (!remove_covered(map)) return false;
+    for (size_t i = 0; i < map->ring.n; i++) settle_edge(map, map->ring.item[i] >> 1);
+    for (size_t i = 0; i < map->stack.n; i++) settle_vertex(map, map->stack.item[i]);
+    for (size_t i = 0; i < map->stack.n; i++)
+        if (sunder_i_planar_map_mergeable(map, map->stack.item[i])) sunder_i_edge_merge(map, map->stack.item[i]);
+    return true;
+}
+
+sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+                                                const sunder_i_point *along, size_t n, sunder_error *err)
+{
+    const sunder_status status = sunder_i_map_polygon(map, corner, along, n, true, err);
+    if (status != SUNDER_OK) return status;
+    if (!clean_ring(map) || !sunder_i_map_compact(map)) {
+        map->failed = true;
+        return sunder_i_no_memory(err);
+    }
+    map->marked = true;
+    return sunder_i_map_status(map, err);
+}
+
+/* ---- By hand ---- */
+
+sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t h, sunder_error *err)
+{
+    sunder_i_map_drop_faces(map);
+    sunder_i_edge_remove(map, h >> 1);
+    return sunder_i_map_status(map, err);
+}
+
+sunder_status sunder_i_planar_map_remove_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err)
+{
+    assert(map->vertex[v].out == NOWHERE);
+    sunder_i_map_drop_faces(map);
+    sunder_i_edge_drop_vertex(map, v);
+    return sunder_i_map_status(map, err);
+}
+
+sunder_status sunder_i_planar_map_merge_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err)
+{
+    assert(sunder_i_planar_map_mergeable(map, v));
+    sunder_i_map_drop_faces(map);
+    sunder_i_edge_merge(map, v);
+    return sunder_i_map_status(map, err);
+}

@@ -1,0 +1,224 @@
+/* Sites and lines: three questions and one construction, each filtered in floating point and then decided exactly.
+ *
+ * Degrees, where corners are lattice points (degree 1, w of degree 0): a line has A, B of degree 1 and C of degree 2; a
+ * crossing x, y of degree 3 over w of degree 2.
+ *     side of a corner 2, of a crossing 4; order of corners 1, of two crossings 5; turn of two lines 2.
+ * A corner that is a sum with Steiner points has x, y of degree d + 1 over w of degree d (d = 2 for one Steiner point,
+ * 4 for two); its line, given a lattice direction, has A, B of degree d + 1 and C of degree d + 2 before the common divisor
+ * is taken out, and the degrees grow accordingly: crossings of two such lines have x, y of degree 2 d + 3 over w of degree
+ * 2 d + 2, ordered in degree 4 d + 5. Nothing is ever constructed from a crossing, so no number grows beyond that.
+ *
+ * The exact answer is always the sign of a sum of up to three products; up to 16 limbs each (1024 bits) it is
+ * worked out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
+#include "planar_map/map.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define STACK_LIMBS 16
+
+typedef struct sum {
+    mp_limb_t limb[2 * STACK_LIMBS + 1];
+    mp_size_t n;
+} sum;
+
+static void accumulate(sum *s, const mp_limb_t *p, mp_size_t n)
+{
+    while (n > 0 && p[n - 1] == 0) n--;
+    if (n == 0) return;
+    if (s->n == 0) {
+        mpn_copyi(s->limb, p, n);
+        s->n = n;
+        return;
+    }
+    mp_limb_t carry;
+    if (s->n >= n)
+        carry = mpn_add(s->limb, s->limb, s->n, p, n);
+    else {
+        carry = mpn_add(s->limb, p, n, s->limb, s->n);
+        s->n = n;
+    }
+    if (carry) s->limb[s->n++] = carry;
+}
+
+static int sum_cmp(const sum *a, const sum *b)
+{
+    if (a->n != b->n) return a->n < b->n ? -1 : 1;
+    const int c = a->n ? mpn_cmp(a->limb, b->limb, a->n) : 0;
+    return (c > 0) - (c < 0);
+}
+
+static mp_size_t limbs(sunder_i_big a) { return (mp_size_t)labs(a.size); }
+
+/* Sign of the sum of a[i] * b[i], n <= 3. */
+static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunder_i_big *b, int n)
+{
+    bool small = true;
+    for (int i = 0; i < n; i++) small = small && limbs(a[i]) <= STACK_LIMBS && limbs(b[i]) <= STACK_LIMBS;
+    if (small) {
+        sum s[2];
+        s[0].n = s[1].n = 0;
+        for (int i = 0; i < n; i++) {
+            const mp_size_t la = limbs(a[i]), lb = limbs(b[i]);
+            if (la == 0 || lb == 0) continue;
+            mp_limb_t p[2 * STACK_LIMBS];
+            if (la >= lb)
+                mpn_mul(p, a[i].limb, la, b[i].limb, lb);
+            else
+                mpn_mul(p, b[i].limb, lb, a[i].limb, la);
+            accumulate(&s[(a[i].size < 0) != (b[i].size < 0)], p, la + lb);
+        }
+        return sum_cmp(&s[0], &s[1]);
+    }
+    const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
+    sunder_i_big t = sunder_i_big_mul(&map->scratch, a[0], b[0]);
+    for (int i = 1; i < n; i++)
+        t = sunder_i_big_add(&map->scratch, t, sunder_i_big_mul(&map->scratch, a[i], b[i]));
+    const int sign = sunder_i_big_sign(t);
+    sunder_i_arena_release(&map->scratch, mark);
+    return sign;
+}
+
+/* Rounding to nearest is monotone, so unequal doubles decide; equal ones decide nothing. */
+static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i_big pn, sunder_i_big pw, sunder_i_big qn,
+                          sunder_i_big qw)
+{
+    if (p != q) return p < q ? -1 : 1;
+    map->lattice->operations.exact_fallbacks++;
+    const sunder_i_big a[2] = {pn, sunder_i_big_neg(qn)}, b[2] = {qw, pw};
+    return dot_sign(map, a, b, 2);
+}
+
+int sunder_i_site_cmp(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
+{
+    map->lattice->operations.comparisons++;
+    if (p->at[0].limb == q->at[0].limb && p->at[1].limb == q->at[1].limb && p->at[2].limb == q->at[2].limb &&
+        p->at[0].size == q->at[0].size && p->at[1].size == q->at[1].size)
+        return 0; /* the very same numbers */
+    const int c = coordinate_cmp(map, p->ax, q->ax, p->at[0], p->at[2], q->at[0], q->at[2]);
+    return c ? c : coordinate_cmp(map, p->ay, q->ay, p->at[1], p->at[2], q->at[1], q->at[2]);
+}
+
+/* The filter. With u = 2^-53: the site's doubles and the reference's are off by at most u times their magnitude; the
+ * differences dx, dy round once, a and b are off by u, products and the sum round once more. So the error is at most
+ *     (|a dx| + |b dy|) 4 u (1 + u)^3  +  u (|a| (|px| + |rx|) + |b| (|py| + |ry|)) (1 + u)^3
+ * and twice that is asked for. Subnormal coordinates (of a wide lattice) and subnormal a, b add no more than 2^-1074 times
+ * the other factor, below 2^502: 2^-500 covers them, and costs a lattice of integers nothing. */
+int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p)
+{
+    map->lattice->operations.orientation_tests++;
+    const double s = line->a * (p->ax - line->rx), t = line->b * (p->ay - line->ry), det = s + t;
+    const double bound = 0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-500 +
+                         0x1p-52 * (fabs(line->a) * (fabs(p->ax) + fabs(line->rx)) +
+                                    fabs(line->b) * (fabs(p->ay) + fabs(line->ry)));
+    if (det > bound) return 1;
+    if (det < -bound) return -1;
+    map->lattice->operations.exact_fallbacks++;
+    return dot_sign(map, line->abc, p->at, 3);
+}
+
+/* The direction of a line is (B, -A). The filter: each double off by u, products and the difference round once: 4 u. */
+int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g)
+{
+    if (f == g) return 0;
+    map->lattice->operations.orientation_tests++;
+    const double s = f->a * g->b, t = f->b * g->a, det = s - t;
+    const double bound = 0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-1000;
+    if (det > bound) return 1;
+    if (det < -bound) return -1;
+    map->lattice->operations.exact_fallbacks++;
+    const sunder_i_big a[2] = {f->abc[0], sunder_i_big_neg(f->abc[1])}, b[2] = {g->abc[1], g->abc[0]};
+    return dot_sign(map, a, b, 2);
+}
+
+static void approximate(sunder_i_planar_map *map, sunder_i_site *s)
+{
+    s->ax = s->ay = 0;
+    if (sunder_i_map_broken(map) || s->at[2].size == 0) return;
+    const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
+    s->ax = sunder_i_big_ratio(&map->scratch, s->at[0], s->at[2], -(long)map->lattice->approx_shift);
+    s->ay = sunder_i_big_ratio(&map->scratch, s->at[1], s->at[2], -(long)map->lattice->approx_shift);
+    sunder_i_arena_release(&map->scratch, mark);
+}
+
+sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at, sunder_i_arena *arena)
+{
+    sunder_i_site s;
+    for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_copy(arena, at[i]);
+    approximate(map, &s);
+    return s;
+}
+
+/* a b - c d, the result alone left in the arena. */
+static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big c,
+                          sunder_i_big d)
+{
+    sunder_i_arena *s = &map->scratch;
+    const sunder_i_mark mark = sunder_i_arena_mark(s);
+    const sunder_i_big r = sunder_i_big_sub(s, sunder_i_big_mul(s, a, b), sunder_i_big_mul(s, c, d));
+    if (arena == s) return r;
+    const sunder_i_big kept = sunder_i_big_copy(arena, r);
+    sunder_i_arena_release(s, mark);
+    return kept;
+}
+
+sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g,
+                                     sunder_i_arena *arena)
+{
+    map->lattice->operations.segment_intersections++;
+    const sunder_i_big *p = f->abc, *q = g->abc;
+    sunder_i_site s;
+    s.at[0] = minor(map, arena, p[1], q[2], p[2], q[1]);
+    s.at[1] = minor(map, arena, p[2], q[0], p[0], q[2]);
+    s.at[2] = minor(map, arena, p[0], q[1], p[1], q[0]);
+    if (sunder_i_big_sign(s.at[2]) < 0)
+        for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_neg(s.at[i]);
+    approximate(map, &s);
+    return s;
+}
+
+static sunder_i_big divided(sunder_i_arena *arena, sunder_i_big a, sunder_i_big by)
+{
+    return sunder_i_big_div_floor(arena, a, by); /* by divides a, so nothing is rounded */
+}
+
+static sunder_i_big lattice_big(sunder_i_planar_map *map, int64_t n)
+{
+    return map->lattice->narrow ? sunder_i_big_i64(&map->scratch, n) : sunder_i_lattice_get(map->lattice, n);
+}
+
+sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
+                                        const sunder_i_point *along)
+{
+    sunder_i_arena *s = &map->scratch;
+    const sunder_i_mark mark = sunder_i_arena_mark(s);
+    sunder_i_big abc[3];
+    if (along) {
+        /* Direction (dx, dy) through p: A = -dy w, B = dx w, C = dy x - dx y. */
+        const sunder_i_big dx = lattice_big(map, along->x), dy = lattice_big(map, along->y);
+        abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at[2]));
+        abc[1] = sunder_i_big_mul(s, dx, p->at[2]);
+        abc[2] = minor(map, s, dy, p->at[0], dx, p->at[1]);
+    } else {
+        abc[0] = minor(map, s, p->at[1], q->at[2], q->at[1], p->at[2]);
+        abc[1] = minor(map, s, q->at[0], p->at[2], p->at[0], q->at[2]);
+        abc[2] = minor(map, s, p->at[0], q->at[1], q->at[0], p->at[1]);
+    }
+    const int b = sunder_i_big_sign(abc[1]);
+    if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
+        for (int i = 0; i < 3; i++) abc[i] = sunder_i_big_neg(abc[i]);
+    if (sunder_i_big_bits(p->at[2]) > 1 || (!along && sunder_i_big_bits(q->at[2]) > 1)) {
+        const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
+        if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
+            for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);
+    }
+    sunder_i_map_line line = {.rx = p->ax, .ry = p->ay};
+    const unsigned long bits0 = sunder_i_big_bits(abc[0]), bits1 = sunder_i_big_bits(abc[1]);
+    const long bits = (long)(bits0 > bits1 ? bits0 : bits1);
+    const sunder_i_big one = sunder_i_big_i64(s, 1);
+    line.a = sunder_i_big_ratio(s, abc[0], one, -bits);
+    line.b = sunder_i_big_ratio(s, abc[1], one, -bits);
+    for (int i = 0; i < 3; i++) line.abc[i] = sunder_i_big_copy(&map->arena, abc[i]);
+    sunder_i_arena_release(s, mark);
+    return line;
+}

@@ -1,0 +1,115 @@
+/* All of one map into another, in random order.
+ *
+ * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the other
+ * map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior, so
+ * walks add nothing to it but what the overlaid edges say. */
+#include "planar_map/map.h"
+
+/* splitmix64 [Steele, Lea, Flood 2014]. */
+static uint64_t draw(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return z ^ (z >> 31);
+}
+
+static sunder_i_site copied_site(sunder_i_planar_map *map, const sunder_i_site *from)
+{
+    sunder_i_site s = *from;
+    for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_copy(&map->arena, from->at[i]);
+    return s;
+}
+
+static uint32_t copied_line(sunder_i_planar_map *map, const sunder_i_map_line *from)
+{
+    sunder_i_map_line l = *from;
+    for (int i = 0; i < 3; i++) l.abc[i] = sunder_i_big_copy(&map->arena, from->abc[i]);
+    return sunder_i_map_broken(map) ? NOWHERE : sunder_i_map_new_line(map, &l);
+}
+
+/* Where `of` has them, its vertices and lines as they are called here; NOWHERE: not yet. */
+typedef struct names {
+    uint32_t *vertex, *line;
+} names;
+
+static uint32_t vertex_here(sunder_i_planar_map *map, const sunder_i_planar_map *of, names *n, uint32_t v)
+{
+    if (n->vertex[v] == NOWHERE) {
+        const sunder_i_site site = copied_site(map, &of->vertex[v].site);
+        n->vertex[v] = sunder_i_map_vertex_at(map, &site);
+    }
+    return n->vertex[v];
+}
+
+static bool add_edge(sunder_i_planar_map *map, const sunder_i_planar_map *of, names *n, uint32_t e)
+{
+    const sunder_i_map_edge *edge = &of->edge[e];
+    if (n->line[edge->line] == NOWHERE) n->line[edge->line] = copied_line(map, &of->line[edge->line]);
+    const uint32_t v = vertex_here(map, of, n, edge->end[0]), line = n->line[edge->line];
+    if (v == NOWHERE || line == NOWHERE) return false;
+    const uint32_t known = n->vertex[edge->end[1]];
+    const sunder_i_site target = known != NOWHERE ? map->vertex[known].site : copied_site(map, &of->vertex[edge->end[1]].site);
+    if (sunder_i_map_broken(map)) return false;
+    const uint32_t w = sunder_i_map_walk(map, v, &target, line, edge->sides[0], edge->sides[1], false);
+    n->vertex[edge->end[1]] = w;
+    return w != NOWHERE;
+}
+
+static bool add_all(sunder_i_planar_map *map, const sunder_i_planar_map *of, names *n, uint32_t *order)
+{
+    size_t count = 0;
+    for (uint32_t e = 0; e < of->edges; e++)
+        if (of->edge[e].end[0] != NOWHERE) order[count++] = e;
+    for (size_t i = count; i > 0; i--) { /* Fisher and Yates, from the back, inserted as drawn */
+        const size_t j = (size_t)(draw(&map->random) % i);
+        const uint32_t e = order[j];
+        order[j] = order[i - 1];
+        if (!add_edge(map, of, n, e)) return false;
+    }
+    for (uint32_t v = 0; v < of->vertices; v++) {
+        if (!of->vertex[v].alive) continue;
+        const uint32_t here = vertex_here(map, of, n, v);
+        if (here == NOWHERE) return false;
+        map->vertex[here].below += of->vertex[v].below;
+    }
+    return true;
+}
+
+sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder_i_planar_map *other, sunder_error *err)
+{
+    sunder_i_map_drop_faces(map);
+    map->marked = false;
+    names n = {sunder_i_alloc(other->vertices, sizeof(uint32_t)), sunder_i_alloc(other->lines, sizeof(uint32_t))};
+    uint32_t *order = sunder_i_alloc(other->edges, sizeof *order);
+    bool ok = n.vertex && n.line && order;
+    if (ok) {
+        memset(n.vertex, 0xff, other->vertices * sizeof(uint32_t));
+        memset(n.line, 0xff, other->lines * sizeof(uint32_t));
+        ok = add_all(map, other, &n, order);
+    }
+    sunder_i_free(n.vertex);
+    sunder_i_free(n.line);
+    sunder_i_free(order);
+    if (!ok) map->failed = true;
+    return sunder_i_map_status(map, err);
+}
+
+/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places the long way
+ * round. The factor keeps the cost of starting afresh below that of the insertions that made it necessary. */
+bool sunder_i_map_compact(sunder_i_planar_map *map)
+{
+    const size_t live = map->trapezoids - map->dead_trapezoids;
+    if (map->nodes < 64 * live + 65536) return true;
+    sunder_i_planar_map *fresh;
+    if (sunder_i_planar_map_new(map->lattice, draw(&map->random), &fresh, NULL) != SUNDER_OK) return false;
+    if (sunder_i_planar_map_overlay(fresh, map, NULL) != SUNDER_OK || sunder_i_planar_map_mark(fresh, NULL) != SUNDER_OK) {
+        sunder_i_planar_map_free(fresh);
+        return false;
+    }
+    const sunder_i_planar_map old = *map;
+    *map = *fresh;
+    *fresh = old;
+    sunder_i_planar_map_free(fresh);
+    return true;
+}

@@ -1,0 +1,136 @@
+/* The vertical decomposition under insertion: a wall put up in a trapezoid, an edge drawn through a row of them. */
+#include "planar_map/map.h"
+
+void sunder_i_trapezoid_install(sunder_i_planar_map *map, uint32_t t)
+{
+    const sunder_i_trapezoid *z = &map->trapezoid[t];
+    if (z->left != NOWHERE) {
+        map->vertex[z->left].right = t;
+        if (z->bottom != NOWHERE && map->edge[z->bottom].end[0] == z->left) map->edge[z->bottom].up = t;
+        if (z->top != NOWHERE && map->edge[z->top].end[0] == z->left) map->edge[z->top].down = t;
+    }
+    if (z->right != NOWHERE) map->vertex[z->right].left = t;
+}
+
+/* t takes the neighbours across the right wall that are given, and they take it. */
+static void adopt_right(sunder_i_planar_map *map, uint32_t t, uint32_t ru, uint32_t rl)
+{
+    map->trapezoid[t].ru = ru;
+    map->trapezoid[t].rl = rl;
+    if (ru != NOWHERE) map->trapezoid[ru].lu = t;
+    if (rl != NOWHERE) map->trapezoid[rl].ll = t;
+}
+
+uint32_t sunder_i_trapezoid_split(sunder_i_planar_map *map, uint32_t t, uint32_t v, sunder_i_wall wall)
+{
+    const uint32_t r = sunder_i_map_new_trapezoid(map), node = map->trapezoid[t].node;
+    sunder_i_trapezoid *z = map->trapezoid;
+    z[r] = z[t];
+    z[r].left = z[t].right = v;
+    adopt_right(map, r, z[t].ru, z[t].rl);
+    const bool upper = wall != SUNDER_I_WALL_ON_TOP, lower = wall != SUNDER_I_WALL_ON_BOTTOM;
+    z[t].ru = upper ? r : NOWHERE;
+    z[r].lu = upper ? t : NOWHERE;
+    z[t].rl = lower ? r : NOWHERE;
+    z[r].ll = lower ? t : NOWHERE;
+    const uint32_t smaller = sunder_i_history_leaf(map, t), greater = sunder_i_history_leaf(map, r);
+    sunder_i_history_at(map, node, v, smaller, greater);
+    sunder_i_trapezoid_install(map, t);
+    sunder_i_trapezoid_install(map, r);
+    return r;
+}
+
+/* The part of a wall that an edge leaves as it was, on the side of its vertex: `before` and `after` of old stand on its two
+ * sides, and `a`, `b` take their places. Across it lie other trapezoids (edges end in the vertex), or each other. */
+static void pass_upper(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
+                       const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b)
+{
+    sunder_i_trapezoid *z = map->trapezoid;
+    if (before->ru == after) {
+        z[a].ru = b;
+        z[b].lu = a;
+        return;
+    }
+    z[a].ru = before->ru;
+    if (before->ru != NOWHERE) z[before->ru].lu = a;
+    z[b].lu = old_after->lu;
+    if (old_after->lu != NOWHERE) z[old_after->lu].ru = b;
+}
+
+static void pass_lower(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
+                       const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b)
+{
+    sunder_i_trapezoid *z = map->trapezoid;
+    if (before->rl == after) {
+        z[a].rl = b;
+        z[b].ll = a;
+        return;
+    }
+    z[a].rl = before->rl;
+    if (before->rl != NOWHERE) z[before->rl].ll = a;
+    z[b].ll = old_after->ll;
+    if (old_after->ll != NOWHERE) z[old_after->ll].rl = b;
+}
+
+/* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no longer
+ * reaches below: the lower part runs on into the next trapezoid, and the upper part ends; and the other way round. So
+ * each crossed trapezoid but the first begins exactly one new part, which takes its id; the first begins two.
+ * Invariant: u and d are the parts above and below that are open at the trapezoid looked at; `old` is what it was. */
+void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
+{
+    sunder_i_trapezoid *z = map->trapezoid;
+    const uint32_t *t = map->crossed.item;
+    const size_t n = map->crossed.n;
+    const uint32_t v = map->edge[e].end[0], w = map->edge[e].end[1], line = map->edge[e].line;
+    sunder_i_trapezoid old = z[t[0]];
+    uint32_t u = t[0], d = sunder_i_map_new_trapezoid(map);
+    z[d] = old;
+    z[u].bottom = z[d].top = e;
+    z[u].left = z[d].left = v;
+    z[u].ll = z[d].lu = NOWHERE;
+    if (old.lu != NOWHERE) z[old.lu].ru = u;
+    if (old.ll != NOWHERE) z[old.ll].rl = d;
+    sunder_i_history_leaf(map, u);
+    sunder_i_history_leaf(map, d);
+    for (size_t i = 0; i < n; i++) {
+        sunder_i_history_by(map, old.node, line, z[d].node, z[u].node);
+        if (i + 1 == n) break;
+        const uint32_t p = old.right, next = t[i + 1];
+        const sunder_i_trapezoid after = z[next];
+        /* The row goes on through the part of the wall below its vertex p, or above it; where p has no edge to the right both
+         * parts lead to the same trapezoid, and the side of p tells. */
+        const bool p_above = old.rl == next && (old.ru != next || sunder_i_site_side(map, &map->line[line],
+                                                                                     &map->vertex[p].site) > 0);
+        z[next] = (sunder_i_trapezoid){.left = p, .covered = after.covered, .stamp = after.stamp,
+                                       .lu = NOWHERE, .ll = NOWHERE, .ru = NOWHERE, .rl = NOWHERE};
+        if (p_above) {
+            z[next].top = after.top;
+            z[next].bottom = e;
+            z[u].right = p;
+            z[u].rl = next;
+            z[next].ll = u;
+            pass_upper(map, &old, next, &after, u, next);
+            sunder_i_trapezoid_install(map, u);
+            u = next;
+        } else {
+            z[next].top = e;
+            z[next].bottom = after.bottom;
+            z[d].right = p;
+            z[d].ru = next;
+            z[next].lu = d;
+            pass_lower(map, &old, next, &after, d, next);
+            sunder_i_trapezoid_install(map, d);
+            d = next;
+        }
+        sunder_i_history_leaf(map, next);
+        old = after;
+    }
+    z[u].right = z[d].right = w;
+    z[u].rl = z[d].ru = NOWHERE;
+    z[u].ru = old.ru;
+    z[d].rl = old.rl;
+    if (old.ru != NOWHERE) z[old.ru].lu = u;
+    if (old.rl != NOWHERE) z[old.rl].ll = d;
+    sunder_i_trapezoid_install(map, u);
+    sunder_i_trapezoid_install(map, d);
+}
