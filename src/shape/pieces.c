@@ -30,25 +30,18 @@ static void collect(sunder_i_mesh *mesh, sunder_i_pieces *out)
     }
 }
 
-/* One polygon: rings ring_lo .. ring_hi. */
-static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
-                      sunder_i_pieces *out)
+bool sunder_i_triangulate(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
+                          sunder_i_mesh *mesh)
 {
     const uint32_t lo = ring_begin(r, ring_lo), n = r->ring_end[ring_hi - 1] - lo, holes = ring_hi - ring_lo - 1;
-    if (holes == 0 && is_convex(r, lo, lo + n)) {
-        for (uint32_t i = 0; i < n; i++) out->piece_vertex[out->corners++] = lo + i;
-        out->piece_end[out->pieces++] = out->corners;
-        return;
-    }
     const size_t nodes = (size_t)n + 2 * (size_t)holes, halves = 3 * (nodes - 2);
-    const sunder_i_mark mark = sunder_i_arena_mark(arena);
     uint32_t *block = sunder_i_arena_alloc(arena, 4 * nodes + 4 * halves + holes, sizeof *block);
-    if (!block) return;
+    if (!block) return false;
     sunder_i_walk walk = {.nodes = n};
-    sunder_i_mesh mesh = {0};
+    *mesh = (sunder_i_mesh){0};
     uint32_t **const array[] = {&walk.vertex, &walk.next, &walk.prev, &walk.beyond};
     for (size_t k = 0; k < 4; k++, block += nodes) *array[k] = block;
-    uint32_t **const half[] = {&mesh.origin, &mesh.twin, &mesh.next, &mesh.prev};
+    uint32_t **const half[] = {&mesh->origin, &mesh->twin, &mesh->next, &mesh->prev};
     for (size_t k = 0; k < 4; k++, block += halves) *half[k] = block;
     for (uint32_t i = 0; i < n; i++) {
         walk.vertex[i] = lo + i;
@@ -58,8 +51,23 @@ static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_h
     }
     for (uint32_t i = 0; i < holes; i++) block[i] = SUNDER_I_NONE;
     if (holes) sunder_i_bridge_holes(r, ring_lo, ring_hi, &walk, arena);
-    if (!arena->failed) sunder_i_ears_cut(r, &walk, block, holes, &mesh, arena);
-    if (arena->failed || r->lattice->arena.failed) return;
+    if (!arena->failed) sunder_i_ears_cut(r, &walk, block, holes, mesh, arena);
+    return !arena->failed && !r->lattice->arena.failed;
+}
+
+/* One polygon: rings ring_lo .. ring_hi. */
+static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
+                      sunder_i_pieces *out)
+{
+    const uint32_t lo = ring_begin(r, ring_lo), hi = r->ring_end[ring_hi - 1];
+    if (ring_hi - ring_lo == 1 && is_convex(r, lo, hi)) {
+        for (uint32_t v = lo; v < hi; v++) out->piece_vertex[out->corners++] = v;
+        out->piece_end[out->pieces++] = out->corners;
+        return;
+    }
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    sunder_i_mesh mesh;
+    if (!sunder_i_triangulate(r, ring_lo, ring_hi, arena, &mesh)) return;
     sunder_i_mesh_merge(r, &mesh);
     collect(&mesh, out);
     sunder_i_arena_release(arena, mark);

@@ -1,0 +1,129 @@
+/* The checker of decompositions: exact and slow, in big integers only. */
+#include "decomposition/decomposition.h"
+
+#include "predicate/predicate.h"
+
+/* A rational num / den, den > 0. */
+typedef struct rational {
+    sunder_i_big num, den;
+} rational;
+
+static rational reduce(sunder_i_arena *a, rational v)
+{
+    const sunder_i_big g = sunder_i_big_gcd(a, v.num, v.den);
+    if (g.size == 0) return v;
+    return (rational){sunder_i_big_div_floor(a, v.num, g), sunder_i_big_div_floor(a, v.den, g)};
+}
+
+static rational add(sunder_i_arena *a, rational u, rational v)
+{
+    if (sunder_i_big_cmp(u.den, v.den) == 0) return reduce(a, (rational){sunder_i_big_add(a, u.num, v.num), u.den});
+    return reduce(a, (rational){sunder_i_big_add(a, sunder_i_big_mul(a, u.num, v.den), sunder_i_big_mul(a, v.num, u.den)),
+                                sunder_i_big_mul(a, u.den, v.den)});
+}
+
+static sunder_i_big determinant(sunder_i_arena *a, sunder_i_big p, sunder_i_big q, sunder_i_big r, sunder_i_big s)
+{
+    return sunder_i_big_sub(a, sunder_i_big_mul(a, p, s), sunder_i_big_mul(a, q, r));
+}
+
+/* Twice the area of piece i. */
+static rational piece_area(sunder_i_arena *a, const sunder_i_decomposition *d, uint32_t i)
+{
+    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
+    const uint32_t first = sunder_i_piece_first(d, i), end = d->piece_end[i];
+    for (uint32_t k = first; k < end; k++) {
+        const sunder_i_corner *c = &d->corner[d->piece_corner[k]];
+        const sunder_i_corner *e = &d->corner[d->piece_corner[k + 1 < end ? k + 1 : first]];
+        sum = add(a, sum, (rational){determinant(a, c->x, c->y, e->x, e->y), sunder_i_big_mul(a, c->w, e->w)});
+    }
+    return sum;
+}
+
+static sunder_i_big ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
+                              uint32_t hi)
+{
+    sunder_i_arena *a = &l->arena;
+    sunder_i_big sum = {NULL, 0};
+    for (uint32_t v = lo; v < hi; v++) {
+        const sunder_i_point p = at[v], q = at[s->next[v]];
+        sum = sunder_i_big_add(a, sum,
+                               determinant(a, sunder_i_lattice_get(l, p.x), sunder_i_lattice_get(l, p.y),
+                                           sunder_i_lattice_get(l, q.x), sunder_i_lattice_get(l, q.y)));
+    }
+    return sum;
+}
+
+/* Do the side's ends differ by a positive multiple of the vector? */
+static bool agrees(sunder_i_lattice *l, const sunder_i_corner *c, const sunder_i_corner *e, sunder_i_point along)
+{
+    sunder_i_arena *a = &l->arena;
+    const sunder_i_big dx = determinant(a, e->x, e->w, c->x, c->w), dy = determinant(a, e->y, e->w, c->y, c->w);
+    const sunder_i_big x = sunder_i_lattice_get(l, along.x), y = sunder_i_lattice_get(l, along.y);
+    return sunder_i_big_sign(determinant(a, dx, dy, x, y)) == 0 &&
+           sunder_i_big_sign(sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y))) > 0;
+}
+
+static const char *check_piece(sunder_i_lattice *l, const sunder_i_decomposition *d, uint32_t i)
+{
+    const uint32_t first = sunder_i_piece_first(d, i), end = d->piece_end[i];
+    if (end < first + 3) return "a piece has under three corners";
+    for (uint32_t k = first; k < end; k++) {
+        const uint32_t next = k + 1 < end ? k + 1 : first;
+        if (d->piece_corner[k] >= d->corners) return "a piece has a corner that is not there";
+        if (!agrees(l, &d->corner[d->piece_corner[k]], &d->corner[d->piece_corner[next]], d->along[k]))
+            return "a side does not run along its vector";
+        if (sunder_i_cross_sign(l, d->along[k], d->along[next]) <= 0) return "a piece is not strictly convex";
+        if (next != first && sunder_i_angle_cmp(l, d->along[k], d->along[next]) >= 0)
+            return "the angles of a piece do not ascend from its first side";
+    }
+    return NULL;
+}
+
+static const char *check_corner(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at,
+                                const sunder_i_decomposition *d, uint32_t i)
+{
+    sunder_i_arena *a = &l->arena;
+    const sunder_i_corner *c = &d->corner[i];
+    if (i >= s->vertices) {
+        const sunder_i_big g = sunder_i_big_gcd(a, sunder_i_big_gcd(a, c->x, c->y), c->w);
+        if (c->vertex != UINT32_MAX || sunder_i_big_sign(c->w) <= 0) return "a Steiner point is not said as one";
+        return sunder_i_big_cmp(g, sunder_i_big_i64(a, 1)) ? "a Steiner point is not in lowest terms" : NULL;
+    }
+    if (c->vertex != i || sunder_i_big_cmp(c->w, sunder_i_big_i64(a, 1)) != 0 ||
+        sunder_i_big_cmp(c->x, sunder_i_lattice_get(l, at[i].x)) != 0 ||
+        sunder_i_big_cmp(c->y, sunder_i_lattice_get(l, at[i].y)) != 0)
+        return "a vertex does not stand where the shape has it";
+    return NULL;
+}
+
+/* Do the pieces of the polygon, *i and on, have its area? */
+static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at,
+                              const sunder_i_decomposition *d, uint32_t polygon, uint32_t *i)
+{
+    sunder_i_arena *a = &l->arena;
+    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
+    sunder_i_big want = {NULL, 0};
+    const uint32_t ring_lo = polygon ? s->poly_end[polygon - 1] : 0;
+    for (uint32_t r = ring_lo; r < s->poly_end[polygon]; r++)
+        want = sunder_i_big_add(a, want, ring_area(l, s, at, r ? s->ring_end[r - 1] : 0, s->ring_end[r]));
+    for (; *i < d->pieces && d->member[*i] == polygon; ++*i) sum = add(a, sum, piece_area(a, d, *i));
+    if (sunder_i_big_cmp(sum.num, sunder_i_big_mul(a, want, sum.den)) != 0)
+        return "the pieces of a member do not have its area";
+    return NULL;
+}
+
+const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at,
+                                         const sunder_i_decomposition *d)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
+    const char *wrong = d->corners < s->vertices ? "vertices are missing" : NULL;
+    for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
+    for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
+    uint32_t i = 0;
+    for (uint32_t polygon = 0; polygon < s->polygons && !wrong; polygon++)
+        wrong = check_area(l, s, at, d, polygon, &i);
+    if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
+    if (!l->arena.failed) sunder_i_arena_release(&l->arena, mark);
+    return wrong;
+}

@@ -1,0 +1,147 @@
+#include "decomposition/maker.h"
+
+#include <string.h>
+
+const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind)
+{
+    switch (kind) {
+    case SUNDER_I_HERTEL_MEHLHORN: return "hertel-mehlhorn";
+    case SUNDER_I_TRIANGULATION: return "triangulation";
+    case SUNDER_I_ANGLE_BISECTOR: return "angle-bisector";
+    case SUNDER_I_VERTICAL: return "vertical";
+    case SUNDER_I_OPTIMAL: return "optimal";
+    case SUNDER_I_MIXED: return "mixed";
+    }
+    return "";
+}
+
+static void make_optimal(sunder_i_maker *m, const sunder_i_member *member)
+{
+    uint32_t diagonals;
+    double length;
+    if (!sunder_i_has_program(member)) {
+        m->fallbacks++;
+        sunder_i_mesh mesh;
+        if (sunder_i_triangulate(&m->rings, member->ring_lo, member->ring_hi, &m->scratch, &mesh)) {
+            sunder_i_mesh_merge(&m->rings, &mesh);
+            sunder_i_maker_add_faces(m, &mesh);
+        }
+        return;
+    }
+    sunder_i_program *program = sunder_i_program_new(m, member);
+    if (program && sunder_i_program_solve(program, 1, 0, &diagonals, &length)) sunder_i_program_emit(program, m);
+    sunder_i_program_free(program);
+}
+
+static void make(sunder_i_maker *m, sunder_i_decomposition_kind kind)
+{
+    if (kind == SUNDER_I_HERTEL_MEHLHORN) {
+        sunder_i_make_shape_pieces(m);
+        return;
+    }
+    for (; m->polygon < m->rings.polygons && !sunder_i_maker_failed(m); m->polygon++) {
+        const sunder_i_mark mark = sunder_i_arena_mark(&m->scratch);
+        const sunder_i_member member = sunder_i_maker_member(m, m->polygon);
+        if (kind == SUNDER_I_TRIANGULATION && member.n > 3)
+            sunder_i_make_triangles(m, &member);
+        else if (member.reflex == 0)
+            sunder_i_maker_add_whole(m, &member);
+        else if (kind == SUNDER_I_VERTICAL)
+            sunder_i_make_vertical(m, &member);
+        else if (kind == SUNDER_I_ANGLE_BISECTOR)
+            sunder_i_make_bisector(m, &member);
+        else
+            make_optimal(m, &member);
+        if (!m->scratch.failed) sunder_i_arena_release(&m->scratch, mark);
+    }
+}
+
+static sunder_operations difference(const sunder_operations *after, const sunder_operations *before)
+{
+    return (sunder_operations){after->comparisons - before->comparisons,
+                               after->orientation_tests - before->orientation_tests,
+                               after->segment_intersections - before->segment_intersections,
+                               after->exact_fallbacks - before->exact_fallbacks};
+}
+
+static void sign(const sunder_i_maker *m, sunder_i_decomposition_kind kind, const sunder_operations *before,
+                 sunder_i_decomposition *out)
+{
+    out->used = m->fallbacks ? SUNDER_I_HERTEL_MEHLHORN : kind;
+    out->operations = difference(&m->lattice->operations, before);
+}
+
+sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
+                                 sunder_i_decomposition_kind kind, sunder_i_decomposition *out, sunder_error *err)
+{
+    if (kind == SUNDER_I_MIXED) kind = SUNDER_I_OPTIMAL;
+    const sunder_operations before = lattice->operations;
+    sunder_i_maker m;
+    sunder_i_decomposition made;
+    bool ok = sunder_i_maker_init(&m, lattice, shape, at);
+    if (ok) make(&m, kind);
+    ok = ok && sunder_i_maker_finish(&m, &made);
+    if (ok) {
+        sign(&m, kind, &before, &made);
+        *out = made;
+    }
+    sunder_i_maker_free(&m);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* Both at once; the operations of the whole are booked to p. */
+static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_shape *const shape[2],
+                                     const sunder_i_point *const at[2], sunder_i_decomposition *const out[2],
+                                     sunder_error *err)
+{
+    const sunder_operations before = lattice->operations;
+    sunder_i_maker m[2];
+    sunder_i_decomposition made[2];
+    bool ok = sunder_i_maker_init(&m[0], lattice, shape[0], at[0]);
+    ok &= sunder_i_maker_init(&m[1], lattice, shape[1], at[1]);
+    if (ok) sunder_i_make_mixed(&m[0], &m[1]);
+    ok = ok && !sunder_i_maker_failed(&m[0]) && !sunder_i_maker_failed(&m[1]);
+    ok = ok && sunder_i_maker_finish(&m[0], &made[0]);
+    if (ok && !sunder_i_maker_finish(&m[1], &made[1])) {
+        sunder_i_decomposition_clear(&made[0]);
+        ok = false;
+    }
+    for (int i = 0; i < 2 && ok; i++) {
+        sunder_operations now = lattice->operations;
+        sign(&m[i], SUNDER_I_MIXED, i ? &now : &before, &made[i]);
+        *out[i] = made[i];
+    }
+    sunder_i_maker_free(&m[0]);
+    sunder_i_maker_free(&m[1]);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+sunder_status sunder_i_decompose_pair(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *at_p,
+                                      const sunder_shape *q, const sunder_i_point *at_q,
+                                      sunder_i_decomposition_kind kind, sunder_i_decomposition *out_p,
+                                      sunder_i_decomposition *out_q, sunder_error *err)
+{
+    if (kind == SUNDER_I_MIXED) {
+        const sunder_shape *const shape[2] = {p, q};
+        const sunder_i_point *const at[2] = {at_p, at_q};
+        sunder_i_decomposition *const out[2] = {out_p, out_q};
+        return decompose_mixed(lattice, shape, at, out, err);
+    }
+    sunder_i_decomposition first, second;
+    sunder_status status = sunder_i_decompose(lattice, p, at_p, kind, &first, err);
+    if (status) return status;
+    status = sunder_i_decompose(lattice, q, at_q, kind, &second, err);
+    if (status) {
+        sunder_i_decomposition_clear(&first);
+        return status;
+    }
+    *out_p = first;
+    *out_q = second;
+    return SUNDER_OK;
+}
+
+void sunder_i_decomposition_clear(sunder_i_decomposition *d)
+{
+    sunder_i_arena_free(&d->arena);
+    memset(d, 0, sizeof *d);
+}

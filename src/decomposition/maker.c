@@ -1,0 +1,201 @@
+#include "decomposition/maker.h"
+
+#include <string.h>
+
+/* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the stages
+ * below ask of rounded ones. */
+static double monotone(sunder_i_lattice *l, int64_t n, bool *rounded)
+{
+    if (l->narrow) {
+        if (n > (int64_t)1 << 53 || n < -((int64_t)1 << 53)) *rounded = true;
+        return (double)n;
+    }
+    *rounded = true;
+    return sunder_i_big_ratio(&l->arena, sunder_i_lattice_get(l, n), sunder_i_big_i64(&l->arena, 1), -l->approx_shift);
+}
+
+bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sunder_shape *shape,
+                         const sunder_i_point *at)
+{
+    memset(m, 0, sizeof *m);
+    m->lattice = lattice;
+    m->shape = shape;
+    sunder_i_rings *r = &m->rings;
+    r->lattice = lattice;
+    r->vertices = shape->vertices;
+    r->rings = shape->rings;
+    r->polygons = shape->polygons;
+    r->ring_end = shape->ring_end;
+    r->poly_end = shape->poly_end;
+    r->next = shape->next;
+    r->prev = shape->prev;
+    r->at = sunder_i_alloc(shape->vertices, sizeof *r->at);
+    r->xy = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *r->xy);
+    if (!r->at || !r->xy) return false;
+    for (uint32_t i = 0; i < shape->vertices; i++) {
+        r->at[i] = at[i];
+        r->xy[2 * (size_t)i] = monotone(lattice, at[i].x, &r->rounded);
+        r->xy[2 * (size_t)i + 1] = monotone(lattice, at[i].y, &r->rounded);
+    }
+    return !lattice->arena.failed;
+}
+
+void sunder_i_maker_free(sunder_i_maker *m)
+{
+    sunder_i_free(m->rings.at);
+    sunder_i_free(m->rings.xy);
+    sunder_i_free(m->piece_end);
+    sunder_i_free(m->piece_corner);
+    sunder_i_free(m->member);
+    sunder_i_free(m->along);
+    sunder_i_free(m->steiner);
+    sunder_i_arena_free(&m->scratch);
+    memset(m, 0, sizeof *m);
+}
+
+bool sunder_i_maker_failed(const sunder_i_maker *m) { return m->scratch.failed || m->lattice->arena.failed; }
+
+sunder_i_member sunder_i_maker_member(const sunder_i_maker *m, uint32_t polygon)
+{
+    const sunder_i_rings *r = &m->rings;
+    sunder_i_member part = {.ring_lo = polygon ? r->poly_end[polygon - 1] : 0, .ring_hi = r->poly_end[polygon]};
+    part.first = part.ring_lo ? r->ring_end[part.ring_lo - 1] : 0;
+    part.n = r->ring_end[part.ring_hi - 1] - part.first;
+    for (uint32_t v = part.first; v < part.first + part.n; v++) part.reflex += sunder_i_is_reflex(r, v);
+    return part;
+}
+
+void sunder_i_maker_add_side(sunder_i_maker *m, uint32_t corner, sunder_i_point along)
+{
+    if (!sunder_i_reserve(&m->piece_corner, &m->corner_room, (size_t)m->sides + 1, sizeof *m->piece_corner) ||
+        !sunder_i_reserve(&m->along, &m->along_room, (size_t)m->sides + 1, sizeof *m->along)) {
+        m->scratch.failed = true;
+        return;
+    }
+    m->piece_corner[m->sides] = corner;
+    m->along[m->sides++] = along;
+}
+
+static void reverse(uint32_t *corner, sunder_i_point *along, uint32_t lo, uint32_t hi)
+{
+    while (lo + 1 < hi) {
+        const uint32_t c = corner[lo];
+        const sunder_i_point a = along[lo];
+        corner[lo] = corner[--hi];
+        along[lo] = along[hi];
+        corner[hi] = c;
+        along[hi] = a;
+        lo++;
+    }
+}
+
+void sunder_i_maker_end_piece(sunder_i_maker *m)
+{
+    if (sunder_i_maker_failed(m)) return;
+    const uint32_t first = m->pieces ? m->piece_end[m->pieces - 1] : 0, n = m->sides - first;
+    uint32_t *corner = m->piece_corner + first, kept = 0;
+    sunder_i_point *along = m->along + first, before = along[n - 1];
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_point now = along[k];
+        if (sunder_i_cross_sign(m->lattice, before, now) == 0) continue;
+        corner[kept] = corner[k];
+        along[kept++] = before = now;
+    }
+    uint32_t least = 0;
+    for (uint32_t k = 1; k < kept; k++)
+        if (sunder_i_angle_cmp(m->lattice, along[k], along[least]) < 0) least = k;
+    if (least) { /* rotated by three reversals */
+        reverse(corner, along, 0, least);
+        reverse(corner, along, least, kept);
+        reverse(corner, along, 0, kept);
+    }
+    m->sides = first + kept;
+    if (!sunder_i_reserve(&m->piece_end, &m->pieces_room, (size_t)m->pieces + 1, sizeof *m->piece_end) ||
+        !sunder_i_reserve(&m->member, &m->member_room, (size_t)m->pieces + 1, sizeof *m->member)) {
+        m->scratch.failed = true;
+        return;
+    }
+    m->member[m->pieces] = m->polygon;
+    m->piece_end[m->pieces++] = m->sides;
+}
+
+void sunder_i_maker_add_vertices(sunder_i_maker *m, const uint32_t *vertex, uint32_t n)
+{
+    const sunder_i_rings *r = &m->rings;
+    for (uint32_t k = 0; k < n; k++)
+        sunder_i_maker_add_side(
+            m, vertex[k], sunder_i_point_sub(m->lattice, r->at[vertex[k + 1 < n ? k + 1 : 0]], r->at[vertex[k]]));
+    sunder_i_maker_end_piece(m);
+}
+
+void sunder_i_maker_add_whole(sunder_i_maker *m, const sunder_i_member *member)
+{
+    const sunder_i_rings *r = &m->rings;
+    for (uint32_t v = member->first; v < member->first + member->n; v++)
+        sunder_i_maker_add_side(m, v, sunder_i_point_sub(m->lattice, r->at[r->next[v]], r->at[v]));
+    sunder_i_maker_end_piece(m);
+}
+
+uint32_t sunder_i_maker_add_steiner(sunder_i_maker *m, sunder_i_point a, sunder_i_point b, const sunder_i_fraction *t)
+{
+    if (!sunder_i_reserve(&m->steiner, &m->steiner_room, (size_t)m->steiner_n + 1, sizeof *m->steiner)) {
+        m->scratch.failed = true;
+        return 0;
+    }
+    const sunder_i_hpoint p = sunder_i_hpoint_at(m->lattice, a, b, t);
+    sunder_i_big *const to = m->steiner[m->steiner_n];
+    sunder_i_hpoint_big(m->lattice, &p, &to[0], &to[1], &to[2]);
+    return m->shape->vertices + m->steiner_n++;
+}
+
+/* A block of the result with a copy of what has grown. */
+static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size)
+{
+    void *to = sunder_i_arena_alloc(arena, n, size);
+    if (to && n) memcpy(to, from, n * size);
+    return to;
+}
+
+/* A Steiner point in lowest terms. */
+static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, const sunder_i_big xyw[3])
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(scratch);
+    const sunder_i_big g =
+        sunder_i_big_gcd(scratch, sunder_i_big_gcd(scratch, xyw[0], xyw[1]), xyw[2]);
+    sunder_i_big v[3] = {{NULL, 0}, {NULL, 0}, {NULL, 0}};
+    for (int k = 0; k < 3 && g.size; k++)
+        v[k] = sunder_i_big_copy(arena, sunder_i_big_div_floor(scratch, xyw[k], g));
+    if (!scratch->failed) sunder_i_arena_release(scratch, mark);
+    return (sunder_i_corner){v[0], v[1], v[2], UINT32_MAX};
+}
+
+bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
+{
+    static const mp_limb_t one = 1;
+    const uint32_t n = m->shape->vertices;
+    memset(out, 0, sizeof *out);
+    sunder_i_arena *arena = &out->arena;
+    out->fallbacks = m->fallbacks;
+    out->corners = n + m->steiner_n;
+    out->corner = sunder_i_arena_alloc(arena, out->corners, sizeof *out->corner);
+    out->pieces = m->pieces;
+    out->piece_end = keep(arena, m->piece_end, m->pieces, sizeof *m->piece_end);
+    out->member = keep(arena, m->member, m->pieces, sizeof *m->member);
+    out->piece_corner = keep(arena, m->piece_corner, m->sides, sizeof *m->piece_corner);
+    out->along = keep(arena, m->along, m->sides, sizeof *m->along);
+    for (uint32_t i = 0; i < n && !arena->failed; i++) {
+        sunder_i_corner *c = &out->corner[i];
+        const sunder_i_point at = m->rings.at[i];
+        c->x = m->lattice->narrow ? sunder_i_big_i64(arena, at.x)
+                                  : sunder_i_big_copy(arena, sunder_i_lattice_get(m->lattice, at.x));
+        c->y = m->lattice->narrow ? sunder_i_big_i64(arena, at.y)
+                                  : sunder_i_big_copy(arena, sunder_i_lattice_get(m->lattice, at.y));
+        c->w = (sunder_i_big){&one, 1};
+        c->vertex = i;
+    }
+    for (uint32_t i = 0; i < m->steiner_n && !arena->failed; i++)
+        out->corner[n + i] = reduced(arena, &m->scratch, m->steiner[i]);
+    if (!arena->failed && !sunder_i_maker_failed(m)) return true;
+    sunder_i_decomposition_clear(out);
+    return false;
+}

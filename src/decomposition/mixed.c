@@ -1,0 +1,141 @@
+/* Both operands together, after the mixed objective of [AFH02]: what a good decomposition of P is depends on Q.
+ *
+ * The cost of the union of the subsums P_i + Q_j grows with the length of what is drawn, since the sides of k subsums cross about
+ * as often as lines thrown at random over the same ground: with the length of all their boundaries. The perimeter of a sum of
+ * convex polygons is the sum of their perimeters. So with k_P pieces, d_P the length of the diagonals, and b_P the length of the
+ * boundary (the pieces of P have perimeters b_P + 2 d_P in all), what is made small is
+ *
+ *     c = k_Q (b_P + 2 d_P) + k_P (b_Q + 2 d_Q).
+ *
+ * Few pieces alone are not the aim, nor are short diagonals: a long diagonal of P is paid k_Q times, one more piece of P as often
+ * as Q is long. With Q fixed, c is a constant plus, for each diagonal of P, its length times 2 k_Q plus b_Q + 2 d_Q: the
+ * weights of optimal.c's dynamic programming, which finds the best P for this Q. The two are solved in turn, from the fewest
+ * pieces on, until c falls no further: a local minimum of c in both, never worse than the optimal decompositions are (where both
+ * can be computed). Members with holes, or of too many vertices, have the triangulation's diagonals taken away, longest first, once.
+ *
+ * Lengths are doubles: they choose among exact decompositions. */
+#include "decomposition/maker.h"
+
+#include <math.h>
+
+#define ROUNDS 8 /* it settles in two or three */
+
+/* One operand and where it stands. */
+typedef struct side {
+    sunder_i_maker *m;
+    sunder_i_program **program; /* [polygons] NULL where there is none */
+    sunder_i_mesh *mesh;        /* [polygons] of reflex members without a program */
+    uint32_t *diagonals;        /* [polygons] of the last solution */
+    double *lengths;
+    double boundary;
+    double pieces, perimeters;  /* of all pieces: k, and b + 2 d */
+} side;
+
+static double boundary_of(const sunder_i_rings *r)
+{
+    double sum = 0;
+    for (uint32_t v = 0; v < r->vertices; v++) {
+        const double *a = r->xy + 2 * (size_t)v, *b = r->xy + 2 * (size_t)r->next[v];
+        sum += hypot(a[0] - b[0], a[1] - b[1]);
+    }
+    return sum;
+}
+
+static void total(side *s)
+{
+    s->pieces = 0;
+    s->perimeters = s->boundary;
+    for (uint32_t i = 0; i < s->m->rings.polygons; i++) {
+        const sunder_i_member member = sunder_i_maker_member(s->m, i);
+        s->pieces += 2 + s->diagonals[i] - (double)(member.ring_hi - member.ring_lo);
+        s->perimeters += 2 * s->lengths[i];
+    }
+}
+
+static bool prepare(side *s, sunder_i_maker *m)
+{
+    const uint32_t polygons = m->rings.polygons;
+    s->m = m;
+    s->program = sunder_i_arena_alloc(&m->scratch, polygons, sizeof *s->program);
+    s->mesh = sunder_i_arena_alloc(&m->scratch, polygons, sizeof *s->mesh);
+    s->diagonals = sunder_i_arena_alloc(&m->scratch, polygons, sizeof *s->diagonals);
+    s->lengths = sunder_i_arena_alloc(&m->scratch, polygons, sizeof *s->lengths);
+    if (m->scratch.failed) return false;
+    s->boundary = boundary_of(&m->rings);
+    for (uint32_t i = 0; i < polygons; i++) {
+        s->program[i] = NULL;
+        s->diagonals[i] = 0;
+        s->lengths[i] = 0;
+    }
+    for (uint32_t i = 0; i < polygons && !sunder_i_maker_failed(m); i++) {
+        const sunder_i_member member = sunder_i_maker_member(m, i);
+        if (!member.reflex) continue;
+        if (sunder_i_has_program(&member)) {
+            s->program[i] = sunder_i_program_new(m, &member);
+        } else {
+            m->fallbacks++;
+            sunder_i_mesh_short(m, &member, &s->mesh[i], &s->diagonals[i], &s->lengths[i]);
+        }
+    }
+    return !sunder_i_maker_failed(m);
+}
+
+static bool solve(side *s, double each, double by_length)
+{
+    for (uint32_t i = 0; i < s->m->rings.polygons; i++)
+        if (s->program[i] &&
+            !sunder_i_program_solve(s->program[i], each, by_length, &s->diagonals[i], &s->lengths[i]))
+            return false;
+    total(s);
+    return true;
+}
+
+static bool solve_both(side *p, side *q)
+{
+    if (!solve(p, 1, 0) || !solve(q, 1, 0)) return false;
+    double cost = q->pieces * p->perimeters + p->pieces * q->perimeters;
+    for (int i = 0; i < ROUNDS; i++) {
+        if (!solve(p, q->perimeters, 2 * q->pieces) || !solve(q, p->perimeters, 2 * p->pieces)) return false;
+        const double now = q->pieces * p->perimeters + p->pieces * q->perimeters;
+        if (!(now < cost)) break;
+        cost = now;
+    }
+    return true;
+}
+
+static void emit(side *s)
+{
+    sunder_i_maker *m = s->m;
+    for (; m->polygon < m->rings.polygons && !sunder_i_maker_failed(m); m->polygon++) {
+        const sunder_i_member member = sunder_i_maker_member(m, m->polygon);
+        if (s->program[m->polygon])
+            sunder_i_program_emit(s->program[m->polygon], m);
+        else if (member.reflex)
+            sunder_i_maker_add_faces(m, &s->mesh[m->polygon]);
+        else
+            sunder_i_maker_add_whole(m, &member);
+    }
+}
+
+static void release(side *s)
+{
+    for (uint32_t i = 0; s->program && i < s->m->rings.polygons; i++) sunder_i_program_free(s->program[i]);
+}
+
+void sunder_i_make_mixed(sunder_i_maker *p, sunder_i_maker *q)
+{
+    side a = {0}, b = {0};
+    if (prepare(&a, p) && prepare(&b, q) && p->rings.polygons && q->rings.polygons) {
+        if (solve_both(&a, &b)) {
+            emit(&a);
+            emit(&b);
+        }
+    } else if (!sunder_i_maker_failed(p) && !sunder_i_maker_failed(q)) { /* one is empty: the other by itself */
+        if (solve(&a, 1, 0) && solve(&b, 1, 0)) {
+            emit(&a);
+            emit(&b);
+        }
+    }
+    release(&a);
+    release(&b);
+}

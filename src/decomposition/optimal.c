@@ -1,0 +1,360 @@
+/* The decomposition of a polygon without holes by diagonals of least total weight: of the fewest pieces where each diagonal weighs
+ * one. Dynamic programming in the manner of Greene and of Keil [Gre83, Kei85], arranged so that a vertex and an edge are looked at
+ * together once.
+ *
+ * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal; W(u, v) is the least
+ * weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself not counted. The piece that rests
+ * on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk = j, and
+ *
+ *     W(i, j) = min over such chains of the sum over its links of W(v, v') + weight(v, v').
+ *
+ * For each i, from the last vertex to the first, all chains that start there are grown at once, u ascending: what arrives at u
+ * over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand in the order of their angles;
+ * so for v ascending the t allowed are a growing range (two pointers), and what is kept of it is the best alone. Best in which sense:
+ * if i is convex, of least weight. If i is reflex, the chain's first link matters too, since the angle at i from there to j must not
+ * exceed pi: later first links are better, and what is kept are the chains that no other beats in both (a front).
+ *
+ * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
+ *
+ * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may be straight: a
+ * vertex that touches a line between two others divides it in two diagonals. (So the optimum is at most what decompositions into
+ * strictly convex pieces with matching sides have.) A closing link is never degenerate, since a diagonal meets no vertex between its
+ * ends.
+ *
+ * Weights are sums of doubles, exact where each diagonal weighs one. All decisions about shape are orientations of vertices
+ * (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n n) at worst and far less
+ * as a rule; memory O(r n). */
+#include "decomposition/maker.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A convex chain that starts at the vertex in hand: its last link arrives from `from`; `before` is the chain without it. */
+typedef struct chain {
+    double weight;
+    uint32_t from, start; /* start: the vertex of its first link (0 where that does not matter) */
+    uint32_t before, next; /* next: of those that arrive at the same vertex, by ascending `from` */
+} chain;
+
+struct sunder_i_program {
+    sunder_i_maker *m;
+    uint32_t first, n;
+    bool *reflex;
+    uint32_t *up_first, *up;     /* [n + 1], links (u, v) with v ascending: their upper ends */
+    uint32_t *allowed;           /* [links] for (u, v): the greatest t with a convex corner t u v, plus one; 0: none */
+    double *length, *within;     /* [links] W */
+    double each, by_length;
+    chain *chain;                /* grows */
+    uint32_t chains;
+    size_t chain_room;
+    uint32_t *head, *tail;       /* [n] chains that arrive at each vertex */
+    uint32_t pieces, *piece_end, *corner; /* of the last solution */
+    uint32_t *front;             /* kept chains at one vertex; grows */
+    size_t front_room;
+};
+
+static int turn(const sunder_i_program *p, uint32_t a, uint32_t b, uint32_t c)
+{
+    return sunder_i_rings_orient(&p->m->rings, p->first + a, p->first + b, p->first + c);
+}
+
+/* ---- Links ---- */
+
+typedef struct both_ways {
+    uint32_t u, v;
+} both_ways;
+
+static int compare_links(const void *a, const void *b)
+{
+    const both_ways *p = a, *q = b;
+    if (p->u != q->u) return p->u < q->u ? -1 : 1;
+    return (p->v > q->v) - (p->v < q->v);
+}
+
+/* All pairs u < v that are edges, or see each other and are not both convex. */
+static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member, uint32_t *count)
+{
+    sunder_i_sight sight;
+    both_ways *link = NULL;
+    size_t room = 0, n = 0;
+    bool ok = sunder_i_sight_init(&sight, &p->m->rings, member, &p->m->scratch) &&
+              sunder_i_reserve(&link, &room, p->n, sizeof *link);
+    for (uint32_t v = 0; ok && v < p->n; v++) {
+        const uint32_t w = (v + 1) % p->n;
+        link[n++] = (both_ways){v < w ? v : w, v < w ? w : v};
+    }
+    for (uint32_t v = 0; ok && v < p->n; v++) {
+        if (!p->reflex[v]) continue;
+        ok = sunder_i_sight_look(&sight, p->first + v, NULL) &&
+             sunder_i_reserve(&link, &room, n + sight.seen_n, sizeof *link);
+        for (uint32_t i = 0; ok && i < sight.seen_n; i++) {
+            const uint32_t w = sight.seen[i] - p->first, gap = v < w ? w - v : v - w;
+            if (gap == 1 || gap == p->n - 1 || (p->reflex[w] && w < v)) continue;
+            link[n++] = (both_ways){v < w ? v : w, v < w ? w : v};
+        }
+    }
+    sunder_i_sight_free(&sight);
+    if (ok && n <= UINT32_MAX) {
+        qsort(link, n, sizeof *link, compare_links);
+        *count = (uint32_t)n;
+        return link;
+    }
+    sunder_i_free(link);
+    return NULL;
+}
+
+/* For each link upwards from u how far the t range; t and v ascend together. */
+static void find_allowed(sunder_i_program *p, const uint32_t *down_first, const uint32_t *down)
+{
+    for (uint32_t u = 0; u < p->n; u++) {
+        uint32_t t = down_first[u];
+        for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1]; e++) {
+            while (t < down_first[u + 1] && turn(p, down[t], u, p->up[e]) >= 0) t++;
+            p->allowed[e] = t > down_first[u] ? down[t - 1] + 1 : 0;
+        }
+    }
+}
+
+static bool fill_links(sunder_i_program *p, const both_ways *link, uint32_t count)
+{
+    sunder_i_arena *arena = &p->m->scratch;
+    const double *xy = p->m->rings.xy + 2 * (size_t)p->first;
+    p->up_first = sunder_i_arena_alloc(arena, (size_t)p->n + 1, sizeof *p->up_first);
+    p->up = sunder_i_arena_alloc(arena, count, sizeof *p->up);
+    p->allowed = sunder_i_arena_alloc(arena, count, sizeof *p->allowed);
+    p->length = sunder_i_arena_alloc(arena, count, sizeof *p->length);
+    p->within = sunder_i_arena_alloc(arena, count, sizeof *p->within);
+    uint32_t *down_first = sunder_i_arena_alloc(arena, (size_t)p->n + 2, sizeof *down_first);
+    uint32_t *down = sunder_i_arena_alloc(arena, count, sizeof *down);
+    if (arena->failed) return false;
+    memset(p->up_first, 0, ((size_t)p->n + 1) * sizeof *p->up_first);
+    memset(down_first, 0, ((size_t)p->n + 2) * sizeof *down_first);
+    for (uint32_t e = 0; e < count; e++) {
+        const double *a = xy + 2 * (size_t)link[e].u, *b = xy + 2 * (size_t)link[e].v;
+        p->up_first[link[e].u + 1]++;
+        down_first[link[e].v + 2]++;
+        p->up[e] = link[e].v;
+        p->length[e] = hypot(a[0] - b[0], a[1] - b[1]);
+    }
+    for (uint32_t u = 0; u < p->n; u++) {
+        p->up_first[u + 1] += p->up_first[u];
+        down_first[u + 2] += down_first[u + 1];
+    }
+    for (uint32_t e = 0; e < count; e++) down[down_first[link[e].v + 1]++] = link[e].u; /* ascending, as link[] is */
+    find_allowed(p, down_first, down);
+    return !sunder_i_maker_failed(p->m);
+}
+
+sunder_i_program *sunder_i_program_new(sunder_i_maker *m, const sunder_i_member *member)
+{
+    sunder_i_arena *arena = &m->scratch;
+    sunder_i_program *p = sunder_i_arena_alloc(arena, 1, sizeof *p);
+    if (!p) return NULL;
+    memset(p, 0, sizeof *p);
+    p->m = m;
+    p->first = member->first;
+    p->n = member->n;
+    p->reflex = sunder_i_arena_alloc(arena, p->n, sizeof *p->reflex);
+    p->head = sunder_i_arena_alloc(arena, p->n, sizeof *p->head);
+    p->tail = sunder_i_arena_alloc(arena, p->n, sizeof *p->tail);
+    p->piece_end = sunder_i_arena_alloc(arena, p->n, sizeof *p->piece_end);
+    p->corner = sunder_i_arena_alloc(arena, 3 * (size_t)p->n, sizeof *p->corner);
+    if (arena->failed) return NULL;
+    for (uint32_t v = 0; v < p->n; v++) p->reflex[v] = sunder_i_is_reflex(&m->rings, p->first + v);
+    uint32_t count = 0;
+    both_ways *link = find_links(p, member, &count);
+    const bool ok = link && fill_links(p, link, count);
+    sunder_i_free(link);
+    if (ok) return p;
+    arena->failed = true;
+    return NULL;
+}
+
+/* ---- Chains ---- */
+
+static double weight_of(const sunder_i_program *p, uint32_t u, uint32_t e)
+{
+    const uint32_t gap = p->up[e] - u;
+    return gap == 1 || gap == p->n - 1 ? 0 : p->each + p->by_length * p->length[e];
+}
+
+static bool add_chain(sunder_i_program *p, uint32_t at, chain c)
+{
+    if (!sunder_i_reserve(&p->chain, &p->chain_room, (size_t)p->chains + 1, sizeof *p->chain) ||
+        p->chains == SUNDER_I_NONE - 1) {
+        p->m->scratch.failed = true;
+        return false;
+    }
+    c.next = SUNDER_I_NONE;
+    p->chain[p->chains] = c;
+    if (p->head[at] == SUNDER_I_NONE)
+        p->head[at] = p->chains;
+    else
+        p->chain[p->tail[at]].next = p->chains;
+    p->tail[at] = p->chains++;
+    return true;
+}
+
+/* Takes chain c into the front of n chains unless one of them is as good; drops those that it beats. */
+static uint32_t front_add(sunder_i_program *p, uint32_t n, uint32_t c)
+{
+    const chain *now = &p->chain[c];
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const chain *old = &p->chain[p->front[k]];
+        if (old->weight <= now->weight && old->start >= now->start) return n;
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        const chain *old = &p->chain[p->front[k]];
+        if (!(now->weight <= old->weight && now->start >= old->start)) p->front[kept++] = p->front[k];
+    }
+    if (!sunder_i_reserve(&p->front, &p->front_room, (size_t)kept + 1, sizeof *p->front)) {
+        p->m->scratch.failed = true;
+        return kept;
+    }
+    p->front[kept++] = c;
+    return kept;
+}
+
+/* The chains of the front go on from u over link e. */
+static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint32_t n)
+{
+    const uint32_t v = p->up[e];
+    if (n == 0 || (u != i && turn(p, u, v, i) < 0)) return true;
+    for (uint32_t k = 0; k < n; k++) {
+        const chain *c = &p->chain[p->front[k]];
+        if (p->reflex[i] && turn(p, v, i, c->start) < 0) continue;
+        const chain longer = {c->weight + p->within[e] + weight_of(p, u, e), u, c->start, p->front[k], SUNDER_I_NONE};
+        if (!add_chain(p, v, longer)) return false;
+    }
+    return true;
+}
+
+/* The lightest chain that arrives at u, or NONE. */
+static uint32_t lightest(const sunder_i_program *p, uint32_t u)
+{
+    uint32_t best = SUNDER_I_NONE;
+    for (uint32_t c = p->head[u]; c != SUNDER_I_NONE; c = p->chain[c].next)
+        if (best == SUNDER_I_NONE || p->chain[c].weight < p->chain[best].weight) best = c;
+    return best;
+}
+
+/* Grows all chains from i up to vertex `last`, and W of the links from i. Returns the lightest chain that arrives at `last`. */
+static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
+{
+    p->chains = 0;
+    for (uint32_t v = i; v <= last; v++) p->head[v] = SUNDER_I_NONE;
+    uint32_t link = p->up_first[i];
+    const uint32_t link_end = p->up_first[i + 1];
+    for (uint32_t u = i + 1; u < last; u++) {
+        const bool linked = link < link_end && p->up[link] == u;
+        if (!linked && p->head[u] == SUNDER_I_NONE) continue;
+        /* The chain that is the link from i alone: the first to arrive, since i is the least vertex. */
+        uint32_t alone = SUNDER_I_NONE;
+        if (linked) {
+            const uint32_t c = lightest(p, u);
+            if (u > i + 1) p->within[link] = c == SUNDER_I_NONE ? INFINITY : p->chain[c].weight;
+            const chain single = {p->within[link] + weight_of(p, i, link), i, p->reflex[i] ? u : 0, SUNDER_I_NONE,
+                                  SUNDER_I_NONE};
+            link++;
+            const uint32_t head = p->head[u], tail = p->tail[u];
+            p->head[u] = SUNDER_I_NONE;
+            if (!add_chain(p, u, single)) return SUNDER_I_NONE;
+            alone = p->head[u];
+            p->chain[alone].next = head;
+            p->tail[u] = head == SUNDER_I_NONE ? alone : tail;
+        }
+        uint32_t c = p->head[u], n = 0;
+        for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1] && p->up[e] <= last; e++) {
+            for (; c != SUNDER_I_NONE && p->chain[c].from < p->allowed[e]; c = p->chain[c].next)
+                n = front_add(p, n, c);
+            if (!extend(p, i, u, e, n)) return SUNDER_I_NONE;
+        }
+    }
+    const uint32_t best = lightest(p, last);
+    if (link < link_end && p->up[link] == last && last > i + 1)
+        p->within[link] = best == SUNDER_I_NONE ? INFINITY : p->chain[best].weight;
+    return best;
+}
+
+/* ---- Solving ---- */
+
+static uint32_t find_link(const sunder_i_program *p, uint32_t u, uint32_t v)
+{
+    uint32_t lo = p->up_first[u], hi = p->up_first[u + 1];
+    while (lo + 1 < hi) {
+        const uint32_t middle = lo + (hi - lo) / 2;
+        if (p->up[middle] <= v)
+            lo = middle;
+        else
+            hi = middle;
+    }
+    return lo;
+}
+
+/* The pieces of the best solution, from the link (0, n - 1) inwards; chains are grown again, which costs less than to keep them
+ * all. */
+static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
+{
+    both_ways *stack = sunder_i_alloc(p->n, sizeof *stack);
+    if (!stack) return false;
+    uint32_t depth = 0, corners = 0;
+    stack[depth++] = (both_ways){0, p->n - 1};
+    p->pieces = 0;
+    *diagonals = 0;
+    *length = 0;
+    while (depth) {
+        const both_ways base = stack[--depth];
+        uint32_t c = grow(p, base.u, base.v), above = base.v;
+        if (c == SUNDER_I_NONE) break; /* memory is out */
+        /* From the upper end down, so clockwise: put in from the back. */
+        const uint32_t start = corners;
+        p->corner[corners++] = p->first + above;
+        for (; c != SUNDER_I_NONE; c = p->chain[c].before) {
+            const uint32_t below = p->chain[c].from;
+            p->corner[corners++] = p->first + below;
+            if (above - below > 1) {
+                stack[depth++] = (both_ways){below, above};
+                *length += p->length[find_link(p, below, above)];
+                ++*diagonals;
+            }
+            above = below;
+        }
+        for (uint32_t lo = start, hi = corners - 1; lo < hi; lo++, hi--) {
+            const uint32_t swap = p->corner[lo];
+            p->corner[lo] = p->corner[hi];
+            p->corner[hi] = swap;
+        }
+        p->piece_end[p->pieces++] = corners;
+    }
+    sunder_i_free(stack);
+    return !sunder_i_maker_failed(p->m);
+}
+
+bool sunder_i_program_solve(sunder_i_program *p, double each, double by_length, uint32_t *diagonals, double *length)
+{
+    p->each = each;
+    p->by_length = by_length;
+    for (uint32_t e = 0; e < p->up_first[p->n]; e++) p->within[e] = 0;
+    for (uint32_t i = p->n - 1; i-- > 0 && !sunder_i_maker_failed(p->m);) {
+        const uint32_t first = p->up_first[i], end = p->up_first[i + 1];
+        if (end - first > 1 || p->up[first] > i + 1) grow(p, i, p->up[end - 1]);
+    }
+    if (!sunder_i_maker_failed(p->m) && trace(p, diagonals, length)) return true;
+    p->m->scratch.failed = true;
+    return false;
+}
+
+void sunder_i_program_emit(const sunder_i_program *p, sunder_i_maker *m)
+{
+    for (uint32_t i = 0, at = 0; i < p->pieces; at = p->piece_end[i++])
+        sunder_i_maker_add_vertices(m, p->corner + at, p->piece_end[i] - at);
+}
+
+void sunder_i_program_free(sunder_i_program *p)
+{
+    if (!p) return;
+    sunder_i_free(p->chain);
+    sunder_i_free(p->front);
+}

@@ -1,0 +1,122 @@
+/* Looking through a triangulated member, exactly: every question is the side of a vertex to a line through two lattice
+ * points (degree 2).
+ *
+ * A ray crosses one triangle after the other until a side has nothing behind it. What one vertex sees: each triangle around it
+ * opens a window, its far side; beyond a window stands an apex, which is seen if it lies strictly between the two points that
+ * bound the view, and which divides the view. The vertices that bound a view block what stands behind them in line. In a
+ * member without holes each triangle is entered once; with holes a triangle may be entered through several windows. */
+#include "decomposition/maker.h"
+
+#include <string.h>
+
+/* Through half-edge h (its origin on the right) one sees what lies between the vertices right and left. */
+typedef struct sunder_i_window {
+    uint32_t h, right, left;
+} sunder_i_window;
+
+bool sunder_i_sight_init(sunder_i_sight *s, const sunder_i_rings *r, const sunder_i_member *member,
+                         sunder_i_arena *arena)
+{
+    memset(s, 0, sizeof *s);
+    s->r = r;
+    s->first = member->first;
+    s->n = member->n;
+    s->start = sunder_i_arena_alloc(arena, member->n, sizeof *s->start);
+    if (!s->start || !sunder_i_triangulate(r, member->ring_lo, member->ring_hi, arena, &s->mesh)) return false;
+    for (uint32_t h = 0; h < s->mesh.halves; h++)
+        if (s->mesh.twin[h] == SUNDER_I_NONE) s->start[s->mesh.origin[h] - s->first] = h;
+    return true;
+}
+
+void sunder_i_sight_free(sunder_i_sight *s)
+{
+    sunder_i_free(s->seen);
+    sunder_i_free(s->stack);
+    s->seen = NULL;
+    s->stack = NULL;
+    s->seen_room = s->stack_room = 0;
+}
+
+/* The half-edge that leaves the same vertex next, counter-clockwise; NONE past the last triangle. */
+static uint32_t turn_left(const sunder_i_mesh *m, uint32_t h) { return m->twin[m->prev[h]]; }
+
+sunder_i_hit sunder_i_sight_shoot(const sunder_i_sight *s, uint32_t v, sunder_i_point toward)
+{
+    const sunder_i_mesh *m = &s->mesh;
+    const sunder_i_rings *r = s->r;
+    sunder_i_lattice *l = r->lattice;
+    const sunder_i_point from = r->at[v];
+    uint32_t h = s->start[v - s->first];
+    for (; h != SUNDER_I_NONE; h = turn_left(m, h)) {
+        const uint32_t b = m->origin[m->next[h]], c = m->origin[m->prev[h]];
+        const int right = sunder_i_orient(l, from, toward, r->at[b]);
+        if (right > 0 || sunder_i_orient(l, from, toward, r->at[c]) <= 0) continue;
+        if (right == 0) return (sunder_i_hit){true, b};
+        break;
+    }
+    if (h == SUNDER_I_NONE) return (sunder_i_hit){true, SUNDER_I_NONE};
+    for (h = m->next[h];;) {
+        const uint32_t g = m->twin[h];
+        if (g == SUNDER_I_NONE) return (sunder_i_hit){false, m->origin[h]};
+        const uint32_t apex = m->origin[m->prev[g]];
+        const int side = sunder_i_orient(l, from, toward, r->at[apex]);
+        if (side == 0) return (sunder_i_hit){true, apex};
+        h = side > 0 ? m->next[g] : m->prev[g];
+    }
+}
+
+static bool see(sunder_i_sight *s, uint32_t w)
+{
+    if (!sunder_i_reserve(&s->seen, &s->seen_room, (size_t)s->seen_n + 1, sizeof *s->seen)) return false;
+    s->seen[s->seen_n++] = w;
+    return true;
+}
+
+/* Does everything between right and left lie outside the cone? Each of its two half-planes is asked alone. */
+static bool is_outside(const sunder_i_rings *r, uint32_t v, const sunder_i_window *w, const sunder_i_point *cone)
+{
+    sunder_i_lattice *l = r->lattice;
+    const sunder_i_point a = sunder_i_point_sub(l, r->at[w->right], r->at[v]);
+    const sunder_i_point b = sunder_i_point_sub(l, r->at[w->left], r->at[v]);
+    if (sunder_i_cross_sign(l, cone[0], a) < 0 && sunder_i_cross_sign(l, cone[0], b) < 0) return true;
+    return sunder_i_cross_sign(l, a, cone[1]) < 0 && sunder_i_cross_sign(l, b, cone[1]) < 0;
+}
+
+static bool push(sunder_i_sight *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
+{
+    if (s->mesh.twin[w.h] == SUNDER_I_NONE || (cone && is_outside(s->r, v, &w, cone))) return true;
+    if (!sunder_i_reserve(&s->stack, &s->stack_room, *depth + 1, sizeof *s->stack)) return false;
+    s->stack[(*depth)++] = w;
+    return true;
+}
+
+/* The apex beyond a window, and the windows through its triangle. */
+static bool look_through(sunder_i_sight *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
+{
+    const sunder_i_mesh *m = &s->mesh;
+    const sunder_i_rings *r = s->r;
+    sunder_i_lattice *l = r->lattice;
+    const uint32_t g = m->twin[w.h], apex = m->origin[m->prev[g]];
+    const int from_right = sunder_i_orient(l, r->at[v], r->at[w.right], r->at[apex]);
+    const int from_left = sunder_i_orient(l, r->at[v], r->at[w.left], r->at[apex]);
+    sunder_i_window right = {m->next[g], w.right, w.left}, left = {m->prev[g], w.right, w.left};
+    if (from_right <= 0) return push(s, depth, v, cone, left);
+    if (from_left >= 0) return push(s, depth, v, cone, right);
+    right.left = left.right = apex;
+    return see(s, apex) && push(s, depth, v, cone, left) && push(s, depth, v, cone, right);
+}
+
+bool sunder_i_sight_look(sunder_i_sight *s, uint32_t v, const sunder_i_point *cone)
+{
+    const sunder_i_mesh *m = &s->mesh;
+    size_t depth = 0;
+    s->seen_n = 0;
+    for (uint32_t h = s->start[v - s->first]; h != SUNDER_I_NONE; h = turn_left(m, h)) {
+        const uint32_t b = m->origin[m->next[h]], c = m->origin[m->prev[h]];
+        if (!see(s, b) || !push(s, &depth, v, cone, (sunder_i_window){m->next[h], b, c})) return false;
+    }
+    if (!see(s, s->r->prev[v])) return false;
+    while (depth && !s->r->lattice->arena.failed)
+        if (!look_through(s, &depth, v, cone, s->stack[--depth])) return false;
+    return !s->r->lattice->arena.failed;
+}

@@ -1,0 +1,65 @@
+/* The vertical decomposition: from each reflex vertex a cut up, a cut down, or both, wherever that direction runs inside.
+ *
+ * The literature draws verticals from every vertex, which makes trapezoids. For convex pieces those of the reflex vertices are
+ * enough, and they are all needed: a reflex vertex between an edge to the left and one to the right needs its one vertical, and one
+ * with both edges on one side has, with only one of its verticals, an angle of more than pi left. What the others would add are
+ * pieces, and each piece is a row of subsums. So there are at most 2 r + 1 - h pieces for r reflex vertices and h holes,
+ * convex and with at most two vertical sides each.
+ *
+ * Verticals do not cross each other, so each is found by itself, as a ray through the triangulation. Where two reflex vertices
+ * see each other along a vertical the lower one's cut is taken. A Steiner point is where x = x0 meets an edge: its w divides the
+ * edge's width, degree 1 (x: 1 over 0, y: 2 over 1). */
+#include "decomposition/maker.h"
+
+/* Is d strictly inside the sector of the reflex vertex v? The rest of the circle is a convex cone. */
+static bool is_inside(const sunder_i_rings *r, uint32_t v, sunder_i_point d)
+{
+    sunder_i_lattice *l = r->lattice;
+    const sunder_i_point in = sunder_i_point_sub(l, r->at[r->prev[v]], r->at[v]);
+    const sunder_i_point out = sunder_i_point_sub(l, r->at[r->next[v]], r->at[v]);
+    return sunder_i_cross_sign(l, in, d) < 0 || sunder_i_cross_sign(l, d, out) < 0;
+}
+
+static bool finish_cut(const sunder_i_rings *r, sunder_i_cut *cut, sunder_i_hit hit)
+{
+    sunder_i_lattice *l = r->lattice;
+    const sunder_i_point from = r->at[cut->from];
+    if (hit.which == SUNDER_I_NONE) return false;
+    cut->at = hit.which;
+    if (hit.at_vertex) {
+        cut->end = SUNDER_I_AT_VERTEX;
+        return true;
+    }
+    cut->end = SUNDER_I_ON_EDGE;
+    const sunder_i_point a = r->at[hit.which], b = r->at[r->next[hit.which]];
+    cut->length = sunder_i_crossing(l, from, cut->toward, a, b);
+    cut->on = sunder_i_crossing(l, a, b, from, cut->toward);
+    return true;
+}
+
+void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
+{
+    const sunder_i_rings *r = &m->rings;
+    sunder_i_lattice *l = m->lattice;
+    sunder_i_sight sight;
+    sunder_i_cut *cut = sunder_i_arena_alloc(&m->scratch, 2 * (size_t)member->reflex, sizeof *cut);
+    uint32_t n = 0;
+    if (!cut || !sunder_i_sight_init(&sight, r, member, &m->scratch)) return;
+    const int64_t one = l->narrow ? 1 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 1));
+    const int64_t zero = l->narrow ? 0 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 0));
+    const sunder_i_point up = {zero, one}, down = sunder_i_point_neg(l, up);
+    for (uint32_t v = member->first; v < member->first + member->n && !sunder_i_maker_failed(m); v++) {
+        if (!sunder_i_is_reflex(r, v)) continue;
+        for (int k = 0; k < 2; k++) {
+            const sunder_i_point along = k ? down : up;
+            if (!is_inside(r, v, along)) continue;
+            cut[n] = (sunder_i_cut){.from = v, .along = along, .toward = sunder_i_point_add(l, r->at[v], along)};
+            const sunder_i_hit hit = sunder_i_sight_shoot(&sight, v, cut[n].toward);
+            const bool twice = k && hit.at_vertex && hit.which != SUNDER_I_NONE &&
+                               sunder_i_is_reflex(r, hit.which) && is_inside(r, hit.which, up);
+            if (!twice && finish_cut(r, &cut[n], hit)) n++;
+        }
+    }
+    if (!sunder_i_maker_failed(m)) sunder_i_cuts_apply(m, member, cut, n);
+    sunder_i_sight_free(&sight);
+}
