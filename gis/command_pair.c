@@ -5,6 +5,8 @@
 #include "message.h"
 #include "operand.h"
 
+#include <math.h>
+
 static void json_pair(gis_json *out, const sunder_separation *answer)
 {
     gis_json_open(out, '{');
@@ -51,6 +53,9 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
     double from[2];
     sunder_shape_anchor(operands->q, from);
     const double to[2] = {from[0] + answer->dx, from[1] + answer->dy};
+    if (!isfinite(to[0]) || !isfinite(to[1]))
+        return gis_fail(error, "the translation leaves the range of doubles, which a layer holds; without OUTPUT it is "
+                        "given exactly");
     OGRGeometryH line = gis_geometry_line(from, to);
     gis_sink_layer *layer;
     if (!line)

@@ -23,6 +23,27 @@ echo 'this is no GeoPackage' >text.gpkg
 both 'text.gpkg' text.gpkg
 head -c 5000 in.gpkg >cut.gpkg
 both 'cut.gpkg' cut.gpkg
+cp in.gpkg broken.gpkg
+printf 'nonsense' | dd of=broken.gpkg bs=1 seek=100 conv=notrunc 2>/dev/null
+both 'broken.gpkg' broken.gpkg
+ogr2ogr whole.geojson in.gpkg
+head -c 400 whole.geojson >cut.geojson
+both 'cut.geojson' cut.geojson
+: >nothing.geojson
+both 'nothing.geojson' nothing.geojson
+for part in shx shp dbf; do # a Shapefile in part
+    ogr2ogr whole.shp in.gpkg -lco ENCODING=UTF-8
+    for each in whole.*; do cp "$each" "cut.${each#*.}"; done
+    case $part in
+    shx) rm cut.shx ;;
+    shp) truncate -s 250 cut.shp ;;
+    dbf) truncate -s 80 cut.dbf ;;
+    esac
+    both 'cut' cut.shp
+    rm -f cut.??? whole.???
+done
+gdal_create -q -of GTiff -outsize 4 4 raster.tif 2>/dev/null && both 'raster.tif' raster.tif
+both '/dev/null' /dev/null
 mkdir empty.dir
 both 'empty.dir' empty.dir
 cp in.gpkg secret.gpkg
@@ -52,12 +73,21 @@ refused 1 'in.gpkg' separate in.gpkg in.gpkg --update
 expect 0 separate in.gpkg in.gpkg --update -nln moved -q
 same "$(count in.gpkg houses) $(count in.gpkg moved)" '2 2' "an update of the input with new names"
 refused 1 'in.gpkg' separate in.gpkg in.gpkg -l houses --update -nln moved
+refused 1 'Not a directory' separate in.gpkg in.gpkg/o.gpkg -l houses
 refused 1 'no/such' separate in.gpkg no/such/place.gpkg -l houses
 refused 2 'nonsense' separate in.gpkg o.nonsense -l houses
 refused 2 'Nonsense' separate in.gpkg o.gpkg -l houses --of Nonsense
 mkdir locked
 chmod 555 locked
 [ -w locked ] || refused 1 'locked' separate in.gpkg locked/o.gpkg -l houses
+if mkdir readonly && mount -t tmpfs -o ro none readonly 2>/dev/null; then
+    refused 1 'readonly' separate in.gpkg readonly/o.gpkg -l houses
+    refused 1 'readonly' separate in.gpkg o.gpkg -l houses --stats readonly/s.json
+    refused 1 'readonly' check in.gpkg readonly/o.gpkg -l houses
+    refused 1 'readonly' sum square:1 square:1 readonly/o.gpkg
+    refused 1 'readonly' pair square:1 square:1 readonly/o.gpkg
+    umount readonly
+fi
 [ ! -d /proc/self ] || refused 1 '/proc' separate in.gpkg /proc/o.gpkg -l houses
 if [ -w /dev/full ]; then
     for command in "sum square:1 square:1" "pair square:1 square:1" "check in.gpkg -l houses" "--help" "sum --help"; do
@@ -76,6 +106,28 @@ else
     echo "not tried: a full disk (no right to mount one)"
 fi
 
+# Beyond the range of doubles.
+huge='POLYGON ((0 0, 1e308 0, 1e308 1e308, 0 1e308))'
+refused 1 'leaves the range of doubles' sum "$huge" "$huge"
+refused 1 'leaves the range of doubles' sum "$huge" "$huge" o.gpkg
+expect 0 sum "$huge" "$huge" --exact
+expect 0 pair "$huge" "$huge"
+refused 2 'a double can hold' sum 'POLYGON ((0 0, 1e309 0, 0 1e309))' square:1
+refused 2 'not a finite number' pair "$huge" "$huge" --gap 1e309
+# sums and pairs of layers are refused for the same reasons
+for command in sum pair; do
+    refused 1 'no such file' $command nothing.gpkg square:1
+    refused 1 'huts' $command in.gpkg square:1 -l huts
+    refused 1 'text.gpkg' $command square:1 text.gpkg
+    refused 1 'two.gpkg' $command two.gpkg square:1
+    refused 1 'roads' $command roads.gpkg square:1
+    refused 2 'where' $command in.gpkg square:1 -l houses --where 'id = = 1'
+    refused 1 'no/such' $command square:1 square:1 no/such/place.gpkg
+    refused 1 'in.gpkg' $command in.gpkg square:1 in.gpkg -l houses --overwrite
+    refused 1 'exists already' $command square:1 square:1 in.gpkg
+    refused 2 'wrong' $command square:1 square:1 --invalid wrong
+done
+
 # Odd geometries.
 ogr2ogr coordinates.shp in.gpkg houses
 # The first x of the first ring stands at byte 156 of the file.
@@ -86,6 +138,7 @@ says err 'coordinates' # the layer
 patch '\0\0\0\0\0\0\0360\0377'
 both 'FID 0' coordinates.shp
 refused 1 'FID 0' sum coordinates.shp square:1
+refused 1 'FID 0' pair square:1 coordinates.shp
 layer odd.gpkg odd GEOMETRY <<'X'
 id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
@@ -125,9 +178,15 @@ same "$(count twice.gpkg in)" 4 "nothing is lost:"
 expect 0 check twice.gpkg -l in --no-blocks
 expect 0 separate in.gpkg unnumbered.gpkg --dialect sqlite --sql 'SELECT geometry FROM (SELECT geom AS geometry FROM houses)' -q
 same "$(count unnumbered.gpkg in)" 2
-# Fields of an earlier run are replaced, and that is said.
+# Fields of an earlier run are replaced, and that is said, one line each.
 expect 0 separate unnumbered.gpkg third.gpkg -q
-says err sunder_st
+for field in sunder_dx sunder_dy sunder_len sunder_st sunder_blk; do
+    same "$(grep -c "^sunder: warning: .*$field" err)" 1 "warnings about $field:"
+    same "$(ogrinfo -ro -so third.gpkg in | grep -c "^$field: ")" 1 "fields $field:"
+done
+ogr2ogr capitals.gpkg third.gpkg -sql 'SELECT sunder_st AS SUNDER_ST, sunder_dx AS "Sunder_DX", geom FROM "in"' -nln capitals
+expect 0 separate capitals.gpkg fourth.gpkg -q
+same "$(ogrinfo -ro -so fourth.gpkg capitals | grep -ci '^sunder_[a-z]*: ')" 5 "fields, whatever their capitals:"
 # What is no file is neither replaced nor waited for, even where replacing is asked for.
 mkfifo pipe
 mkdir kept
