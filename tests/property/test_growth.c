@@ -1,13 +1,12 @@
 /* How large the sums of the families are, and how much is done for them, as functions of the sizes of P and Q: counts of the
  * output and of operations, never time. The families come from sunder-families, so this asks too whether the generator draws
  * what it says. */
-#include "polyset.h"
+#include "generated.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 
 #include <cmocka.h>
 
@@ -19,35 +18,11 @@ typedef struct growth {
     sunder_operations operations;
 } growth;
 
-static char *program(void)
-{
-    const char *build = getenv("SUNDER_BUILD");
-    return test_format("%s/sunder-families", build ? build : ".");
-}
-
-/* What sunder-families prints with these arguments. */
-static char *generated(const char *arguments)
-{
-    char *path = program(), *command = test_format("'%s' %s", path, arguments);
-    FILE *pipe = popen(command, "r");
-    size_t n = 0, room = 1 << 16;
-    char *text = test_alloc(room, 1);
-    assert_non_null(pipe);
-    for (size_t got; (got = fread(text + n, 1, room - n - 1, pipe)) > 0; n += got)
-        if (room - n - got < 1024) text = test_resize(text, room *= 2, 1);
-    text[n] = '\0';
-    if (pclose(pipe) != 0) fail_msg("%s failed", command);
-    free(path);
-    free(command);
-    return text;
-}
-
 static growth grow(const char *family, size_t m, size_t n, unsigned seed)
 {
-    char *arguments = test_format("%s --size %zu --size-q %zu --seed %u", family, m, n, seed), *text = generated(arguments);
-    const char *end;
+    char *arguments = test_format("%s --size %zu --size-q %zu --seed %u", family, m, n, seed);
     polyset p, q;
-    assert_true(polyset_read_wkt(&p, text, &end) && polyset_read_wkt(&q, end, NULL));
+    generated_pair(&p, &q, arguments);
     sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
     sunder_sum *sum = NULL;
     assert_true(a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK);
@@ -61,7 +36,6 @@ static growth grow(const char *family, size_t m, size_t n, unsigned seed)
     sunder_shape_free(b);
     polyset_free(&p);
     polyset_free(&q);
-    free(text);
     free(arguments);
     return g;
 }
@@ -175,7 +149,7 @@ static void test_committed(void **state)
     const char *source = getenv("SUNDER_SOURCE");
     for (size_t i = 0; i < sizeof kept / sizeof *kept; i++) {
         char *path = test_format("%s/tests/golden/family-%s.wkt", source ? source : SUNDER_SOURCE, kept[i][0]);
-        char *want = test_read_file(path), *got = generated(kept[i][1]);
+        char *want = test_read_file(path), *got = generated_text(kept[i][1], NULL);
         assert_non_null(want);
         assert_string_equal(got, want);
         free(path);
@@ -190,31 +164,18 @@ static void test_refused(void **state)
     static const char *const wrong[] = {"",          "spoon",          "fork --size",           "fork --size 7",
                                         "fork comb", "fork --size -9", "fork --size 1e3",       "fork --seed x",
                                         "fork --map", "fork --size ''", "fork --coordinates km", "fork --size 99999999999999999999"};
-    char *path = program(), c;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char *command = test_format("'%s' %s 2>/dev/null", path, wrong[i]);
-        FILE *pipe = popen(command, "r");
-        assert_non_null(pipe);
-        assert_int_equal(fread(&c, 1, 1, pipe), 0);
-        const int status = pclose(pipe);
-        assert_true(WIFEXITED(status));
-        assert_int_equal(WEXITSTATUS(status), 2);
-        free(command);
+        int status;
+        char *text = generated_text(wrong[i], &status);
+        assert_int_equal(status, 2);
+        assert_string_equal(text, "");
+        free(text);
     }
-    free(path);
 }
 
 int main(void)
 {
-    char *path = program();
-    FILE *there = fopen(path, "rb");
-    if (!there) {
-        print_message("%s is not there: skipped\n", path);
-        free(path);
-        return SKIPPED;
-    }
-    fclose(there);
-    free(path);
+    if (!generated_available()) return SKIPPED;
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_convex),       cmocka_unit_test(test_comb),
                                        cmocka_unit_test(test_fork),         cmocka_unit_test(test_covered_fork),
                                        cmocka_unit_test(test_fat),          cmocka_unit_test(test_tight),
