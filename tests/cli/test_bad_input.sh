@@ -184,7 +184,7 @@ for field in sunder_dx sunder_dy sunder_len sunder_st sunder_blk; do
     same "$(grep -c "^sunder: warning: .*$field" err)" 1 "warnings about $field:"
     same "$(ogrinfo -ro -so third.gpkg in | grep -c "^$field: ")" 1 "fields $field:"
 done
-ogr2ogr capitals.gpkg third.gpkg -sql 'SELECT sunder_st AS SUNDER_ST, sunder_dx AS "Sunder_DX", geom FROM "in"' -nln capitals
+ogr2ogr capitals.gpkg third.gpkg -sql 'SELECT sunder_st AS SUNDER_ST, sunder_dx AS "Sunder_DX", geometry FROM "in"' -nln capitals
 expect 0 separate capitals.gpkg fourth.gpkg -q
 same "$(ogrinfo -ro -so fourth.gpkg capitals | grep -ci '^sunder_[a-z]*: ')" 5 "fields, whatever their capitals:"
 # What is no file is neither replaced nor waited for, even where replacing is asked for.
