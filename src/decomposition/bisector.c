@@ -22,6 +22,7 @@
 #include "number/sort.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct reflex_pair {
     uint32_t a, b;
@@ -33,6 +34,7 @@ typedef struct bisector {
     const sunder_i_member *part;
     sunder_i_sight sight;
     sunder_i_cut *cut;
+    double (*box)[4];      /* [cuts] see hull() */
     uint32_t cuts;
     uint32_t *ring_of;     /* [n] */
     uint32_t *rank;        /* [n + 1] reflex vertices before vertex first + i */
@@ -84,6 +86,33 @@ static bool resolves(sunder_i_lattice *l, const sector *s, sunder_i_point d)
 
 /* ---- Cuts and what they hide ---- */
 
+/* A box around vertex v and all of: vertex w; the edge that leaves w; cut w. Its bounds are roundings of coordinates, and rounding is
+ * monotone: boxes that are apart hold what is apart. A Steiner point lies in the box of what it lies on. */
+static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w, double box[4])
+{
+    const sunder_i_rings *r = &b->m->rings;
+    double other[4];
+    if (end == SUNDER_I_ON_CUT)
+        memcpy(other, b->box[w], sizeof other);
+    else
+        for (int k = 0; k < 2; k++) {
+            const double at = r->xy[2 * (size_t)w + (size_t)k];
+            const double to = end == SUNDER_I_ON_EDGE ? r->xy[2 * (size_t)r->next[w] + (size_t)k] : at;
+            other[k] = fmin(at, to);
+            other[k + 2] = fmax(at, to);
+        }
+    for (int k = 0; k < 2; k++) {
+        const double at = r->xy[2 * (size_t)v + (size_t)k];
+        box[k] = fmin(at, other[k]);
+        box[k + 2] = fmax(at, other[k + 2]);
+    }
+}
+
+static bool apart(const double a[4], const double b[4])
+{
+    return a[0] > b[2] || b[0] > a[2] || a[1] > b[3] || b[1] > a[3];
+}
+
 /* Where the ray from v along d (through toward) crosses cut k, strictly inside that cut. */
 static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sunder_i_point d, uint32_t k,
                       sunder_i_fraction *t)
@@ -108,8 +137,10 @@ static bool is_hidden(const bisector *b, uint32_t v, uint32_t w)
     const sunder_i_point d = to_vertex(b, v, w);
     const sunder_i_fraction one = sunder_i_fraction_int(l, 1);
     sunder_i_fraction t;
+    double box[4];
+    hull(b, v, SUNDER_I_AT_VERTEX, w, box);
     for (uint32_t k = 0; k < b->cuts; k++)
-        if (meets_cut(b, v, b->m->rings.at[w], d, k, &t) && sunder_i_fraction_cmp(l, &t, &one) < 0) return true;
+        if (!apart(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) && sunder_i_fraction_cmp(l, &t, &one) < 0) return true;
     return false;
 }
 
@@ -124,6 +155,7 @@ static void add_cut(bisector *b, const sunder_i_cut *cut)
 {
     const uint32_t k = b->cuts++;
     b->cut[k] = *cut;
+    hull(b, cut->from, cut->end, cut->at, b->box[k]);
     add_end(b, cut->from, 2 * k);
     if (cut->end == SUNDER_I_AT_VERTEX) add_end(b, cut->at, 2 * k + 1);
 }
@@ -253,9 +285,11 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
         cut->length = sunder_i_crossing(l, from, cut->toward, a, c);
         cut->on = sunder_i_crossing(l, a, c, from, cut->toward);
     }
+    double box[4];
+    hull(b, cut->from, cut->end, cut->at, box);
     for (uint32_t k = 0; k < b->cuts; k++) {
         sunder_i_fraction t;
-        if (!meets_cut(b, cut->from, cut->toward, cut->along, k, &t)) continue;
+        if (apart(box, b->box[k]) || !meets_cut(b, cut->from, cut->toward, cut->along, k, &t)) continue;
         if (sunder_i_fraction_cmp(l, &t, &cut->length) >= 0) continue;
         cut->end = SUNDER_I_ON_CUT;
         cut->at = k;
@@ -289,6 +323,7 @@ static bool make_room(bisector *b)
     sunder_i_arena *arena = &b->m->scratch;
     const size_t n = b->part->n, most = b->part->reflex;
     b->cut = sunder_i_arena_alloc(arena, most, sizeof *b->cut);
+    b->box = sunder_i_arena_alloc(arena, most, sizeof *b->box);
     b->reflex = sunder_i_arena_alloc(arena, 2 * n, sizeof *b->reflex);
     b->ring_of = sunder_i_arena_alloc(arena, n, sizeof *b->ring_of);
     b->rank = sunder_i_arena_alloc(arena, n + 1, sizeof *b->rank);
