@@ -46,29 +46,60 @@ bool sunder_i_planar_map_mergeable(sunder_i_planar_map *map, uint32_t v)
            sunder_i_line_turn(map, &map->line[left->line], &map->line[right->line]) == 0;
 }
 
-sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *err)
+/* The covered ones, into edges_inside and vertices_inside. */
+static bool list_covered(sunder_i_planar_map *map)
 {
-    assert(map->marked);
-    sunder_i_map_drop_faces(map);
     map->edges_inside.n = map->vertices_inside.n = 0;
     for (uint32_t e = 0; e < map->edges; e++)
         if (map->edge[e].end[0] != NOWHERE && sunder_i_planar_map_edge_covered(map, e) > 0 &&
             !sunder_i_map_push(map, &map->edges_inside, e))
-            return sunder_i_no_memory(err);
+            return false;
     for (uint32_t v = 0; v < map->vertices; v++)
         if (map->vertex[v].alive && sunder_i_planar_map_vertex_covered(map, v) > 0 &&
             !sunder_i_map_push(map, &map->vertices_inside, v))
-            return sunder_i_no_memory(err);
-    for (uint32_t t = 0; t < map->trapezoids; t++)
-        if (map->trapezoid[t].node != NOWHERE) map->trapezoid[t].covered = map->trapezoid[t].covered != 0;
-    if (!remove_covered(map)) return sunder_i_no_memory(err);
+            return false;
+    return true;
+}
+
+static void settle_all(sunder_i_planar_map *map)
+{
     for (uint32_t e = 0; e < map->edges; e++)
         if (map->edge[e].end[0] != NOWHERE) settle_edge(map, e);
-    for (uint32_t v = 0; v < map->vertices; v++) {
-        if (!map->vertex[v].alive) continue;
-        settle_vertex(map, v);
-        if (sunder_i_planar_map_mergeable(map, v)) sunder_i_edge_merge(map, v);
+    for (uint32_t v = 0; v < map->vertices; v++)
+        if (map->vertex[v].alive) settle_vertex(map, v);
+}
+
+/* Where little stays, what stays makes a new map; the old one then needs no trapezoids any more. */
+static bool start_afresh(sunder_i_planar_map *map)
+{
+    settle_all(map);
+    for (size_t i = 0; i < map->edges_inside.n; i++) map->edge[map->edges_inside.item[i]].end[0] = NOWHERE;
+    for (size_t i = 0; i < map->vertices_inside.n; i++) map->vertex[map->vertices_inside.item[i]].alive = false;
+    return sunder_i_map_renew(map);
+}
+
+sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *err)
+{
+    assert(map->marked);
+    sunder_i_map_drop_faces(map);
+    bool ok = list_covered(map);
+    if (ok) {
+        for (uint32_t t = 0; t < map->trapezoids; t++)
+            if (map->trapezoid[t].node != NOWHERE) map->trapezoid[t].covered = map->trapezoid[t].covered != 0;
+        /* Taking an edge out costs about as much as putting one in. */
+        if (2 * map->edges_inside.n > map->edges - map->dead_edges)
+            ok = start_afresh(map);
+        else {
+            ok = remove_covered(map);
+            if (ok) settle_all(map);
+        }
     }
+    if (!ok) {
+        map->failed = true;
+        return sunder_i_no_memory(err);
+    }
+    for (uint32_t v = 0; v < map->vertices; v++)
+        if (map->vertex[v].alive && sunder_i_planar_map_mergeable(map, v)) sunder_i_edge_merge(map, v);
     return sunder_i_map_status(map, err);
 }
 

@@ -228,7 +228,8 @@ size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t 
 
 /* ---- overlay.c ---- */
 
-/* Begins the map anew where its past outweighs it. False if memory is out. */
+/* Begins the map anew: with what is alive; and where its past outweighs it. False if memory is out. */
+bool sunder_i_map_renew(sunder_i_planar_map *map);
 bool sunder_i_map_compact(sunder_i_planar_map *map);
 
 #endif

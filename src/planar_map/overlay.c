@@ -95,12 +95,10 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
     return sunder_i_map_status(map, err);
 }
 
-/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places the long way
- * round. The factor keeps the cost of starting afresh below that of the insertions that made it necessary. */
-bool sunder_i_map_compact(sunder_i_planar_map *map)
+/* What is alive of a map goes into a new one, which takes its place; of the old one only vertices, lines and edges with their
+ * ends, lines and counts need to be in order. */
+bool sunder_i_map_renew(sunder_i_planar_map *map)
 {
-    const size_t live = map->trapezoids - map->dead_trapezoids;
-    if (map->nodes < 64 * live + 65536) return true;
     sunder_i_planar_map *fresh;
     if (sunder_i_planar_map_new(map->lattice, draw(&map->random), &fresh, NULL) != SUNDER_OK) return false;
     if (sunder_i_planar_map_overlay(fresh, map, NULL) != SUNDER_OK || sunder_i_planar_map_mark(fresh, NULL) != SUNDER_OK) {
@@ -112,4 +110,12 @@ bool sunder_i_map_compact(sunder_i_planar_map *map)
     *fresh = old;
     sunder_i_planar_map_free(fresh);
     return true;
+}
+
+/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places the long way
+ * round. The factor keeps the cost of starting afresh below that of the insertions that made it necessary. */
+bool sunder_i_map_compact(sunder_i_planar_map *map)
+{
+    const size_t live = map->trapezoids - map->dead_trapezoids;
+    return map->nodes < 64 * live + 65536 || sunder_i_map_renew(map);
 }
