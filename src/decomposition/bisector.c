@@ -1,21 +1,25 @@
-/* The angle-bisector decomposition after Chazelle and Dobkin [CD85], in the form that is called small-side and slightly improved in
- * [AFH00, AFH02]: pairs of reflex vertices first, the rest one by one.
+/* The angle-bisector decomposition after Chazelle and Dobkin [CD85], in the form that is called small-side and
+ * slightly improved in [AFH00, AFH02]: pairs of reflex vertices first, the rest one by one.
  *
- * A direction d resolves a reflex vertex, whose sector opens counter-clockwise by more than pi from `low` to `high`, if neither of
- * the two angles that it leaves is more than pi: if d lies in the closed cone from -high to -low. One cut in that cone is what it
- * takes, and a vertex that some cut has resolved on its way needs none. So there are at most r + 1 - h pieces.
+ * A direction d resolves a reflex vertex, whose sector opens counter-clockwise by more than pi from `low` to `high`,
+ * if neither of the two angles that it leaves is more than pi: if d lies in the closed cone from -high to -low. One
+ * cut in that cone is what it takes, and a vertex that some cut has resolved on its way needs none. So there are at
+ * most r + 1 - h pieces.
  *
- * 1. Two reflex vertices that see each other, each in the other's cone, are resolved by one cut. Among all such pairs those come
- *    first that cut off few reflex vertices on their smaller side (none, where they join two rings): they leave the other
- *    pairs intact. A pair is taken if both its vertices are still to be resolved and it crosses no cut.
- * 2. Each other reflex vertex, in order, is joined to a vertex that it sees in its cone and that no cut hides, reflex ones before
- *    others, the one nearest to the bisector: no Steiner point. Where there is none a cut runs near the bisector
- *    (direction.c) to the first thing in its way: an edge, a vertex (one that it grazes too), another cut.
+ * 1. Two reflex vertices that see each other, each in the other's cone, are resolved by one cut. Among all such
+ *    pairs those come first that cut off few reflex vertices on their smaller side (none, where they join two
+ *    rings): they leave the other pairs intact. A pair is taken if both its vertices are still to be resolved and it
+ *    crosses no cut.
+ * 2. Each other reflex vertex, in order, is joined to a vertex that it sees in its cone and that no cut hides,
+ *    reflex ones before others, the one nearest to the bisector: no Steiner point. Where there is none a cut runs
+ *    near the bisector (direction.c) to the first thing in its way: an edge, a vertex (one that it grazes too),
+ *    another cut.
  *
- * Every cut lies on a line through a vertex in a lattice direction, so its end is where two such lines meet: numerator and
- * denominator have degree 2, or, for directions of direction.c with their 20 bits, little more than 1. Crossings along one line are
- * compared in degree 4. A cut never passes through a vertex; one that would meet another cut just where that one ends meets the
- * line that the other one ends on, at the same place. Cost: what the reflex vertices see, and r^2 for the cuts.
+ * Every cut lies on a line through a vertex in a lattice direction, so its end is where two such lines meet:
+ * numerator and denominator have degree 2, or, for directions of direction.c with their 20 bits, little more than 1.
+ * Crossings along one line are compared in degree 4. A cut never passes through a vertex; one that would meet
+ * another cut just where that one ends meets the line that the other one ends on, at the same place. Cost: what the
+ * reflex vertices see, and r^2 for the cuts.
  *
  * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
 #include "decomposition/maker.h"
@@ -34,13 +38,14 @@ typedef struct bisector {
     const sunder_i_member *part;
     sunder_i_sight sight;
     sunder_i_cut *cut;
-    double (*box)[4];      /* [cuts] see hull() */
+    double (*box)[4]; /* [cuts] see hull() */
     uint32_t cuts;
     uint32_t *ring_of;     /* [n] */
     uint32_t *rank;        /* [n + 1] reflex vertices before vertex first + i */
     bool *reflex, *paired; /* [n]; paired: resolved in the first step */
-    uint32_t *first_end;   /* [n] head of the list of cut ends at a vertex: 2 * cut + (1 if the cut ends there), or NONE */
-    uint32_t *next_end;    /* [2 * cuts] */
+    uint32_t
+        *first_end;     /* [n] head of the list of cut ends at a vertex: 2 * cut + (1 if the cut ends there), or NONE */
+    uint32_t *next_end; /* [2 * cuts] */
     reflex_pair *pair;
     uint32_t pairs;
     size_t pair_room;
@@ -86,8 +91,9 @@ static bool resolves(sunder_i_lattice *l, const sector *s, sunder_i_point d)
 
 /* ---- Cuts and what they hide ---- */
 
-/* A box around vertex v and all of: vertex w; the edge that leaves w; cut w. Its bounds are roundings of coordinates, and rounding is
- * monotone: boxes that are apart hold what is apart. A Steiner point lies in the box of what it lies on. */
+/* A box around vertex v and all of: vertex w; the edge that leaves w; cut w. Its bounds are roundings of
+ * coordinates, and rounding is monotone: boxes that are apart hold what is apart. A Steiner point lies in the box of
+ * what it lies on. */
 static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w, double box[4])
 {
     const sunder_i_rings *r = &b->m->rings;
@@ -140,7 +146,9 @@ static bool is_hidden(const bisector *b, uint32_t v, uint32_t w)
     double box[4];
     hull(b, v, SUNDER_I_AT_VERTEX, w, box);
     for (uint32_t k = 0; k < b->cuts; k++)
-        if (!apart(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) && sunder_i_fraction_cmp(l, &t, &one) < 0) return true;
+        if (!apart(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) &&
+            sunder_i_fraction_cmp(l, &t, &one) < 0)
+            return true;
     return false;
 }
 

@@ -18,8 +18,9 @@ static rational reduce(sunder_i_arena *a, rational v)
 static rational add(sunder_i_arena *a, rational u, rational v)
 {
     if (sunder_i_big_cmp(u.den, v.den) == 0) return reduce(a, (rational){sunder_i_big_add(a, u.num, v.num), u.den});
-    return reduce(a, (rational){sunder_i_big_add(a, sunder_i_big_mul(a, u.num, v.den), sunder_i_big_mul(a, v.num, u.den)),
-                                sunder_i_big_mul(a, u.den, v.den)});
+    return reduce(a,
+                  (rational){sunder_i_big_add(a, sunder_i_big_mul(a, u.num, v.den), sunder_i_big_mul(a, v.num, u.den)),
+                             sunder_i_big_mul(a, u.den, v.den)});
 }
 
 static sunder_i_big determinant(sunder_i_arena *a, sunder_i_big p, sunder_i_big q, sunder_i_big r, sunder_i_big s)
@@ -121,8 +122,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape
     for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
     for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
     uint32_t i = 0;
-    for (uint32_t polygon = 0; polygon < s->polygons && !wrong; polygon++)
-        wrong = check_area(l, s, at, d, polygon, &i);
+    for (uint32_t polygon = 0; polygon < s->polygons && !wrong; polygon++) wrong = check_area(l, s, at, d, polygon, &i);
     if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
     if (!l->arena.failed) sunder_i_arena_release(&l->arena, mark);
     return wrong;

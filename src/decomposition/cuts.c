@@ -1,16 +1,17 @@
 /* Pieces from cuts: the member's edges and the cuts as a planar subdivision by half-edges, and its faces.
  *
- * Lines first: each edge and each cut is a line with its two ends and the Steiner points where other cuts end on it, sorted along
- * it and made one where they coincide (fractions of degree 2, compared in degree 4). Each stretch of a line between two such nodes
- * is a pair of half-edges. Then the half-edges that leave each node are sorted by angle: around a vertex from its outgoing edge
- * counter-clockwise through its sector to its incoming one, around a Steiner point from the direction of its line all the way
- * round. Directions are lattice vectors, so this is degree 2. The half-edge after one that arrives is the one that leaves just
- * before, counter-clockwise, the way back.
+ * Lines first: each edge and each cut is a line with its two ends and the Steiner points where other cuts end on it,
+ * sorted along it and made one where they coincide (fractions of degree 2, compared in degree 4). Each stretch of a
+ * line between two such nodes is a pair of half-edges. Then the half-edges that leave each node are sorted by angle:
+ * around a vertex from its outgoing edge counter-clockwise through its sector to its incoming one, around a Steiner
+ * point from the direction of its line all the way round. Directions are lattice vectors, so this is degree 2. The
+ * half-edge after one that arrives is the one that leaves just before, counter-clockwise, the way back.
  *
- * Degenerate cases. Two cuts that end at one place of one line, from one side or from both: one node. A cut that ends where another
- * one does, at a vertex: that vertex has several cuts in its sector. Places that coincide but belong to different sectors (rings
- * that touch) are different vertices and stay so. Straight corners, where a cut ends on the other side of a line or runs on as the
- * extension of an edge, are left out of the pieces (sunder_i_maker_end_piece()). */
+ * Degenerate cases. Two cuts that end at one place of one line, from one side or from both: one node. A cut that
+ * ends where another one does, at a vertex: that vertex has several cuts in its sector. Places that coincide but
+ * belong to different sectors (rings that touch) are different vertices and stay so. Straight corners, where a cut
+ * ends on the other side of a line or runs on as the extension of an edge, are left out of the pieces
+ * (sunder_i_maker_end_piece()). */
 #include "decomposition/maker.h"
 #include "number/sort.h"
 
@@ -20,18 +21,18 @@ typedef struct subdivision {
     sunder_i_maker *m;
     const sunder_i_member *part;
     const sunder_i_cut *cut;
-    uint32_t cuts, lines;     /* the member's edges by their first vertex, then the cuts */
+    uint32_t cuts, lines;         /* the member's edges by their first vertex, then the cuts */
     sunder_i_point *along, *back; /* [lines] the vector of each, and its negative */
-    uint32_t *order;          /* [cuts] those that end in Steiner points, by line and place */
+    uint32_t *order;              /* [cuts] those that end in Steiner points, by line and place */
     uint32_t steiner_ends, nodes; /* nodes: the vertices, then the Steiner points */
-    uint32_t *end_node;       /* [cuts] the node where each ends */
-    uint32_t *node_corner;    /* [cuts] number as a corner of Steiner node n + i */
-    uint32_t *line_of;        /* [cuts] the line of Steiner node n + i */
-    uint32_t *line_steiner;   /* [lines + 1] index of the first Steiner node of each line */
-    uint32_t *line_half;      /* [lines + 1] first half-edge of each line: 2 for each stretch, forward and back */
-    uint32_t *out_first, *out;/* [nodes + 1], [halves] the half-edges that leave each node */
-    uint32_t *node, *next;    /* [halves] where it starts; what follows it around its face */
-    uint32_t *line;           /* [halves] */
+    uint32_t *end_node;           /* [cuts] the node where each ends */
+    uint32_t *node_corner;        /* [cuts] number as a corner of Steiner node n + i */
+    uint32_t *line_of;            /* [cuts] the line of Steiner node n + i */
+    uint32_t *line_steiner;       /* [lines + 1] index of the first Steiner node of each line */
+    uint32_t *line_half;          /* [lines + 1] first half-edge of each line: 2 for each stretch, forward and back */
+    uint32_t *out_first, *out;    /* [nodes + 1], [halves] the half-edges that leave each node */
+    uint32_t *node, *next;        /* [halves] where it starts; what follows it around its face */
+    uint32_t *line;               /* [halves] */
 } subdivision;
 
 int sunder_i_around(sunder_i_lattice *l, sunder_i_point ref, sunder_i_point a, sunder_i_point b)
@@ -178,9 +179,9 @@ static bool make_room(subdivision *s)
     s->lines = (uint32_t)lines;
     s->along = sunder_i_arena_alloc(arena, 2 * lines, sizeof *s->along);
     s->back = s->along ? s->along + lines : NULL;
-    uint32_t **const array[] = {&s->order,     &s->end_node,  &s->node_corner, &s->line_of, &s->line_steiner,
-                                &s->line_half, &s->out_first, &s->out,         &s->node,    &s->next,
-                                &s->line};
+    uint32_t **const array[] = {&s->order,        &s->end_node,  &s->node_corner, &s->line_of,
+                                &s->line_steiner, &s->line_half, &s->out_first,   &s->out,
+                                &s->node,         &s->next,      &s->line};
     const size_t size[] = {cuts, cuts, cuts, cuts, lines + 1, lines + 1, n + cuts + 1, halves, halves, halves, halves};
     for (size_t k = 0; k < sizeof array / sizeof *array; k++)
         *array[k] = sunder_i_arena_alloc(arena, size[k], sizeof **array[k]);
@@ -194,8 +195,8 @@ void sunder_i_cuts_apply(sunder_i_maker *m, const sunder_i_member *member, const
     if (!make_room(&s)) return;
     for (uint32_t i = 0; i < s.lines; i++) {
         const uint32_t v = member->first + i;
-        s.along[i] = i < member->n ? sunder_i_point_sub(m->lattice, r->at[r->next[v]], r->at[v])
-                                   : cut[i - member->n].along;
+        s.along[i] =
+            i < member->n ? sunder_i_point_sub(m->lattice, r->at[r->next[v]], r->at[v]) : cut[i - member->n].along;
         s.back[i] = sunder_i_point_neg(m->lattice, s.along[i]);
     }
     if (!find_nodes(&s)) {

@@ -5,12 +5,18 @@
 const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind)
 {
     switch (kind) {
-    case SUNDER_I_HERTEL_MEHLHORN: return "hertel-mehlhorn";
-    case SUNDER_I_TRIANGULATION: return "triangulation";
-    case SUNDER_I_ANGLE_BISECTOR: return "angle-bisector";
-    case SUNDER_I_VERTICAL: return "vertical";
-    case SUNDER_I_OPTIMAL: return "optimal";
-    case SUNDER_I_MIXED: return "mixed";
+    case SUNDER_I_HERTEL_MEHLHORN:
+        return "hertel-mehlhorn";
+    case SUNDER_I_TRIANGULATION:
+        return "triangulation";
+    case SUNDER_I_ANGLE_BISECTOR:
+        return "angle-bisector";
+    case SUNDER_I_VERTICAL:
+        return "vertical";
+    case SUNDER_I_OPTIMAL:
+        return "optimal";
+    case SUNDER_I_MIXED:
+        return "mixed";
     }
     return "";
 }
@@ -58,10 +64,9 @@ static void make(sunder_i_maker *m, sunder_i_decomposition_kind kind)
 
 static sunder_operations difference(const sunder_operations *after, const sunder_operations *before)
 {
-    return (sunder_operations){after->comparisons - before->comparisons,
-                               after->orientation_tests - before->orientation_tests,
-                               after->segment_intersections - before->segment_intersections,
-                               after->exact_fallbacks - before->exact_fallbacks};
+    return (sunder_operations){
+        after->comparisons - before->comparisons, after->orientation_tests - before->orientation_tests,
+        after->segment_intersections - before->segment_intersections, after->exact_fallbacks - before->exact_fallbacks};
 }
 
 static void sign(const sunder_i_maker *m, sunder_i_decomposition_kind kind, const sunder_operations *before,

@@ -3,11 +3,12 @@
  * Each member of a shape is cut into convex pieces by itself (members may overlap): interiors of its pieces are
  * disjoint, and the closure of their union is the member. README.md tells the six ways and what each costs.
  *
- * Every side of every piece lies on a line through two lattice points: an edge of the shape, a diagonal between two of its
- * vertices, or a cut from a vertex in a lattice direction. So a Steiner point is the crossing of two such lines, never of
- * lines through other Steiner points: its numbers do not grow with the number of cuts, and no decision here takes a Steiner
- * point as an operand of anything but the order along one line. A side carries its lattice vector (`along`) besides its
- * corners, so that directions and supporting lines need no Steiner coordinates either. */
+ * Every side of every piece lies on a line through two lattice points: an edge of the shape, a diagonal between two
+ * of its vertices, or a cut from a vertex in a lattice direction. So a Steiner point is the crossing of two such
+ * lines, never of lines through other Steiner points: its numbers do not grow with the number of cuts, and no
+ * decision here takes a Steiner point as an operand of anything but the order along one line. A side carries its
+ * lattice vector (`along`) besides its corners, so that directions and supporting lines need no Steiner coordinates
+ * either. */
 #ifndef SUNDER_I_DECOMPOSITION_H
 #define SUNDER_I_DECOMPOSITION_H
 
@@ -16,10 +17,10 @@
 typedef enum sunder_i_decomposition_kind {
     SUNDER_I_HERTEL_MEHLHORN, /* the shape's own pieces: a triangulation without its needless diagonals [HM83] */
     SUNDER_I_TRIANGULATION,
-    SUNDER_I_ANGLE_BISECTOR,  /* a cut from each reflex vertex, pairs of reflex vertices first [CD85, AFH02] */
-    SUNDER_I_VERTICAL,        /* vertical cuts from the reflex vertices */
-    SUNDER_I_OPTIMAL,         /* fewest pieces without Steiner points; members without holes, up to 500 vertices */
-    SUNDER_I_MIXED            /* least length of all subsums' boundaries, both operands together [AFH02]; so for pairs only */
+    SUNDER_I_ANGLE_BISECTOR, /* a cut from each reflex vertex, pairs of reflex vertices first [CD85, AFH02] */
+    SUNDER_I_VERTICAL,       /* vertical cuts from the reflex vertices */
+    SUNDER_I_OPTIMAL,        /* fewest pieces without Steiner points; members without holes, up to 500 vertices */
+    SUNDER_I_MIXED /* least length of all subsums' boundaries, both operands together [AFH02]; so for pairs only */
 } sunder_i_decomposition_kind;
 
 #define SUNDER_I_OPTIMAL_MOST 500 /* vertices of a member that OPTIMAL and MIXED solve; else Hertel-Mehlhorn */
@@ -27,24 +28,24 @@ typedef enum sunder_i_decomposition_kind {
 /* "hertel-mehlhorn", "triangulation", "angle-bisector", "vertical", "optimal", "mixed"; never NULL. */
 const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind);
 
-/* The point (x / w, y / w) on the lattice that the shape was placed on, w > 0, in lowest terms (w is 1 for vertices of the
- * shape, and for Steiner points that happen to be lattice points). */
+/* The point (x / w, y / w) on the lattice that the shape was placed on, w > 0, in lowest terms (w is 1 for vertices
+ * of the shape, and for Steiner points that happen to be lattice points). */
 typedef struct sunder_i_corner {
     sunder_i_big x, y, w;
     uint32_t vertex; /* of the shape; UINT32_MAX: a Steiner point */
 } sunder_i_corner;
 
 typedef struct sunder_i_decomposition {
-    sunder_i_arena arena; /* all that follows, the big integers too; independent of the lattice's arena */
+    sunder_i_arena arena;             /* all that follows, the big integers too; independent of the lattice's arena */
     sunder_i_decomposition_kind used; /* as asked, or HERTEL_MEHLHORN where some member could not be decomposed so */
     uint32_t fallbacks;               /* members with reflex vertices that were decomposed by Hertel-Mehlhorn instead */
     uint32_t corners;
-    sunder_i_corner *corner;          /* [corners] first the vertices of the shape by number, then the Steiner points, each
-                                         place on one line once */
+    sunder_i_corner *corner; /* [corners] first the vertices of the shape by number, then the Steiner points, each
+                                place on one line once */
     uint32_t pieces;
     uint32_t *piece_end;    /* [pieces] index past the last side of each */
-    uint32_t *piece_corner; /* [sides] the corner where each side starts. Pieces are counter-clockwise and strictly convex, and
-                               start with the side of the least angle in [0, 2 pi), so that angles ascend */
+    uint32_t *piece_corner; /* [sides] the corner where each side starts. Pieces are counter-clockwise and strictly
+                               convex, and start with the side of the least angle in [0, 2 pi), so that angles ascend */
     sunder_i_point *along;  /* [sides] a lattice vector (handles on a wide lattice), a positive multiple of the side */
     uint32_t *member;       /* [pieces] the polygon of the shape that each is a piece of; ascending */
     sunder_operations operations; /* done here; they are in lattice->operations as well */
@@ -52,13 +53,15 @@ typedef struct sunder_i_decomposition {
 
 /* Decomposes a shape that stands on a lattice.
  *
- * at      its vertices on the lattice (placed.p, or placed.q, reflected or not). The lattice must live as long as `along` is
- *         used.
+ * at      its vertices on the lattice (placed.p, or placed.q, reflected or not). The lattice must live as long as
+ *         `along` is used.
  * kind    any but MIXED, which is taken for OPTIMAL.
- * out     on success cleared with sunder_i_decomposition_clear(); untouched on failure. The empty shape has no pieces.
+ * out     on success cleared with sunder_i_decomposition_clear(); untouched on failure. The empty shape has no
+ *         pieces.
  * Fails   SUNDER_ENOMEM
- * Cost    HERTEL_MEHLHORN linear, TRIANGULATION that of ears (near n log n on maps); VERTICAL n log n and the triangles
- *         crossed by the cuts; ANGLE_BISECTOR the vertices visible from reflex ones and r^2; OPTIMAL O(n r n). */
+ * Cost    HERTEL_MEHLHORN linear, TRIANGULATION that of ears (near n log n on maps); VERTICAL n log n and the
+ *         triangles crossed by the cuts; ANGLE_BISECTOR the vertices visible from reflex ones and r^2; OPTIMAL
+ *         O(r n^2) at worst. */
 sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
                                  sunder_i_decomposition_kind kind, sunder_i_decomposition *out, sunder_error *err);
 
@@ -76,8 +79,9 @@ static inline uint32_t sunder_i_piece_first(const sunder_i_decomposition *d, uin
     return piece ? d->piece_end[piece - 1] : 0;
 }
 
-/* Checks, exactly and slowly, that pieces are counter-clockwise, strictly convex and said as above, that `along` agrees with the
- * corners, and that the areas of the pieces of each member add up to the member's. NULL if all holds, else a sentence. */
+/* Checks, exactly and slowly, that pieces are counter-clockwise, strictly convex and said as above, that `along`
+ * agrees with the corners, and that the areas of the pieces of each member add up to the member's. NULL if all
+ * holds, else a sentence. */
 const char *sunder_i_decomposition_check(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
                                          const sunder_i_decomposition *decomposition);
 

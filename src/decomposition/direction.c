@@ -1,9 +1,10 @@
 /* A short lattice vector near the bisector of a cone.
  *
- * The bisector of two lattice vectors is irrational. Any direction inside the cone resolves a reflex vertex, so it is
- * approximated in doubles by vectors of growing integers, and the first one that lies in the middle half of the cone, by doubles,
- * and inside it, exactly, is taken. Nothing but the shape of the pieces depends on the doubles. A cone too narrow for
- * integers of 20 bits is cut along its own boundary: the extension of an edge resolves the vertex too. */
+ * The bisector of two lattice vectors is irrational. Any direction inside the cone resolves a reflex vertex, so it
+ * is approximated in doubles by vectors of growing integers, and the first one that lies in the middle half of the
+ * cone, by doubles, and inside it, exactly, is taken. Nothing but the shape of the pieces depends on the doubles. A
+ * cone too narrow for integers of 20 bits is cut along its own boundary: the extension of an edge resolves the
+ * vertex too. */
 #include "decomposition/maker.h"
 
 #include <math.h>

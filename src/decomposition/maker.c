@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the stages
- * below ask of rounded ones. */
+/* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the
+ * stages below ask of rounded ones. */
 static double monotone(sunder_i_lattice *l, int64_t n, bool *rounded)
 {
     if (l->narrow) {
@@ -123,8 +123,8 @@ void sunder_i_maker_add_vertices(sunder_i_maker *m, const uint32_t *vertex, uint
 {
     const sunder_i_rings *r = &m->rings;
     for (uint32_t k = 0; k < n; k++)
-        sunder_i_maker_add_side(
-            m, vertex[k], sunder_i_point_sub(m->lattice, r->at[vertex[k + 1 < n ? k + 1 : 0]], r->at[vertex[k]]));
+        sunder_i_maker_add_side(m, vertex[k],
+                                sunder_i_point_sub(m->lattice, r->at[vertex[k + 1 < n ? k + 1 : 0]], r->at[vertex[k]]));
     sunder_i_maker_end_piece(m);
 }
 
@@ -160,11 +160,9 @@ static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size
 static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, const sunder_i_big xyw[3])
 {
     const sunder_i_mark mark = sunder_i_arena_mark(scratch);
-    const sunder_i_big g =
-        sunder_i_big_gcd(scratch, sunder_i_big_gcd(scratch, xyw[0], xyw[1]), xyw[2]);
+    const sunder_i_big g = sunder_i_big_gcd(scratch, sunder_i_big_gcd(scratch, xyw[0], xyw[1]), xyw[2]);
     sunder_i_big v[3] = {{NULL, 0}, {NULL, 0}, {NULL, 0}};
-    for (int k = 0; k < 3 && g.size; k++)
-        v[k] = sunder_i_big_copy(arena, sunder_i_big_div_floor(scratch, xyw[k], g));
+    for (int k = 0; k < 3 && g.size; k++) v[k] = sunder_i_big_copy(arena, sunder_i_big_div_floor(scratch, xyw[k], g));
     if (!scratch->failed) sunder_i_arena_release(scratch, mark);
     return (sunder_i_corner){v[0], v[1], v[2], UINT32_MAX};
 }

@@ -1,6 +1,7 @@
 /* A decomposition in the making: what the stages hand each other.
  *
- * maker.c       the shape's rings on the lattice; pieces and Steiner points as they come; everything into its place at the end
+ * maker.c       the shape's rings on the lattice; pieces and Steiner points as they come; everything into its place
+ *               at the end
  * sight.c       rays through a triangulated member, and the vertices seen from one of its vertices
  * diagonals.c   decompositions by diagonals: triangulation; Hertel-Mehlhorn, by length too
  * cuts.c        cuts -> pieces
@@ -14,14 +15,13 @@
 #include "decomposition/decomposition.h"
 #include "shape/build.h"
 
-/* An array that grows in the maker's scratch memory until the result is put together. */
 typedef struct sunder_i_maker {
     sunder_i_lattice *lattice;
     const sunder_shape *shape;
     sunder_i_rings rings;   /* the shape's, its vertices on the lattice */
     sunder_i_arena scratch; /* of one member at a time; `failed` is the sticky error of all stages */
     uint32_t fallbacks;
-    uint32_t polygon;       /* the member in hand */
+    uint32_t polygon; /* the member in hand */
     /* pieces so far */
     uint32_t pieces, sides, steiner_n;
     uint32_t *piece_end, *piece_corner, *member;
@@ -43,8 +43,8 @@ void sunder_i_maker_free(sunder_i_maker *m);
 sunder_i_member sunder_i_maker_member(const sunder_i_maker *m, uint32_t polygon);
 /* A member without reflex vertices is a piece. */
 void sunder_i_maker_add_whole(sunder_i_maker *m, const sunder_i_member *member);
-/* Pieces are added side by side, counter-clockwise: the corner where the side starts and its vector. Corners that turn out straight
- * are left out. */
+/* Pieces are added side by side, counter-clockwise: the corner where the side starts and its vector. Corners that
+ * turn out straight are left out. */
 void sunder_i_maker_add_side(sunder_i_maker *m, uint32_t corner, sunder_i_point along);
 void sunder_i_maker_end_piece(sunder_i_maker *m);
 /* A piece with these vertices of the shape for corners. */
@@ -67,7 +67,7 @@ typedef struct sunder_i_sight {
     const sunder_i_rings *r;
     sunder_i_mesh mesh;
     uint32_t first, n;
-    uint32_t *start;   /* [n] the half-edge first + i -> next */
+    uint32_t *start; /* [n] the half-edge first + i -> next */
     /* the vertices seen by the last sunder_i_sight_look(), in no order */
     uint32_t *seen, seen_n;
     size_t seen_room;
@@ -75,8 +75,8 @@ typedef struct sunder_i_sight {
     size_t stack_room;
 } sunder_i_sight;
 
-/* What a ray runs into first: a vertex, or the inside of the edge that leaves vertex `which`. which is NONE where memory is
- * out. */
+/* What a ray runs into first: a vertex, or the inside of the edge that leaves vertex `which`. which is NONE where
+ * memory is out. */
 typedef struct sunder_i_hit {
     bool at_vertex;
     uint32_t which;
@@ -86,26 +86,27 @@ typedef struct sunder_i_hit {
 bool sunder_i_sight_init(sunder_i_sight *s, const sunder_i_rings *r, const sunder_i_member *member,
                          sunder_i_arena *arena);
 void sunder_i_sight_free(sunder_i_sight *s);
-/* From vertex v through `toward`, a direction strictly inside v's sector. A vertex that the ray only grazes is one that it runs
- * into. */
+/* From vertex v through `toward`, a direction strictly inside v's sector. A vertex that the ray only grazes is one
+ * that it runs into. */
 sunder_i_hit sunder_i_sight_shoot(const sunder_i_sight *s, uint32_t v, sunder_i_point toward);
-/* The vertices w such that the open segment vw runs inside and meets no vertex, v's neighbours included. With `cone` (two
- * vectors) at least those with cross(cone[0], w - v) >= 0 and cross(w - v, cone[1]) >= 0. False if memory is out. */
+/* The vertices w such that the open segment vw runs inside and meets no vertex, v's neighbours included. With `cone`
+ * (two vectors) at least those with cross(cone[0], w - v) >= 0 and cross(w - v, cone[1]) >= 0. False if memory is
+ * out. */
 bool sunder_i_sight_look(sunder_i_sight *s, uint32_t v, const sunder_i_point *cone);
 
 /* ---- cuts.c ---- */
 
-/* A cut runs from a vertex along a lattice vector to a vertex, or into the inside of an edge or of another cut. It divides its
- * vertex's sector where it starts, and the other's where it ends. */
+/* A cut runs from a vertex along a lattice vector to a vertex, or into the inside of an edge or of another cut. It
+ * divides its vertex's sector where it starts, and the other's where it ends. */
 typedef enum sunder_i_cut_end { SUNDER_I_AT_VERTEX, SUNDER_I_ON_EDGE, SUNDER_I_ON_CUT } sunder_i_cut_end;
 
 typedef struct sunder_i_cut {
     uint32_t from;
     sunder_i_point toward, along; /* toward = from's place + along */
     sunder_i_cut_end end;
-    uint32_t at;                  /* the vertex; the edge's first vertex; the number of the cut */
-    sunder_i_fraction length;     /* in units of along */
-    sunder_i_fraction on;         /* where on the edge, or on the cut, in units of its vector; not of AT_VERTEX */
+    uint32_t at;              /* the vertex; the edge's first vertex; the number of the cut */
+    sunder_i_fraction length; /* in units of along */
+    sunder_i_fraction on;     /* where on the edge, or on the cut, in units of its vector; not of AT_VERTEX */
 } sunder_i_cut;
 
 /* The pieces into which the cuts divide the member; none of them is reflex. */
@@ -119,8 +120,8 @@ void sunder_i_make_shape_pieces(sunder_i_maker *m); /* the whole shape at once *
 /* The faces of what is left of a mesh; uses it up. */
 void sunder_i_maker_add_faces(sunder_i_maker *m, sunder_i_mesh *mesh);
 void sunder_i_make_triangles(sunder_i_maker *m, const sunder_i_member *member);
-/* Hertel and Mehlhorn's merging, the longest diagonals first: the mesh that is left, on the maker's scratch memory, and how many
- * diagonals it has and how long they are, added to what stands there. Errors are in the maker. */
+/* Hertel and Mehlhorn's merging, the longest diagonals first: the mesh that is left, on the maker's scratch memory,
+ * and how many diagonals it has and how long they are, added to what stands there. Errors are in the maker. */
 void sunder_i_mesh_short(sunder_i_maker *m, const sunder_i_member *member, sunder_i_mesh *mesh, uint32_t *diagonals,
                          double *sum);
 void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member);
@@ -128,8 +129,8 @@ void sunder_i_make_bisector(sunder_i_maker *m, const sunder_i_member *member);
 
 /* ---- direction.c ---- */
 
-/* A vector in the open cone that opens counter-clockwise by less than pi from a to b, not far from its bisector and of small
- * integers; or a itself (on the cone's boundary) where small integers do not reach into it. */
+/* A vector in the open cone that opens counter-clockwise by less than pi from a to b, not far from its bisector and
+ * of small integers; or a itself (on the cone's boundary) where small integers do not reach into it. */
 sunder_i_point sunder_i_direction_within(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
 /* The vector's length to a few ulps, in units of 2^*exponent so that it is never out of range; the vector's approximate
  * coordinates divided by its length in unit[]. */
@@ -142,8 +143,8 @@ typedef struct sunder_i_program sunder_i_program;
 
 /* NULL if memory is out. Most of it is on the maker's scratch memory; _free gives back the rest. */
 sunder_i_program *sunder_i_program_new(sunder_i_maker *m, const sunder_i_member *member);
-/* Chooses diagonals of least total weight, each weighing `each` + `by_length` * its length; each > 0, by_length >= 0. *diagonals: how
- * many; *length: of them all. False if memory is out. */
+/* Chooses diagonals of least total weight, each weighing `each` + `by_length` * its length; each > 0, by_length >=
+ * 0. *diagonals: how many; *length: of them all. False if memory is out. */
 bool sunder_i_program_solve(sunder_i_program *program, double each, double by_length, uint32_t *diagonals,
                             double *length);
 /* Adds the pieces of the last solution. */

@@ -1,17 +1,20 @@
-/* Both operands together, after the mixed objective of [AFH02]: what a good decomposition of P is depends on Q.
+/* Both operands together, for one mixed objective: what a good decomposition of P is depends on Q, the finding of
+ * [AFH02]. The objective is derived here.
  *
- * The cost of the union of the subsums P_i + Q_j grows with the length of what is drawn, since the sides of k subsums cross about
- * as often as lines thrown at random over the same ground: with the length of all their boundaries. The perimeter of a sum of
- * convex polygons is the sum of their perimeters. So with k_P pieces, d_P the length of the diagonals, and b_P the length of the
- * boundary (the pieces of P have perimeters b_P + 2 d_P in all), what is made small is
+ * The cost of the union of the subsums P_i + Q_j grows with the length of what is drawn, since the sides of k
+ * subsums cross about as often as lines thrown at random over the same ground: with the length of all their
+ * boundaries. The perimeter of a sum of convex polygons is the sum of their perimeters. So with k_P pieces, d_P the
+ * length of the diagonals, and b_P the length of the boundary (the pieces of P have perimeters b_P + 2 d_P in all),
+ * what is made small is
  *
  *     c = k_Q (b_P + 2 d_P) + k_P (b_Q + 2 d_Q).
  *
- * Few pieces alone are not the aim, nor are short diagonals: a long diagonal of P is paid k_Q times, one more piece of P as often
- * as Q is long. With Q fixed, c is a constant plus, for each diagonal of P, its length times 2 k_Q plus b_Q + 2 d_Q: the
- * weights of optimal.c's dynamic programming, which finds the best P for this Q. The two are solved in turn, from the fewest
- * pieces on, until c falls no further: a local minimum of c in both, never worse than the optimal decompositions are (where both
- * can be computed). Members with holes, or of too many vertices, have the triangulation's diagonals taken away, longest first, once.
+ * Few pieces alone are not the aim, nor are short diagonals: a long diagonal of P is paid k_Q times, one more piece
+ * of P as often as Q is long. With Q fixed, c is a constant plus, for each diagonal of P, its length times 2 k_Q
+ * plus b_Q + 2 d_Q: the weights of optimal.c's dynamic programming, which finds the best P for this Q. The two are
+ * solved in turn, from the fewest pieces on, until c falls no further: a local minimum of c in both, never worse
+ * than the optimal decompositions are (where both can be computed). Members with holes, or of too many vertices,
+ * have the triangulation's diagonals taken away, longest first, once.
  *
  * Lengths are doubles: they choose among exact decompositions. */
 #include "decomposition/maker.h"
@@ -28,7 +31,7 @@ typedef struct side {
     uint32_t *diagonals;        /* [polygons] of the last solution */
     double *lengths;
     double boundary;
-    double pieces, perimeters;  /* of all pieces: k, and b + 2 d */
+    double pieces, perimeters; /* of all pieces: k, and b + 2 d */
 } side;
 
 static double boundary_of(const sunder_i_rings *r)
@@ -83,8 +86,7 @@ static bool prepare(side *s, sunder_i_maker *m)
 static bool solve(side *s, double each, double by_length)
 {
     for (uint32_t i = 0; i < s->m->rings.polygons; i++)
-        if (s->program[i] &&
-            !sunder_i_program_solve(s->program[i], each, by_length, &s->diagonals[i], &s->lengths[i]))
+        if (s->program[i] && !sunder_i_program_solve(s->program[i], each, by_length, &s->diagonals[i], &s->lengths[i]))
             return false;
     total(s);
     return true;

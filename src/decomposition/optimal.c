@@ -1,39 +1,42 @@
-/* The decomposition of a polygon without holes by diagonals of least total weight: of the fewest pieces where each diagonal weighs
- * one. Dynamic programming in the manner of Greene and of Keil [Gre83, Kei85], arranged so that a vertex and an edge are looked at
- * together once.
+/* The decomposition of a polygon without holes by diagonals of least total weight: of the fewest pieces where each
+ * diagonal weighs one. Dynamic programming in the manner of Greene and of Keil [Gre83, Kei85], arranged so that a
+ * vertex and an edge are looked at together once.
  *
- * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal; W(u, v) is the least
- * weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself not counted. The piece that rests
- * on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk = j, and
+ * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal; W(u, v)
+ * is the least weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself
+ * not counted. The piece that rests on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk
+ * = j, and
  *
  *     W(i, j) = min over such chains of the sum over its links of W(v, v') + weight(v, v').
  *
- * For each i, from the last vertex to the first, all chains that start there are grown at once, u ascending: what arrives at u
- * over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand in the order of their angles;
- * so for v ascending the t allowed are a growing range (two pointers), and what is kept of it is the best alone. Best in which sense:
- * if i is convex, of least weight. If i is reflex, the chain's first link matters too, since the angle at i from there to j must not
- * exceed pi: later first links are better, and what is kept are the chains that no other beats in both (a front).
+ * For each i, from the last vertex to the first, all chains that start there are grown at once, u ascending: what
+ * arrives at u over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand
+ * in the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is
+ * kept of it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's
+ * first link matters too, since the angle at i from there to j must not exceed pi: later first links are better, and
+ * what is kept are the chains that no other beats in both (a front).
  *
  * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
  *
- * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may be straight: a
- * vertex that touches a line between two others divides it in two diagonals. (So the optimum is at most what decompositions into
- * strictly convex pieces with matching sides have.) A closing link is never degenerate, since a diagonal meets no vertex between its
- * ends.
+ * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may
+ * be straight: a vertex that touches a line between two others divides it in two diagonals. (So the optimum is at
+ * most what decompositions into strictly convex pieces with matching sides have.) A closing link is never
+ * degenerate, since a diagonal meets no vertex between its ends.
  *
- * Weights are sums of doubles, exact where each diagonal weighs one. All decisions about shape are orientations of vertices
- * (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n n) at worst and far less
- * as a rule; memory O(r n). */
+ * Weights are sums of doubles, exact where each diagonal weighs one. All decisions about shape are orientations of
+ * vertices (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n
+ * n) at worst and far less as a rule; memory O(r n). */
 #include "decomposition/maker.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A convex chain that starts at the vertex in hand: its last link arrives from `from`; `before` is the chain without it. */
+/* A convex chain that starts at the vertex in hand: its last link arrives from `from`; `before` is the chain without
+ * it. */
 typedef struct chain {
     double weight;
-    uint32_t from, start; /* start: the vertex of its first link (0 where that does not matter) */
+    uint32_t from, start;  /* start: the vertex of its first link (0 where that does not matter) */
     uint32_t before, next; /* next: of those that arrive at the same vertex, by ascending `from` */
 } chain;
 
@@ -41,16 +44,16 @@ struct sunder_i_program {
     sunder_i_maker *m;
     uint32_t first, n;
     bool *reflex;
-    uint32_t *up_first, *up;     /* [n + 1], links (u, v) with v ascending: their upper ends */
-    uint32_t *allowed;           /* [links] for (u, v): the greatest t with a convex corner t u v, plus one; 0: none */
-    double *length, *within;     /* [links] W */
+    uint32_t *up_first, *up; /* [n + 1], links (u, v) with v ascending: their upper ends */
+    uint32_t *allowed;       /* [links] for (u, v): the greatest t with a convex corner t u v, plus one; 0: none */
+    double *length, *within; /* [links] W */
     double each, by_length;
-    chain *chain;                /* grows */
+    chain *chain; /* grows */
     uint32_t chains;
     size_t chain_room;
-    uint32_t *head, *tail;       /* [n] chains that arrive at each vertex */
+    uint32_t *head, *tail;                /* [n] chains that arrive at each vertex */
     uint32_t pieces, *piece_end, *corner; /* of the last solution */
-    uint32_t *front;             /* kept chains at one vertex; grows */
+    uint32_t *front;                      /* kept chains at one vertex; grows */
     size_t front_room;
 };
 
@@ -240,7 +243,8 @@ static uint32_t lightest(const sunder_i_program *p, uint32_t u)
     return best;
 }
 
-/* Grows all chains from i up to vertex `last`, and W of the links from i. Returns the lightest chain that arrives at `last`. */
+/* Grows all chains from i up to vertex `last`, and W of the links from i. Returns the lightest chain that arrives at
+ * `last`. */
 static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
 {
     p->chains = 0;
@@ -267,8 +271,7 @@ static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
         }
         uint32_t c = p->head[u], n = 0;
         for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1] && p->up[e] <= last; e++) {
-            for (; c != SUNDER_I_NONE && p->chain[c].from < p->allowed[e]; c = p->chain[c].next)
-                n = front_add(p, n, c);
+            for (; c != SUNDER_I_NONE && p->chain[c].from < p->allowed[e]; c = p->chain[c].next) n = front_add(p, n, c);
             if (!extend(p, i, u, e, n)) return SUNDER_I_NONE;
         }
     }
@@ -293,8 +296,8 @@ static uint32_t find_link(const sunder_i_program *p, uint32_t u, uint32_t v)
     return lo;
 }
 
-/* The pieces of the best solution, from the link (0, n - 1) inwards; chains are grown again, which costs less than to keep them
- * all. */
+/* The pieces of the best solution, from the link (0, n - 1) inwards; chains are grown again, which costs less than
+ * to keep them all. */
 static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
 {
     both_ways *stack = sunder_i_alloc(p->n, sizeof *stack);

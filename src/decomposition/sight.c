@@ -1,10 +1,11 @@
-/* Looking through a triangulated member, exactly: every question is the side of a vertex to a line through two lattice
- * points (degree 2).
+/* Looking through a triangulated member, exactly: every question is the side of a vertex to a line through two
+ * lattice points (degree 2).
  *
- * A ray crosses one triangle after the other until a side has nothing behind it. What one vertex sees: each triangle around it
- * opens a window, its far side; beyond a window stands an apex, which is seen if it lies strictly between the two points that
- * bound the view, and which divides the view. The vertices that bound a view block what stands behind them in line. In a
- * member without holes each triangle is entered once; with holes a triangle may be entered through several windows. */
+ * A ray crosses one triangle after the other until a side has nothing behind it. What one vertex sees: each triangle
+ * around it opens a window, its far side; beyond a window stands an apex, which is seen if it lies strictly between
+ * the two points that bound the view, and which divides the view. The vertices that bound a view block what stands
+ * behind them in line. In a member without holes each triangle is entered once; with holes a triangle may be entered
+ * through several windows. */
 #include "decomposition/maker.h"
 
 #include <string.h>

@@ -1,14 +1,15 @@
-/* The vertical decomposition: from each reflex vertex a cut up, a cut down, or both, wherever that direction runs inside.
+/* The vertical decomposition: from each reflex vertex a cut up, a cut down, or both, wherever that direction runs
+ * inside.
  *
- * The literature draws verticals from every vertex, which makes trapezoids. For convex pieces those of the reflex vertices are
- * enough, and they are all needed: a reflex vertex between an edge to the left and one to the right needs its one vertical, and one
- * with both edges on one side has, with only one of its verticals, an angle of more than pi left. What the others would add are
- * pieces, and each piece is a row of subsums. So there are at most 2 r + 1 - h pieces for r reflex vertices and h holes,
- * convex and with at most two vertical sides each.
+ * The literature draws verticals from every vertex, which makes trapezoids. For convex pieces those of the reflex
+ * vertices are enough, and they are all needed: a reflex vertex between an edge to the left and one to the right
+ * needs its one vertical, and one with both edges on one side has, with only one of its verticals, an angle of more
+ * than pi left. What the others would add are pieces, and each piece is a row of subsums. So there are at most 2 r +
+ * 1 - h pieces for r reflex vertices and h holes, convex and with at most two vertical sides each.
  *
- * Verticals do not cross each other, so each is found by itself, as a ray through the triangulation. Where two reflex vertices
- * see each other along a vertical the lower one's cut is taken. A Steiner point is where x = x0 meets an edge: its w divides the
- * edge's width, degree 1 (x: 1 over 0, y: 2 over 1). */
+ * Verticals do not cross each other, so each is found by itself, as a ray through the triangulation. Where two
+ * reflex vertices see each other along a vertical the lower one's cut is taken. A Steiner point is where x = x0
+ * meets an edge: its w divides the edge's width, degree 1 (x: 1 over 0, y: 2 over 1). */
 #include "decomposition/maker.h"
 
 /* Is d strictly inside the sector of the reflex vertex v? The rest of the circle is a convex cone. */
@@ -55,8 +56,8 @@ void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
             if (!is_inside(r, v, along)) continue;
             cut[n] = (sunder_i_cut){.from = v, .along = along, .toward = sunder_i_point_add(l, r->at[v], along)};
             const sunder_i_hit hit = sunder_i_sight_shoot(&sight, v, cut[n].toward);
-            const bool twice = k && hit.at_vertex && hit.which != SUNDER_I_NONE &&
-                               sunder_i_is_reflex(r, hit.which) && is_inside(r, hit.which, up);
+            const bool twice = k && hit.at_vertex && hit.which != SUNDER_I_NONE && sunder_i_is_reflex(r, hit.which) &&
+                               is_inside(r, hit.which, up);
             if (!twice && finish_cut(r, &cut[n], hit)) n++;
         }
     }

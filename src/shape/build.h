@@ -169,11 +169,12 @@ typedef struct sunder_i_walk {
  * bridges. */
 void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_walk *walk,
                            sunder_i_arena *arena);
-/* The triangles of one polygon, rings ring_lo .. ring_hi, on arena memory; half-edges on its rings have the twin NONE. False
- * if memory is out. */
+/* The triangles of one polygon, rings ring_lo .. ring_hi, on arena memory; half-edges on its rings have the twin
+ * NONE. False if memory is out. */
 bool sunder_i_triangulate(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
                           sunder_i_mesh *mesh);
-/* May the diagonal h, of which g is the twin, go: are the pieces on its sides together strictly convex at both its ends? */
+/* May the diagonal h, of which g is the twin, go: are the pieces on its sides together strictly convex at both its
+ * ends? */
 bool sunder_i_mesh_removable(const sunder_i_rings *r, const sunder_i_mesh *mesh, uint32_t h, uint32_t g);
 void sunder_i_mesh_remove(sunder_i_mesh *mesh, uint32_t h, uint32_t g);
 /* Removes diagonals while the pieces stay strictly convex. */

@@ -1,8 +1,8 @@
-/* Convex decompositions of random sets, proved right in GMP rationals: every piece is strictly convex and counter-clockwise; no
- * edge of its member runs through its inside and its centroid lies in the member, so it lies in the member; pieces of one
- * member are kept apart by a line; their areas add up to the member's. Together: they are the member. Besides, at random rational
- * points the number of pieces around them is that of the input polygons, by the even-odd rule on the raw rings. And the
- * counts are what theory says. */
+/* Convex decompositions of random sets, proved right in GMP rationals: every piece is strictly convex and
+ * counter-clockwise; no edge of its member runs through its inside and its centroid lies in the member, so it lies
+ * in the member; pieces of one member are kept apart by a line; their areas add up to the member's. Together: they
+ * are the member. Besides, at random rational points the number of pieces around them is that of the input polygons,
+ * by the even-odd rule on the raw rings. And the counts are what theory says. */
 #include "decomposition/decomposition.h"
 #include "generate.h"
 #include "gmp_numbers.h"
@@ -15,8 +15,8 @@
 #include <cmocka.h>
 
 static const sunder_i_decomposition_kind kinds[] = {SUNDER_I_HERTEL_MEHLHORN, SUNDER_I_TRIANGULATION,
-                                                    SUNDER_I_ANGLE_BISECTOR, SUNDER_I_VERTICAL, SUNDER_I_OPTIMAL,
-                                                    SUNDER_I_MIXED};
+                                                    SUNDER_I_ANGLE_BISECTOR,  SUNDER_I_VERTICAL,
+                                                    SUNDER_I_OPTIMAL,         SUNDER_I_MIXED};
 #define KINDS 6
 
 typedef struct qpoint {
@@ -30,8 +30,8 @@ typedef struct subject {
     sunder_i_placed placed;
     qpoint *vertex; /* [vertices] */
     sunder_i_decomposition d;
-    qpoint *corner; /* [corners] */
-    mpq_t a, b, c;  /* scratch */
+    qpoint *corner;   /* [corners] */
+    mpq_t a, b, c;    /* scratch */
     mpq_t side, e[4]; /* scratch of orient() */
 } subject;
 
@@ -117,8 +117,8 @@ static int in_member(subject *s, uint32_t member, const qpoint *x)
 
 /* ---- The proof ---- */
 
-/* Does the segment ab meet the inside of the piece? Clipped by one side after the other: what stays strictly left of all. The part is
- * a + t (b - a), lo <= t <= hi, in s->a and s->b. */
+/* Does the segment ab meet the inside of the piece? Clipped by one side after the other: what stays strictly left of
+ * all. The part is a + t (b - a), lo <= t <= hi, in s->a and s->b. */
 static bool enters(subject *s, const qpoint *a, const qpoint *b, uint32_t piece)
 {
     mpq_set_ui(s->a, 0, 1);
@@ -211,11 +211,11 @@ static bool areas_agree(subject *s)
 /* ---- Random points ---- */
 
 /* A double of the raw input in lattice units. */
-static void to_units(const subject *s, double v, double origin, bool negate, mpq_t out)
+static void to_units(const subject *s, double v, double origin, mpq_t out)
 {
     mpq_t o;
     mpq_init(o);
-    mpq_set_d(out, negate ? -v : v);
+    mpq_set_d(out, v);
     mpq_set_d(o, origin);
     mpq_sub(out, out, o);
     const long e = s->placed.lattice.exponent;
@@ -244,13 +244,13 @@ static int raw_count(subject *s, const qpoint *raw, const qpoint *x)
     return count;
 }
 
-static bool points_agree(subject *s, rng *r, bool reflected, int points)
+static bool points_agree(subject *s, rng *r, int points)
 {
     qpoint *raw = test_alloc(s->raw->vertices, sizeof *raw), x;
     for (size_t v = 0; v < s->raw->vertices; v++) {
         qpoint_init(&raw[v]);
-        to_units(s, s->raw->xy[2 * v], s->placed.origin_p[0], reflected, raw[v].x);
-        to_units(s, s->raw->xy[2 * v + 1], s->placed.origin_p[1], reflected, raw[v].y);
+        to_units(s, s->raw->xy[2 * v], s->placed.origin_p[0], raw[v].x);
+        to_units(s, s->raw->xy[2 * v + 1], s->placed.origin_p[1], raw[v].y);
     }
     qpoint_init(&x);
     bool ok = true;
@@ -345,15 +345,14 @@ static void load_corners(subject *s)
     }
 }
 
-static const char *examine(subject *s, sunder_i_decomposition_kind kind, rng *r, bool reflected, bool prove,
-                           uint32_t *best)
+static const char *examine(subject *s, sunder_i_decomposition_kind kind, rng *r, bool prove, uint32_t *best)
 {
     const char *wrong = sunder_i_decomposition_check(&s->placed.lattice, s->shape, s->placed.p, &s->d);
     load_corners(s);
     if (!wrong && prove)
         for (uint32_t i = 0; i < s->d.pieces && !wrong; i++) wrong = prove_piece(s, i);
     if (!wrong && !areas_agree(s)) wrong = "areas";
-    if (!wrong && !points_agree(s, r, reflected, 12)) wrong = "points";
+    if (!wrong && !points_agree(s, r, 12)) wrong = "points";
     if (!wrong && !counts_hold(s, kind, best)) wrong = "counts";
     for (uint32_t i = 0; i < s->d.corners; i++) qpoint_clear(&s->corner[i]);
     free(s->corner);
@@ -385,7 +384,7 @@ static void subject_free(subject *s)
 static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wide, bool prove)
 {
     subject s = {.raw = raw, .shape = shape};
-    const sunder_i_place_options options = {.force_wide = wide};
+    const sunder_i_place_options options = {.force_wide = wide, .reflect_q = true};
     assert_int_equal(sunder_i_place(shape, shape, &options, &s.placed, NULL), SUNDER_OK);
     subject_load(&s);
     uint32_t *best = test_alloc(shape->polygons + 1, sizeof *best);
@@ -395,12 +394,13 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
     for (int i = 0; i < KINDS && !message; i++) {
         const sunder_i_decomposition_kind kind = kinds[order[i]];
         sunder_i_decomposition other;
-        assert_int_equal(sunder_i_decompose_pair(&s.placed.lattice, shape, s.placed.p, shape, s.placed.q, kind, &s.d, &other, NULL),
-                         SUNDER_OK);
-        const char *wrong = examine(&s, kind, r, false, prove, best);
+        assert_int_equal(
+            sunder_i_decompose_pair(&s.placed.lattice, shape, s.placed.p, shape, s.placed.q, kind, &s.d, &other, NULL),
+            SUNDER_OK);
+        const char *wrong = examine(&s, kind, r, prove, best);
         if (!wrong && s.d.used != kind && !s.d.fallbacks) wrong = "another way was taken without a reason";
-        if (wrong)
-            message = test_format("%s%s: %s", sunder_i_decomposition_string(kind), wide ? ", wide" : "", wrong);
+        if (!wrong) wrong = sunder_i_decomposition_check(&s.placed.lattice, shape, s.placed.q, &other);
+        if (wrong) message = test_format("%s%s: %s", sunder_i_decomposition_string(kind), wide ? ", wide" : "", wrong);
         sunder_i_decomposition_clear(&s.d);
         sunder_i_decomposition_clear(&other);
     }
@@ -474,7 +474,9 @@ static void test_repaired(void **state)
         }
         polyset_end_polygon(&set);
         sunder_shape *shape = NULL;
-        assert_int_equal(sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_EVEN_ODD, &shape, NULL), SUNDER_OK);
+        assert_int_equal(
+            sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_EVEN_ODD, &shape, NULL),
+            SUNDER_OK);
         if (sunder_shape_is_empty(shape))
             sunder_shape_free(shape);
         else
@@ -487,9 +489,10 @@ static void test_repaired(void **state)
 /* The literature's families beside the repository. */
 static void test_shared(void **state)
 {
-    static const char *const names[] = {"comb_10",  "comb_20", "comb_50",   "fork_20",  "fork_50",   "forkt_20", "cfork_20",
-                                        "cfork_50", "star_20", "star_50",   "random_10", "random_20", "random_50", "randmap_50",
-                                        "robot_50", "fatgrid_50", "tight_20", "coast32_100", "bldg32_100"};
+    static const char *const names[] = {"comb_10",    "comb_20",   "comb_50",     "fork_20",    "fork_50",
+                                        "forkt_20",   "cfork_20",  "cfork_50",    "star_20",    "star_50",
+                                        "random_10",  "random_20", "random_50",   "randmap_50", "robot_50",
+                                        "fatgrid_50", "tight_20",  "coast32_100", "bldg32_100"};
     size_t bad = 0, found = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         char *path = test_format("%s/../shared/families/%s.txt", SUNDER_SOURCE, names[i]);
@@ -564,8 +567,8 @@ static bool angles_fit(const spot *v, int n, const int (*diagonal)[2], int count
         const int k = (i + step) % n;
         bool linked = step == n - 1;
         for (int d = 0; d < count; d++)
-            linked |= chosen >> d & 1 && ((diagonal[d][0] == i && diagonal[d][1] == k) ||
-                                          (diagonal[d][1] == i && diagonal[d][0] == k));
+            linked |= chosen >> d & 1 &&
+                      ((diagonal[d][0] == i && diagonal[d][1] == k) || (diagonal[d][1] == i && diagonal[d][0] == k));
         if (!linked) continue;
         const int64_t turn = cross(v[i], v[last], v[k]);
         if (turn < 0) return false;
@@ -614,7 +617,8 @@ static void test_optimum(void **state)
         assert_int_equal(sunder_i_decompose(&placed.lattice, shape, placed.p, SUNDER_I_OPTIMAL, &d, NULL), SUNDER_OK);
         const uint32_t want = (uint32_t)fewest_pieces(v, n);
         more += want > 2;
-        if (d.pieces != want) bad += report(test_format("%u pieces, %u will do", d.pieces, want), &set, "optimal", seed, i);
+        if (d.pieces != want)
+            bad += report(test_format("%u pieces, %u will do", d.pieces, want), &set, "optimal", seed, i);
         sunder_i_decomposition_clear(&d);
         sunder_i_placed_free(&placed);
         sunder_shape_free(shape);
