@@ -119,8 +119,14 @@ struct sunder_i_planar_map {
 
 /* ---- numbers.c ---- */
 
-/* Lexicographic order. */
-int sunder_i_site_cmp(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q);
+int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q);
+/* Lexicographic order. Rounding to nearest is monotone, so unequal doubles decide; equal ones decide nothing. */
+static inline int sunder_i_site_cmp(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
+{
+    map->lattice->operations.comparisons++;
+    if (p->ax != q->ax) return p->ax < q->ax ? -1 : 1;
+    return sunder_i_site_cmp_exact(map, p, q);
+}
 /* +1 above the line, -1 below, 0 on it. */
 int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p);
 /* +1 if g turns left of f (is steeper in the sheared order), 0 if they are parallel. */

@@ -79,7 +79,6 @@ static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunde
     return sign;
 }
 
-/* Rounding to nearest is monotone, so unequal doubles decide; equal ones decide nothing. */
 static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i_big pn, sunder_i_big pw, sunder_i_big qn,
                           sunder_i_big qw)
 {
@@ -89,9 +88,8 @@ static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i
     return dot_sign(map, a, b, 2);
 }
 
-int sunder_i_site_cmp(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
+int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
 {
-    map->lattice->operations.comparisons++;
     if (p->at[0].limb == q->at[0].limb && p->at[1].limb == q->at[1].limb && p->at[2].limb == q->at[2].limb &&
         p->at[0].size == q->at[0].size && p->at[1].size == q->at[1].size)
         return 0; /* the very same numbers */

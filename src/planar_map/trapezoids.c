@@ -74,7 +74,8 @@ static void pass_lower(sunder_i_planar_map *map, const sunder_i_trapezoid *befor
 
 /* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no longer
  * reaches below: the lower part runs on into the next trapezoid, and the upper part ends; and the other way round. So
- * each crossed trapezoid but the first begins exactly one new part, which takes its id; the first begins two.
+ * each crossed trapezoid but the first begins exactly one new part, at the same vertex and along the same other edge, and
+ * takes its id: so edges and vertices that knew it as theirs still do. The first begins two, and the upper one takes its id.
  * Invariant: u and d are the parts above and below that are open at the trapezoid looked at; `old` is what it was. */
 void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
 {
@@ -90,6 +91,9 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
     z[u].ll = z[d].lu = NOWHERE;
     if (old.lu != NOWHERE) z[old.lu].ru = u;
     if (old.ll != NOWHERE) z[old.ll].rl = d;
+    map->edge[e].up = u;
+    map->edge[e].down = d;
+    if (old.bottom != NOWHERE && map->edge[old.bottom].end[0] == v) map->edge[old.bottom].up = d;
     sunder_i_history_leaf(map, u);
     sunder_i_history_leaf(map, d);
     for (size_t i = 0; i < n; i++) {
@@ -110,7 +114,7 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
             z[u].rl = next;
             z[next].ll = u;
             pass_upper(map, &old, next, &after, u, next);
-            sunder_i_trapezoid_install(map, u);
+            map->vertex[p].left = u;
             u = next;
         } else {
             z[next].top = e;
@@ -119,7 +123,7 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
             z[d].ru = next;
             z[next].lu = d;
             pass_lower(map, &old, next, &after, d, next);
-            sunder_i_trapezoid_install(map, d);
+            map->vertex[p].left = d;
             d = next;
         }
         sunder_i_history_leaf(map, next);
@@ -131,6 +135,4 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
     z[d].rl = old.rl;
     if (old.ru != NOWHERE) z[old.ru].lu = u;
     if (old.rl != NOWHERE) z[old.rl].ll = d;
-    sunder_i_trapezoid_install(map, u);
-    sunder_i_trapezoid_install(map, d);
 }
