@@ -324,6 +324,7 @@ static void free_layer(gis_sink_layer *layer)
     gis_boxes_clear(&layer->boxes);
     CPLFree(layer->name);
     CPLFree(layer->file);
+    free(layer->changes);
     CPLFree(layer->field_map);
     CPLFree(layer->own);
     CSLDestroy(layer->created);

@@ -48,12 +48,12 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
         result->deviation = INFINITY;
         return true;
     }
-    gis_sink_find_losses(layer, as_written);
-    if (layer->keep_sent)
-        return gis_sink_compare(layer, as_written, result, error);
-    GIntBig count = OGR_L_GetFeatureCount(as_written, TRUE);
-    if (count != (GIntBig)layer->written)
+    GIntBig count = layer->keep_sent ? 0 : OGR_L_GetFeatureCount(as_written, TRUE);
+    if (!layer->keep_sent && count != (GIntBig)layer->written)
         return gis_sink_fail_count(layer, (size_t)count, error);
+    if (layer->keep_sent && !gis_sink_compare(layer, as_written, result, error))
+        return false;
+    gis_sink_find_losses(layer, as_written);
     return true;
 }
 

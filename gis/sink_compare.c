@@ -7,7 +7,6 @@
 #include "sink_internal.h"
 
 #include <cpl_conv.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -263,22 +262,16 @@ static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
     return same;
 }
 
-typedef struct change {
-    int index; /* of the field as written; -1: not there */
-    size_t count;
-    GIntBig first;
-} change;
-
-static void compare_attributes(OGRFeatureH sent, OGRFeatureH kept, change *changes, int n)
+static void compare_attributes(OGRFeatureH sent, OGRFeatureH kept, gis_change *changes, int n)
 {
     for (int i = 0; i < n; i++)
         if (changes[i].index >= 0 && !same_value(sent, i, kept, changes[i].index) && changes[i].count++ == 0)
             changes[i].first = OGR_F_GetFID(sent);
 }
 
-static change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, int n)
+static gis_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, int n)
 {
-    change *changes = calloc((size_t)n + 1, sizeof *changes);
+    gis_change *changes = calloc((size_t)n + 1, sizeof *changes);
     for (int i = 0; changes && i < n; i++) {
         const char *name = layer->created[i];
         changes[i].index = name[0] ? OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(as_written), name) : -1;
@@ -286,20 +279,9 @@ static change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, in
     return changes;
 }
 
-static void tell_changes(const gis_sink_layer *layer, const change *changes, int n)
-{
-    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
-    for (int i = 0; i < n; i++)
-        if (changes[i].count)
-            gis_list_add(&layer->sink->losses, "field %s: %zu value%s cannot be held as %s, first that of FID %" PRId64,
-                         OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), changes[i].count,
-                         changes[i].count == 1 ? "" : "s", changes[i].count == 1 ? "it is" : "they are",
-                         (int64_t)changes[i].first);
-}
-
 /* ---- The layer -------------------------------------------------------------------------------------------- */
 
-static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, change *changes, int n, workspace *work,
+static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n, workspace *work,
                              gis_sink_result *result, gis_error *error)
 {
     size_t i = 0;
@@ -310,8 +292,8 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, change
             const gis_sent *sent = &layer->sent[i];
             done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
-            if (done && changes && sent->feature)
-                compare_attributes(sent->feature, kept, changes, n);
+            if (done && layer->changes && sent->feature)
+                compare_attributes(sent->feature, kept, layer->changes, n);
         }
         OGR_F_Destroy(kept);
     }
@@ -324,15 +306,11 @@ bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_resu
 {
     bool attributes = layer->request.as_source && layer->sink->format.keeps_order && layer->created;
     int n = attributes ? OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))) : 0;
-    change *changes = attributes ? new_changes(layer, as_written, n) : NULL;
-    if (attributes && !changes)
+    if (attributes && !(layer->changes = new_changes(layer, as_written, n)))
         return gis_no_memory(error);
     workspace work = {0};
-    bool done = compare_features(layer, as_written, changes, n, &work, result, error);
-    if (done && changes)
-        tell_changes(layer, changes, n);
+    bool done = compare_features(layer, as_written, n, &work, result, error);
     gis_rings_clear(&work.sent);
     gis_rings_clear(&work.kept);
-    free(changes);
     return done;
 }

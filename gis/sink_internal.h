@@ -22,6 +22,13 @@ typedef struct gis_sent {
     double dx, dy;
 } gis_sent;
 
+/* What became of the values of one field of the source. */
+typedef struct gis_change {
+    int index;    /* of the field as written; -1: not there */
+    size_t count; /* values that read back as others */
+    GIntBig first; /* the first feature with one */
+} gis_change;
+
 struct gis_sink_layer {
     gis_sink *sink;
     gis_layer_request request; /* its field list is copied */
@@ -42,6 +49,7 @@ struct gis_sink_layer {
     bool keep_sent;
     gis_sent *sent;
     size_t n_sent, capacity;
+    gis_change *changes; /* by field of the source; NULL: not looked for */
 };
 
 typedef enum gis_place {
@@ -88,13 +96,15 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */
 
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
-/* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses. */
+/* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses, one
+ * sentence a field, in which the changes of its values stand as well. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
 
 /* Fails with the sentence that says how many features came back of those written. */
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);
 void gis_sink_forget_sent(gis_sink_layer *layer);
-/* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation. */
+/* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills changes.
+ */
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,28 +47,32 @@ static bool has_domain(GDALDatasetH dataset, OGRFieldDefnH field)
     return name && name[0] && (!dataset || GDALDatasetGetFieldDomain(dataset, name));
 }
 
-static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept)
+static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept,
+                          const gis_change *change)
 {
     parts lost = {""};
     const char *name = OGR_Fld_GetNameRef(sent);
     if (strcmp(name, OGR_Fld_GetNameRef(kept)) != 0)
-        say(&lost, "is called %s", OGR_Fld_GetNameRef(kept));
+        say(&lost, "called %s", OGR_Fld_GetNameRef(kept));
     if (OGR_Fld_GetType(sent) != OGR_Fld_GetType(kept) || OGR_Fld_GetSubType(sent) != OGR_Fld_GetSubType(kept))
-        say(&lost, "is %s instead of %s", type_name(kept), type_name(sent));
+        say(&lost, "%s instead of %s", type_name(kept), type_name(sent));
     int width = OGR_Fld_GetWidth(sent), width_kept = OGR_Fld_GetWidth(kept);
     if (width_kept != 0 && width > width_kept)
-        say(&lost, "has width %d instead of %d", width_kept, width);
+        say(&lost, "width %d instead of %d", width_kept, width);
     if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept))
         say(&lost, "may be null");
     if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept))
         say(&lost, "need not be unique");
     if (!same_text(OGR_Fld_GetDefault(sent), OGR_Fld_GetDefault(kept)))
-        say(&lost, "has no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
+        say(&lost, "no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
     if (has_domain(NULL, sent) &&
         !(same_text(OGR_Fld_GetDomainName(sent), OGR_Fld_GetDomainName(kept)) && has_domain(layer->dataset, kept)))
-        say(&lost, "has no domain %s", OGR_Fld_GetDomainName(sent));
+        say(&lost, "no domain %s", OGR_Fld_GetDomainName(sent));
+    if (change && change->count)
+        say(&lost, "%zu value%s cannot be held as %s (first: FID %" PRId64 ")", change->count,
+            change->count == 1 ? "" : "s", change->count == 1 ? "it is" : "they are", (int64_t)change->first);
     if (lost.text[0])
-        gis_list_add(&layer->sink->losses, "field %s %s", name, lost.text);
+        gis_list_add(&layer->sink->losses, "field %s: %s", name, lost.text);
 }
 
 static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
@@ -81,9 +86,9 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
         OGRFieldDefnH sent = OGR_FD_GetFieldDefn(source, i);
         int index = OGR_FD_GetFieldIndex(as_written, name);
         if (index < 0)
-            gis_list_add(&sink->losses, "field %s is not written", OGR_Fld_GetNameRef(sent));
+            gis_list_add(&sink->losses, "field %s: not written", OGR_Fld_GetNameRef(sent));
         else
-            compare_field(layer, sent, OGR_FD_GetFieldDefn(as_written, index));
+            compare_field(layer, sent, OGR_FD_GetFieldDefn(as_written, index), layer->changes ? &layer->changes[i] : NULL);
     }
     for (int i = 1; i < OGR_FD_GetGeomFieldCount(source); i++)
         gis_list_add(&sink->losses, "geometry column %s is not written: only the first one is",

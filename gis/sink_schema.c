@@ -211,9 +211,9 @@ static void create_source_fields(gis_sink_layer *layer)
             copy_domain(layer, field);
             layer->field_map[i] = create_field(layer, field);
             if (layer->field_map[i] < 0 && layer->request.as_source)
-                gis_list_add(&layer->sink->losses, "field %s (%s) is not written: %s cannot hold it",
-                             OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)),
-                             layer->sink->format.name);
+                gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                             OGR_Fld_GetNameRef(field), layer->sink->format.name,
+                             OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
         }
         int to = layer->field_map[i];
         layer->created = CSLAddString(layer->created,

@@ -40,9 +40,9 @@ refused 2 'overwrite-layer' "$SUNDER" separate --overwrite --output-layer houses
 
 # Domains are lost in PostgreSQL: with --strict nothing of this run may stay, and the old layer stands.
 sql 'UPDATE houses SET sunder_st = $$mine$$'
-refused 1 'has no domain' "$SUNDER" separate --strict --output-layer strict rich.gpkg "$db"
+refused 1 'no domain' "$SUNDER" separate --strict --output-layer strict rich.gpkg "$db"
 [ "$(sql "SELECT count(*) FROM pg_tables WHERE tablename LIKE 'strict%'")" = 0 ] || fail "a refused run left tables"
-refused 1 'has no domain' "$SUNDER" separate --strict --update --overwrite-layer --output-layer houses rich.gpkg "$db"
+refused 1 'no domain' "$SUNDER" separate --strict --update --overwrite-layer --output-layer houses rich.gpkg "$db"
 [ "$(sql "SELECT count(*) FROM houses WHERE sunder_st = 'mine'")" = 4 ] || fail "a refused run replaced a layer"
 "$SUNDER" separate --quiet --update --overwrite-layer --output-layer houses rich.gpkg "$db" 2>/dev/null
 [ "$(sql "SELECT count(*) FROM houses WHERE sunder_st = 'mine'")" = 0 ] || fail "--overwrite-layer did not replace"
