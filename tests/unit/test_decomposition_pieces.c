@@ -232,11 +232,11 @@ static void test_direction(void **state)
     size_t on_edge = 0;
     for (size_t i = 0; i < test_count(5000); i++) {
         rng r = rng_start(test_seed() * 59, i);
-        const int bits = (int)rng_int(&r, 1, 49);
+        const int64_t span = (int64_t)1 << rng_int(&r, 1, 49);
         sunder_i_point a, b;
         do {
-            a = (sunder_i_point){rng_int(&r, -(1LL << bits), 1LL << bits), rng_int(&r, -(1LL << bits), 1LL << bits)};
-            b = (sunder_i_point){rng_int(&r, -(1LL << bits), 1LL << bits), rng_int(&r, -(1LL << bits), 1LL << bits)};
+            a = (sunder_i_point){rng_int(&r, -span, span), rng_int(&r, -span, span)};
+            b = (sunder_i_point){rng_int(&r, -span, span), rng_int(&r, -span, span)};
             if (i % 3 == 0) b = (sunder_i_point){a.x + rng_int(&r, -2, 2), a.y + rng_int(&r, -2, 2)};
         } while (sunder_i_cross_sign(&l, a, b) <= 0);
         const sunder_i_point d = sunder_i_direction_within(&l, a, b);
