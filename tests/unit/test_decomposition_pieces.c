@@ -113,6 +113,24 @@ static void test_steiner(void **state)
     expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_I_OPTIMAL, 3, 0);
 }
 
+/* Cuts from three spikes in a room. From the one below a cut runs straight up to the roof; those from the left and from
+ * the upper right end on it at one place, from both sides. */
+static void test_cuts_meet_on_a_cut(void **state)
+{
+    static const char wkt[] =
+        "POLYGON((-20 -20,-1 -20,0 -10,1 -20,20 -20,20 20,15.5 20,10 15,14.5 20,-20 20,-20 6,-10 5,"
+        "-20 4,-20 -20))";
+    expect(wkt, SUNDER_I_ANGLE_BISECTOR, 4, 2);
+}
+
+/* Two cuts that end at one place of the roof, (0, 20). */
+static void test_cuts_meet_on_an_edge(void **state)
+{
+    static const char wkt[] =
+        "POLYGON((-20 -20,-1 -20,0 -10,1 -20,20 -20,20 20,-20 20,-20 0.5,-10 10,-20 -0.5,-20 -20))";
+    expect(wkt, SUNDER_I_ANGLE_BISECTOR, 3, 1);
+}
+
 /* A vertex that touches the line between two others: the best takes both halves of that line, and the piece above
  * has a straight corner there. Notches from the left, from the right and from below, their tips level. */
 static void test_straight_corner(void **state)
@@ -415,12 +433,20 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_convex),          cmocka_unit_test(test_one_reflex),
-        cmocka_unit_test(test_pairs_of_reflex), cmocka_unit_test(test_hole),
-        cmocka_unit_test(test_steiner),         cmocka_unit_test(test_straight_corner),
-        cmocka_unit_test(test_thin_cone),       cmocka_unit_test(test_members_and_empty),
-        cmocka_unit_test(test_mixed),           cmocka_unit_test(test_direction),
-        cmocka_unit_test(test_convex_sum),      cmocka_unit_test(test_parallel_sides),
+        cmocka_unit_test(test_convex),
+        cmocka_unit_test(test_one_reflex),
+        cmocka_unit_test(test_pairs_of_reflex),
+        cmocka_unit_test(test_hole),
+        cmocka_unit_test(test_steiner),
+        cmocka_unit_test(test_straight_corner),
+        cmocka_unit_test(test_cuts_meet_on_a_cut),
+        cmocka_unit_test(test_cuts_meet_on_an_edge),
+        cmocka_unit_test(test_thin_cone),
+        cmocka_unit_test(test_members_and_empty),
+        cmocka_unit_test(test_mixed),
+        cmocka_unit_test(test_direction),
+        cmocka_unit_test(test_convex_sum),
+        cmocka_unit_test(test_parallel_sides),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("decomposition", tests, NULL, NULL);
