@@ -1,16 +1,16 @@
 /* The checker: every invariant, proved exactly; the list is in README.md.
  *
- * Geometry is proved by the trapezoids: each is bounded by a bottom strictly below its top over its whole width, has its vertices
- * on its walls, and knows the neighbour across each part of a wall that has length, which knows it; the trapezoids along each side
- * of each edge follow each other from end to end; and there are as many as there must be. So they tile the plane, and no
- * edge meets another but in a common end. */
+ * Geometry is proved by the trapezoids: each is bounded by a bottom strictly below its top over its whole width, has
+ * its vertices on its walls, and knows the neighbour across each part of a wall that has length, which knows it; the
+ * trapezoids along each side of each edge follow each other from end to end; and there are as many as there must be. So
+ * they tile the plane, and no edge meets another but in a common end. */
 #include "planar_map/map.h"
 
 #include <stdlib.h>
 
-#define REQUIRE(condition, sentence)    \
-    do {                                \
-        if (!(condition)) return sentence; \
+#define REQUIRE(condition, sentence)                                                                                   \
+    do {                                                                                                               \
+        if (!(condition)) return sentence;                                                                             \
     } while (0)
 
 static int cmp_vertices(sunder_i_planar_map *map, uint32_t v, uint32_t w)
@@ -33,12 +33,16 @@ static const char *check_edge(sunder_i_planar_map *map, uint32_t e)
     const sunder_i_map_edge *edge = &map->edge[e];
     REQUIRE(edge->end[1] < map->vertices && map->vertex[edge->end[0]].alive && map->vertex[edge->end[1]].alive,
             "an edge ends in a vertex that is not there");
-    REQUIRE(cmp_vertices(map, edge->end[0], edge->end[1]) < 0, "an edge does not go from its smaller end to its greater");
-    REQUIRE(side_of(map, e, edge->end[0]) == 0 && side_of(map, e, edge->end[1]) == 0, "an end is not on its edge's line");
+    REQUIRE(cmp_vertices(map, edge->end[0], edge->end[1]) < 0,
+            "an edge does not go from its smaller end to its greater");
+    REQUIRE(side_of(map, e, edge->end[0]) == 0 && side_of(map, e, edge->end[1]) == 0,
+            "an end is not on its edge's line");
     for (uint32_t i = 0; i < 2; i++) {
         const uint32_t h = 2 * e + i, next = sunder_i_planar_map_next(map, h);
-        REQUIRE(edge->ccw[i] >> 1 < map->edges && edge->cw[i] >> 1 < map->edges, "a half-edge's neighbour is not there");
-        REQUIRE(map->edge[edge->ccw[i] >> 1].cw[edge->ccw[i] & 1] == h, "half-edges around a vertex do not follow each other");
+        REQUIRE(edge->ccw[i] >> 1 < map->edges && edge->cw[i] >> 1 < map->edges,
+                "a half-edge's neighbour is not there");
+        REQUIRE(map->edge[edge->ccw[i] >> 1].cw[edge->ccw[i] & 1] == h,
+                "half-edges around a vertex do not follow each other");
         REQUIRE(sunder_i_planar_map_origin(map, edge->ccw[i]) == edge->end[i], "a half-edge is at another's vertex");
         REQUIRE(sunder_i_planar_map_origin(map, next) == edge->end[!i] && sunder_i_planar_map_prev(map, next) == h,
                 "next and prev disagree");
@@ -63,7 +67,8 @@ static const char *check_vertex(sunder_i_planar_map *map, uint32_t v, size_t *n)
                     "a vertex has a half-edge that is not its own");
             REQUIRE(!to_left || (h & 1), "half-edges around a vertex are out of order");
             if (before != NOWHERE && (before & 1) == (h & 1))
-                REQUIRE(turn_of(map, before >> 1, h >> 1) > 0, "half-edges around a vertex are not in order of their slopes");
+                REQUIRE(turn_of(map, before >> 1, h >> 1) > 0,
+                        "half-edges around a vertex are not in order of their slopes");
             (*(h & 1 ? &to_left : &to_right))++;
             before = h;
             h = sunder_i_planar_map_ccw(map, h);
@@ -84,9 +89,10 @@ static const char *check_vertex(sunder_i_planar_map *map, uint32_t v, size_t *n)
     return NULL;
 }
 
-/* One of the four neighbours of t: part of the wall at vertex v, whose end is at edge e (the top, or the bottom). `ends` tells
- * whether e starts (ends) in v, so that this part has no length. */
-static const char *check_neighbour(sunder_i_planar_map *map, uint32_t t, uint32_t n, uint32_t v, bool ends, bool left, bool upper)
+/* One of the four neighbours of t: part of the wall at vertex v, whose end is at edge e (the top, or the bottom).
+ * `ends` tells whether e starts (ends) in v, so that this part has no length. */
+static const char *check_neighbour(sunder_i_planar_map *map, uint32_t t, uint32_t n, uint32_t v, bool ends, bool left,
+                                   bool upper)
 {
     REQUIRE((n != NOWHERE) == (v != NOWHERE && !ends), "a neighbour is missing, or one is too many");
     if (n == NOWHERE) return NULL;
@@ -103,7 +109,8 @@ static const char *check_neighbour(sunder_i_planar_map *map, uint32_t t, uint32_
     return NULL;
 }
 
-/* The wall of t at v, on its left or right: the vertex is on it, and apart from the top and bottom unless they end there. */
+/* The wall of t at v, on its left or right: the vertex is on it, and apart from the top and bottom unless they end
+ * there. */
 static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
 {
     const sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -116,12 +123,14 @@ static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
     const bool bottom_ends = v != NOWHERE && z->bottom != NOWHERE && map->edge[z->bottom].end[at] == v;
     if (v != NOWHERE && z->top != NOWHERE && !top_ends) {
         REQUIRE(side_of(map, z->top, v) < 0, "a wall's vertex is not below the top");
-        REQUIRE(cmp_vertices(map, map->edge[z->top].end[0], v) < 0 && cmp_vertices(map, v, map->edge[z->top].end[1]) < 0,
+        REQUIRE(cmp_vertices(map, map->edge[z->top].end[0], v) < 0 &&
+                    cmp_vertices(map, v, map->edge[z->top].end[1]) < 0,
                 "a top does not reach as far as its trapezoid");
     }
     if (v != NOWHERE && z->bottom != NOWHERE && !bottom_ends) {
         REQUIRE(side_of(map, z->bottom, v) > 0, "a wall's vertex is not above the bottom");
-        REQUIRE(cmp_vertices(map, map->edge[z->bottom].end[0], v) < 0 && cmp_vertices(map, v, map->edge[z->bottom].end[1]) < 0,
+        REQUIRE(cmp_vertices(map, map->edge[z->bottom].end[0], v) < 0 &&
+                    cmp_vertices(map, v, map->edge[z->bottom].end[1]) < 0,
                 "a bottom does not reach as far as its trapezoid");
     }
     if (top_ends && bottom_ends)
@@ -143,8 +152,8 @@ static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
     return NULL;
 }
 
-/* A point of t: halfway between its vertices, or one beside it; found again by the history. A point on the bottom is taken to be
- * above it, one on the top does not belong to t. */
+/* A point of t: halfway between its vertices, or one beside it; found again by the history. A point on the bottom is
+ * taken to be above it, one on the top does not belong to t. */
 static const char *check_history(sunder_i_planar_map *map, uint32_t t)
 {
     const sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -182,7 +191,8 @@ static const char *check_row(sunder_i_planar_map *map, uint32_t e, bool above, s
     uint32_t t = above ? edge->up : edge->down, at = edge->end[0];
     const uint32_t covered = t < map->trapezoids ? map->trapezoid[t].covered : 0;
     for (;;) {
-        REQUIRE(t < map->trapezoids && map->trapezoid[t].node != NOWHERE, "an edge has a trapezoid along it that is gone");
+        REQUIRE(t < map->trapezoids && map->trapezoid[t].node != NOWHERE,
+                "an edge has a trapezoid along it that is gone");
         const sunder_i_trapezoid *z = &map->trapezoid[t];
         REQUIRE((above ? z->bottom : z->top) == e, "a trapezoid along an edge has another edge");
         REQUIRE(z->left == at, "trapezoids along an edge do not follow each other");
@@ -207,8 +217,8 @@ static const char *check_faces(sunder_i_planar_map *map)
 {
     REQUIRE(map->face_outer[0] == NOWHERE, "the outermost face has an outer boundary");
     for (uint32_t f = 1; f < map->faces; f++) REQUIRE(map->face_outer[f] != NOWHERE, "a face has no outer boundary");
-    /* As many cycles as boundaries: one outer one each. Euler: V - E + F = 1 + components, of which each is one inner boundary
-     * or one isolated vertex. */
+    /* As many cycles as boundaries: one outer one each. Euler: V - E + F = 1 + components, of which each is one inner
+     * boundary or one isolated vertex. */
     const size_t inner = map->inner_end[map->faces - 1], isolated = map->isolated_end[map->faces - 1];
     const size_t vertices = map->vertices - map->dead_vertices, edges = map->edges - map->dead_edges;
     REQUIRE(vertices + map->faces == edges + 1 + inner + isolated, "faces, edges and vertices do not agree with Euler");
@@ -241,7 +251,8 @@ const char *sunder_i_planar_map_check(sunder_i_planar_map *map)
             return "a trapezoid has an edge that is gone";
         if (z->left != NOWHERE && z->right != NOWHERE && cmp_vertices(map, z->left, z->right) >= 0)
             return "a trapezoid has its right wall left of its left one";
-        if (map->node[z->node].kind != SUNDER_I_LEAF || map->node[z->node].a != t) return "a trapezoid's leaf is not its own";
+        if (map->node[z->node].kind != SUNDER_I_LEAF || map->node[z->node].a != t)
+            return "a trapezoid's leaf is not its own";
         wrong = check_wall(map, t, true);
         if (!wrong) wrong = check_wall(map, t, false);
         if (!wrong) wrong = check_history(map, t);

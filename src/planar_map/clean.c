@@ -1,30 +1,28 @@
 /* Cleaning: the map of many regions becomes that of their union.
  *
- * What is covered goes: an edge whose relative interior lies inside some region, a vertex that does. Edges first: all those at
- * a covered vertex are covered, so it is isolated when its turn comes. An edge or vertex that no region covers stays, also
- * between covered faces: there it is a degenerate hole. Then vertices in the middle of straight edges with equal counts go.
+ * What is covered goes: an edge whose relative interior lies inside some region, a vertex that does. Edges first: all
+ * those at a covered vertex are covered, so it is isolated when its turn comes. An edge or vertex that no region covers
+ * stays, also between covered faces: there it is a degenerate hole. Then vertices in the middle of straight edges with
+ * equal counts go.
  *
- * The union then counts as one region that has every remaining edge on its boundary: sides 1 towards a covered face and 0
- * towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should.
- *
- * The step of the incremental union does the same with what the polygon inserted last has touched: its inside, found by a
- * flood from its boundary, and the boundary itself. Elsewhere nothing has changed. */
+ * The union then counts as one region that has every remaining edge on its boundary: sides 1 towards a covered face and
+ * 0 towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should. */
 #include "planar_map/map.h"
 
-static void settle_edge(sunder_i_planar_map *map, uint32_t e)
+void sunder_i_map_settle_edge(sunder_i_planar_map *map, uint32_t e)
 {
     sunder_i_map_edge *edge = &map->edge[e];
     edge->sides[0] = map->trapezoid[edge->up].covered != 0;
     edge->sides[1] = map->trapezoid[edge->down].covered != 0;
 }
 
-static void settle_vertex(sunder_i_planar_map *map, uint32_t v)
+void sunder_i_map_settle_vertex(sunder_i_planar_map *map, uint32_t v)
 {
     map->vertex[v].below = map->trapezoid[sunder_i_map_below_vertex(map, v)].covered != 0;
 }
 
 /* Removes the edges of edges_inside and the vertices of vertices_inside, all covered; both sides count 1 already. */
-static bool remove_covered(sunder_i_planar_map *map)
+bool sunder_i_map_remove_covered(sunder_i_planar_map *map)
 {
     for (size_t i = 0; i < map->edges_inside.n; i++) {
         const uint32_t e = map->edges_inside.item[i];
@@ -64,9 +62,9 @@ static bool list_covered(sunder_i_planar_map *map)
 static void settle_all(sunder_i_planar_map *map)
 {
     for (uint32_t e = 0; e < map->edges; e++)
-        if (map->edge[e].end[0] != NOWHERE) settle_edge(map, e);
+        if (map->edge[e].end[0] != NOWHERE) sunder_i_map_settle_edge(map, e);
     for (uint32_t v = 0; v < map->vertices; v++)
-        if (map->vertex[v].alive) settle_vertex(map, v);
+        if (map->vertex[v].alive) sunder_i_map_settle_vertex(map, v);
 }
 
 /* Where little stays, what stays makes a new map; the old one then needs no trapezoids any more. */
@@ -90,7 +88,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
         if (2 * map->edges_inside.n > map->edges - map->dead_edges)
             ok = start_afresh(map);
         else {
-            ok = remove_covered(map);
+            ok = sunder_i_map_remove_covered(map);
             if (ok) settle_all(map);
         }
     }
@@ -103,90 +101,12 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
     return sunder_i_map_status(map, err);
 }
 
-/* ---- The step of the incremental union ---- */
-
-static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
-{
-    sunder_i_trapezoid *z = &map->trapezoid[t];
-    if (z->stamp == stamp) return true;
-    z->stamp = stamp;
-    return sunder_i_map_push(map, &map->inside, t);
-}
-
-/* The trapezoids, edges and vertices strictly inside the ring. Ring edges and vertices bear the stamp already. */
-static bool flood(sunder_i_planar_map *map, uint32_t stamp)
-{
-    map->inside.n = map->edges_inside.n = map->vertices_inside.n = 0;
-    for (size_t i = 0; i < map->ring.n; i++)
-        if (!see(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
-    for (size_t i = 0; i < map->inside.n; i++) { /* the list is its own queue */
-        const uint32_t t = map->inside.item[i];
-        uint32_t to[6];
-        int64_t step[6];
-        const size_t n = sunder_i_map_around(map, t, stamp, to, step);
-        for (size_t k = 0; k < n; k++)
-            if (!see(map, to[k], stamp)) return false;
-        const uint32_t e = map->trapezoid[t].bottom, v = map->trapezoid[t].left;
-        if (map->edge[e].up == t && map->edge[e].stamp != stamp && !sunder_i_map_push(map, &map->edges_inside, e))
-            return false;
-        if (map->vertex[v].stamp != stamp) {
-            map->vertex[v].stamp = stamp;
-            if (!sunder_i_map_push(map, &map->vertices_inside, v)) return false;
-        }
-    }
-    return true;
-}
-
-static bool clean_ring(sunder_i_planar_map *map)
-{
-    const uint32_t stamp = ++map->stamp;
-    for (size_t i = 0; i < map->ring.n; i++) {
-        const uint32_t h = map->ring.item[i];
-        map->edge[h >> 1].stamp = stamp;
-        map->vertex[sunder_i_planar_map_origin(map, h)].stamp = stamp;
-    }
-    if (!flood(map, stamp)) return false;
-    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered++;
-    /* Each vertex of the ring begins one of its half-edges. Those that stay wait on the stack; ring keeps its edges that stay. */
-    map->stack.n = 0;
-    size_t kept = 0;
-    for (size_t i = 0; i < map->ring.n; i++) {
-        const uint32_t h = map->ring.item[i], v = sunder_i_planar_map_origin(map, h);
-        const bool covered = sunder_i_planar_map_vertex_covered(map, v) > 0;
-        if (!sunder_i_map_push(map, covered ? &map->vertices_inside : &map->stack, v)) return false;
-        if (sunder_i_planar_map_edge_covered(map, h >> 1) == 0)
-            map->ring.item[kept++] = h;
-        else if (!sunder_i_map_push(map, &map->edges_inside, h >> 1))
-            return false;
-    }
-    map->ring.n = kept;
-    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered = 1;
-    if (!remove_covered(map)) return false;
-    for (size_t i = 0; i < map->ring.n; i++) settle_edge(map, map->ring.item[i] >> 1);
-    for (size_t i = 0; i < map->stack.n; i++) settle_vertex(map, map->stack.item[i]);
-    for (size_t i = 0; i < map->stack.n; i++)
-        if (sunder_i_planar_map_mergeable(map, map->stack.item[i])) sunder_i_edge_merge(map, map->stack.item[i]);
-    return true;
-}
-
-sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
-                                                const sunder_i_point *along, size_t n, sunder_error *err)
-{
-    const sunder_status status = sunder_i_map_polygon(map, corner, along, n, true, err);
-    if (status != SUNDER_OK) return status;
-    if (!clean_ring(map) || !sunder_i_map_compact(map)) {
-        map->failed = true;
-        return sunder_i_no_memory(err);
-    }
-    map->marked = true;
-    return sunder_i_map_status(map, err);
-}
-
 /* ---- By hand ---- */
 
 sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t h, sunder_error *err)
 {
     sunder_i_map_drop_faces(map);
+    map->marked = false;
     sunder_i_edge_remove(map, h >> 1);
     return sunder_i_map_status(map, err);
 }

@@ -1,8 +1,8 @@
 /* Half-edges around their vertices, and edges with the trapezoids along them.
  *
- * Around a vertex half-edges run counter-clockwise from straight down: first those to the right, from the lowest slope to
- * the highest, then those to the left, from the highest end to the lowest. `out` is the first. Where a segment begins or
- * ends, the trapezoid tells its place in that order: the edges that bound it there are its neighbours. */
+ * Around a vertex half-edges run counter-clockwise from straight down: first those to the right, from the lowest slope
+ * to the highest, then those to the left, from the highest end to the lowest. `out` is the first. Where a segment
+ * begins or ends, the trapezoid tells its place in that order: the edges that bound it there are its neighbours. */
 #include "planar_map/map.h"
 
 static uint32_t *ccw_of(sunder_i_planar_map *map, uint32_t h) { return &map->edge[h >> 1].ccw[h & 1]; }
@@ -116,8 +116,8 @@ uint32_t sunder_i_edge_split(sunder_i_planar_map *map, uint32_t e, const sunder_
     return v;
 }
 
-uint32_t sunder_i_edge_make(sunder_i_planar_map *map, uint32_t v, uint32_t w, uint32_t lower, uint32_t line, uint32_t up,
-                            uint32_t down)
+uint32_t sunder_i_edge_make(sunder_i_planar_map *map, uint32_t v, uint32_t w, uint32_t lower, uint32_t line,
+                            uint32_t up, uint32_t down)
 {
     if (!sunder_i_map_room(map, 0, 1, 1, map->crossed.n + 1)) return NOWHERE;
     const uint32_t e = sunder_i_map_new_edge(map);

@@ -1,11 +1,11 @@
 /* Faces: the trapezoids that open walls connect, and the boundaries around and inside them.
  *
  * The face left of a half-edge is that of the trapezoids along it. The half-edges that follow each other around it form
- * cycles. A cycle is the outer boundary of its face, or an inner one; its smallest vertex tells. No half-edge of the cycle leads to
- * the left from there. The cycle is an inner boundary exactly if what lies right to the left of that vertex belongs to the corner that the
- * cycle makes there: it then goes around its edges from outside. That corner lies between the highest half-edge out of the vertex and the lowest,
- * and the vertex has no half-edge to the left at all. (A cycle may pass through its smallest vertex several times, as antennas do; one of those corners
- * is enough.) */
+ * cycles. A cycle is the outer boundary of its face, or an inner one; its smallest vertex tells. No half-edge of the
+ * cycle leads to the left from there. The cycle is an inner boundary exactly if what lies right to the left of that
+ * vertex belongs to the corner that the cycle makes there: it then goes around its edges from outside. That corner lies
+ * between the highest half-edge out of the vertex and the lowest, and the vertex has no half-edge to the left at all.
+ * (A cycle may pass through its smallest vertex several times, as antennas do; one of those corners is enough.) */
 #include "planar_map/map.h"
 
 typedef struct cycle {
@@ -103,7 +103,8 @@ static bool find_boundaries(sunder_i_planar_map *map, uint8_t *seen, sunder_i_li
     item->n = of->n = 0;
     for (uint32_t v = 0; v < map->vertices; v++)
         if (map->vertex[v].alive && map->vertex[v].out == NOWHERE &&
-            (!sunder_i_map_push(map, item, v) || !sunder_i_map_push(map, of, map->face_of_trapezoid[map->vertex[v].right])))
+            (!sunder_i_map_push(map, item, v) ||
+             !sunder_i_map_push(map, of, map->face_of_trapezoid[map->vertex[v].right])))
             return false;
     return by_face(map->faces, item->item, of->item, item->n, &map->isolated, &map->isolated_end);
 }

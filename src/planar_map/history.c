@@ -1,13 +1,14 @@
 /* The history: every trapezoid there ever was, and what became of it [Mul90, Sei91; BKOS08, section 6.2].
  *
  * A leaf is a trapezoid of today. When one goes, its leaf becomes the node that tells its successors apart: by a vertex
- * whose wall was put up in it (AT), by the line of an edge drawn through it (BY); where several were merged, several nodes lead
- * to one leaf. Removal adds to the history too: a trapezoid that a removed edge bounded is succeeded by a row of trapezoids,
- * told apart by the vertices between them; one that lost a wall by its union with the neighbour (ALIAS). Nodes name lines and
- * vertices, never edges: these may be split or gone by the time the node is asked, but their lines stay where they were.
+ * whose wall was put up in it (AT), by the line of an edge drawn through it (BY); where several were merged, several
+ * nodes lead to one leaf. Removal adds to the history too: a trapezoid that a removed edge bounded is succeeded by a
+ * row of trapezoids, told apart by the vertices between them; one that lost a wall by its union with the neighbour
+ * (ALIAS). Nodes name lines and vertices, never edges: these may be split or gone by the time the node is asked, but
+ * their lines stay where they were.
  *
- * A query point is taken to be moved up by an infinitesimal, and right by an infinitesimal of higher order: so a
- * point on a line goes above it, a point at a vertex goes right, and both are the same symbolic point everywhere. */
+ * A query point is taken to be moved up by an infinitesimal, and right by an infinitesimal of higher order: so a point
+ * on a line goes above it, a point at a vertex goes right, and both are the same symbolic point everywhere. */
 #include "planar_map/map.h"
 
 static uint32_t add(sunder_i_planar_map *map, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
@@ -41,11 +42,14 @@ void sunder_i_history_alias(sunder_i_planar_map *map, uint32_t node, uint32_t to
     set(map, node, SUNDER_I_ALIAS, 0, to, NOWHERE);
 }
 
-/* A tree over t[low .. high): its root stands at `node`, halves that are single trapezoids are their leaves. Work waits on a
- * stack of our own, never deeper than the tree. */
+/* A tree over t[low .. high): its root stands at `node`, halves that are single trapezoids are their leaves. Work waits
+ * on a stack of our own, never deeper than the tree. */
 void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_t *t, size_t n)
 {
-    struct { uint32_t node; size_t low, high; } stack[64], *top = stack;
+    struct {
+        uint32_t node;
+        size_t low, high;
+    } stack[64], *top = stack;
     if (n == 1) {
         sunder_i_history_alias(map, node, map->trapezoid[t[0]].node);
         return;
@@ -57,7 +61,8 @@ void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_
         const size_t low = top->low, high = top->high, middle = low + (high - low) / 2;
         const bool left_single = middle - low == 1, right_single = high - middle == 1;
         const uint32_t left = left_single ? map->trapezoid[t[low]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
-        const uint32_t right = right_single ? map->trapezoid[t[middle]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
+        const uint32_t right =
+            right_single ? map->trapezoid[t[middle]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
         sunder_i_history_at(map, root, map->trapezoid[t[middle]].left, left, right);
         if (!left_single) *top++ = (__typeof__(*stack)){left, low, middle};
         if (!right_single) *top++ = (__typeof__(*stack)){right, middle, high};
@@ -70,10 +75,17 @@ uint32_t sunder_i_history_find(sunder_i_planar_map *map, const sunder_i_site *p)
     for (;;) {
         const sunder_i_history_node *node = &map->node[n];
         switch (node->kind) {
-        case SUNDER_I_LEAF: return node->a;
-        case SUNDER_I_ALIAS: n = node->a; break;
-        case SUNDER_I_AT: n = sunder_i_site_cmp(map, p, &map->vertex[node->of].site) < 0 ? node->a : node->b; break;
-        default: n = sunder_i_site_side(map, &map->line[node->of], p) < 0 ? node->a : node->b; break;
+        case SUNDER_I_LEAF:
+            return node->a;
+        case SUNDER_I_ALIAS:
+            n = node->a;
+            break;
+        case SUNDER_I_AT:
+            n = sunder_i_site_cmp(map, p, &map->vertex[node->of].site) < 0 ? node->a : node->b;
+            break;
+        default:
+            n = sunder_i_site_side(map, &map->line[node->of], p) < 0 ? node->a : node->b;
+            break;
         }
     }
 }

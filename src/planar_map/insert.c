@@ -1,17 +1,17 @@
 /* The walk of a segment through the map.
  *
- * Always from the smaller end to the greater. At a vertex the segment either runs along an edge that is there (overlap: the
- * edge's counts grow, and it is split where the segment ends inside it) or enters a trapezoid. It then goes from wall to
- * wall to the first of
+ * Always from the smaller end to the greater. At a vertex the segment either runs along an edge that is there (overlap:
+ * the edge's counts grow, and it is split where the segment ends inside it) or enters a trapezoid. It then goes from
+ * wall to wall to the first of
  *     its end, inside a trapezoid, on an edge or at a vertex;
  *     a vertex that it runs through;
  *     an edge that it crosses, which is split there;
- * the piece up to there becomes an edge, and the walk goes on from that vertex. So every crossing is a vertex before the next piece
- * begins, and the trapezoids that a piece runs through contain nothing of the map but their walls.
+ * the piece up to there becomes an edge, and the walk goes on from that vertex. So every crossing is a vertex before
+ * the next piece begins, and the trapezoids that a piece runs through contain nothing of the map but their walls.
  *
- * Degenerate positions, by name. Vertical segments: the sheared order treats them as steep ones. Many segments through one point:
- * each finds the vertex there (side 0). Overlaps: parallel to an edge at a vertex means along it. Ends on edges: split. Ends at
- * vertices: equal sites. Nothing is ever found by being near. */
+ * Degenerate positions, by name. Vertical segments: the sheared order treats them as steep ones. Many segments through
+ * one point: each finds the vertex there (side 0). Overlaps: parallel to an edge at a vertex means along it. Ends on
+ * edges: split. Ends at vertices: equal sites. Nothing is ever found by being near. */
 #include "planar_map/map.h"
 
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site)
@@ -28,9 +28,10 @@ uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *s
 /* Where a piece ends. */
 typedef struct stop {
     enum { AT_VERTEX, ON_EDGE, INSIDE } kind;
-    uint32_t id;        /* of the vertex or edge */
-    sunder_i_site site; /* of a stop on an edge or inside; the target, or a crossing with numbers in the scratch arena */
-    bool done;          /* it is the target */
+    uint32_t id; /* of the vertex or edge */
+    sunder_i_site
+        site;  /* of a stop on an edge or inside; the target, or a crossing with numbers in the scratch arena */
+    bool done; /* it is the target */
 } stop;
 
 /* A crossing worked out in one trapezoid may be needed in the next along the same edge. */
@@ -147,8 +148,8 @@ static uint32_t run_along(sunder_i_planar_map *map, uint32_t h, const sunder_i_s
     return sunder_i_edge_split(map, e, target, NOWHERE);
 }
 
-uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line, uint32_t up,
-                           uint32_t down, bool record)
+uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line,
+                           uint32_t up, uint32_t down, bool record)
 {
     for (bool done = false; !done;) {
         if (sunder_i_map_broken(map)) return NOWHERE;
@@ -204,8 +205,9 @@ sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, const
     if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
     const uint32_t line = sunder_i_map_new_line(map, &through);
     const uint32_t v = line == NOWHERE ? NOWHERE : sunder_i_map_vertex_at(map, from);
-    const uint32_t w = v == NOWHERE ? NOWHERE
-                                    : sunder_i_map_walk(map, v, to, line, forward ? left : right, forward ? right : left, false);
+    const uint32_t w = v == NOWHERE
+                           ? NOWHERE
+                           : sunder_i_map_walk(map, v, to, line, forward ? left : right, forward ? right : left, false);
     if (sunder_i_map_broken(map) || w == NOWHERE) return sunder_i_no_memory(err);
     if (first) *first = forward ? v : w;
     if (last) *last = forward ? w : v;

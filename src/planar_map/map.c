@@ -30,8 +30,8 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map)
 {
     if (!map) return;
     sunder_i_map_drop_faces(map);
-    sunder_i_list *const lists[] = {&map->crossed, &map->ring, &map->above, &map->beneath, &map->made,
-                                    &map->stack, &map->inside, &map->edges_inside, &map->vertices_inside};
+    sunder_i_list *const lists[] = {&map->crossed, &map->ring,   &map->above,        &map->beneath,        &map->made,
+                                    &map->stack,   &map->inside, &map->edges_inside, &map->vertices_inside};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) sunder_i_free(lists[i]->item);
     sunder_i_free(map->vertex);
     sunder_i_free(map->edge);
@@ -67,7 +67,8 @@ bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, 
     const size_t most = (size_t)1 << 30;
     if (!grow(&map->vertex, &map->vertex_capacity, map->vertices, vertices, sizeof *map->vertex, most) ||
         !grow(&map->edge, &map->edge_capacity, map->edges, edges, sizeof *map->edge, most) ||
-        !grow(&map->trapezoid, &map->trapezoid_capacity, map->trapezoids, trapezoids, sizeof *map->trapezoid, 4 * most - 2) ||
+        !grow(&map->trapezoid, &map->trapezoid_capacity, map->trapezoids, trapezoids, sizeof *map->trapezoid,
+              4 * most - 2) ||
         !grow(&map->node, &map->node_capacity, map->nodes, nodes, sizeof *map->node, 4 * most - 2))
         map->failed = true;
     return !map->failed;
@@ -98,7 +99,8 @@ uint32_t sunder_i_map_new_vertex(sunder_i_planar_map *map, const sunder_i_site *
 {
     const uint32_t v = map->vertices++;
     map->number_bytes += bytes_of(site->at);
-    map->vertex[v] = (sunder_i_map_vertex){.site = *site, .out = NOWHERE, .left = NOWHERE, .right = NOWHERE, .alive = true};
+    map->vertex[v] =
+        (sunder_i_map_vertex){.site = *site, .out = NOWHERE, .left = NOWHERE, .right = NOWHERE, .alive = true};
     return v;
 }
 
@@ -201,14 +203,14 @@ uint32_t sunder_i_planar_map_vertex_covered(const sunder_i_planar_map *map, uint
 
 uint32_t sunder_i_planar_map_edge_end(const sunder_i_planar_map *map) { return map->edges; }
 
-bool sunder_i_planar_map_edge_alive(const sunder_i_planar_map *map, uint32_t e) { return map->edge[e].end[0] != NOWHERE; }
+bool sunder_i_planar_map_edge_alive(const sunder_i_planar_map *map, uint32_t e)
+{
+    return map->edge[e].end[0] != NOWHERE;
+}
 
 uint32_t sunder_i_planar_map_origin(const sunder_i_planar_map *map, uint32_t h) { return map->edge[h >> 1].end[h & 1]; }
 
-uint32_t sunder_i_planar_map_next(const sunder_i_planar_map *map, uint32_t h)
-{
-    return map->edge[h >> 1].cw[~h & 1];
-}
+uint32_t sunder_i_planar_map_next(const sunder_i_planar_map *map, uint32_t h) { return map->edge[h >> 1].cw[~h & 1]; }
 
 uint32_t sunder_i_planar_map_prev(const sunder_i_planar_map *map, uint32_t h)
 {
@@ -217,7 +219,10 @@ uint32_t sunder_i_planar_map_prev(const sunder_i_planar_map *map, uint32_t h)
 
 uint32_t sunder_i_planar_map_ccw(const sunder_i_planar_map *map, uint32_t h) { return map->edge[h >> 1].ccw[h & 1]; }
 
-uint32_t sunder_i_planar_map_sides(const sunder_i_planar_map *map, uint32_t h) { return map->edge[h >> 1].sides[h & 1]; }
+uint32_t sunder_i_planar_map_sides(const sunder_i_planar_map *map, uint32_t h)
+{
+    return map->edge[h >> 1].sides[h & 1];
+}
 
 uint32_t sunder_i_planar_map_left_covered(const sunder_i_planar_map *map, uint32_t h)
 {

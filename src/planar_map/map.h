@@ -7,21 +7,27 @@
  * merging.c     the reverse: a segment taken out, walls taken down
  * edges.c       half-edges around a vertex; an edge split, joined, made, removed, with the trapezoids
  * insert.c      the walk of a segment through the map
- * polygon.c     convex polygons; unite.c: the step of the incremental union; overlay.c: maps
- * mark.c, clean.c, faces.c, locate.c, check.c
+ * polygon.c     a convex polygon, as two chains of segments
+ * overlay.c     a map into another; a map made anew
+ * mark.c        covered counts
+ * clean.c       what is covered goes; unite.c: the same where a polygon was added, the step of the incremental union
+ * faces.c, locate.c, check.c
  *
- * Trapezoids. A wall goes up and down from each vertex to the next edge. No two vertices are above each other in the sheared
- * order, so each trapezoid has one vertex on its left wall and one on its right wall, and at most two neighbours across each:
+ * Trapezoids. A wall goes up and down from each vertex to the next edge. No two vertices are above each other in the
+ * sheared order, so each trapezoid has one vertex on its left wall and one on its right wall, and at most two
+ * neighbours across each:
  *
- *        ____top____                lu  shares the upper part of the left wall (above `left`) and so the same top,
- *    lu |           | ru            ll  the lower part and the same bottom; one trapezoid may be both, where `left` has no
- *   left*           |                   edge to its other side. NOWHERE where that part of the wall has no length (the
- *    ll |           *right              top or bottom starts in `left`) and at infinity. t.lu = n exactly if n.ru = t, and
- *       |__bottom___| rl                t.ll = n exactly if n.rl = t.
+ *        ____top____        lu  shares the part of the left wall above `left`, and so the same top
+ *    lu |           | ru    ll  shares the part below it, and the same bottom
+ *   left*           |
+ *    ll |           *right  Where `left` has no edge to its left, lu and ll are one trapezoid. A part of a wall without
+ *       |__bottom___| rl    length (the top or bottom starts in `left`) has none: NOWHERE, as at infinity.
  *
- * Edges keep their leftmost trapezoids above (`up`) and below (`down`), which have left == end[0]; the others follow by rl,
- * and by ru. A vertex without an edge to the right keeps the one trapezoid right of its wall (`right`), and `left` likewise;
- * with such an edge these fields mean nothing. There are 1 + vertices + edges trapezoids. */
+ * t.lu = n exactly if n.ru = t, and t.ll = n exactly if n.rl = t.
+ *
+ * Edges keep their leftmost trapezoids above (`up`) and below (`down`), which have left == end[0]; the others follow by
+ * rl, and by ru. A vertex without an edge to the right keeps the one trapezoid right of its wall (`right`), and `left`
+ * likewise; with such an edge these fields mean nothing. There are 1 + vertices + edges trapezoids. */
 #ifndef SUNDER_I_MAP_H
 #define SUNDER_I_MAP_H
 
@@ -38,9 +44,9 @@ typedef struct sunder_i_site {
     double ax, ay;
 } sunder_i_site;
 
-/* A x + B y + C w, 0 on the line and positive above it (left of it as it goes to the lexicographically greater): B > 0, or
- * B = 0 and A < 0. a, b are A and B to within half an ulp each but for one common power of two, |a|, |b| <= 1; rx, ry the
- * doubles of a site on it. */
+/* A x + B y + C w, 0 on the line and positive above it (left of it as it goes to the lexicographically greater): B > 0,
+ * or B = 0 and A < 0. a, b are A and B to within half an ulp each but for one common power of two, |a|, |b| <= 1; rx,
+ * ry the doubles of a site on it. */
 typedef struct sunder_i_map_line {
     sunder_i_big abc[3];
     double a, b, rx, ry;
@@ -52,7 +58,7 @@ typedef struct sunder_i_map_vertex {
     uint32_t left, right; /* trapezoids, see above */
     uint32_t below;
     uint32_t stamp;
-    bool alive;           /* the site of a dead one may still part trapezoids in the history */
+    bool alive; /* the site of a dead one may still part trapezoids in the history */
 } sunder_i_map_vertex;
 
 typedef struct sunder_i_map_edge {
@@ -67,13 +73,13 @@ typedef struct sunder_i_trapezoid {
     uint32_t top, bottom; /* edges; NOWHERE at infinity */
     uint32_t left, right; /* vertices; NOWHERE at infinity */
     uint32_t lu, ll, ru, rl;
-    uint32_t node;        /* its leaf; NOWHERE: dead, then top is the next dead one */
+    uint32_t node; /* its leaf; NOWHERE: dead, then top is the next dead one */
     uint32_t covered;
     uint32_t stamp;
 } sunder_i_trapezoid;
 
-/* A node of the history. LEAF: a the trapezoid. ALIAS: go on at a. AT: smaller than vertex `of` (lexicographically) a, else
- * b. BY: below line `of` a, else b. */
+/* A node of the history. LEAF: a the trapezoid. ALIAS: go on at a. AT: smaller than vertex `of` (lexicographically) a,
+ * else b. BY: below line `of` a, else b. */
 enum { SUNDER_I_LEAF, SUNDER_I_ALIAS, SUNDER_I_AT, SUNDER_I_BY };
 
 typedef struct sunder_i_history_node {
@@ -90,8 +96,8 @@ struct sunder_i_planar_map {
     sunder_i_lattice *lattice;
     sunder_i_arena arena, scratch; /* numbers that stay, and intermediates */
     uint64_t random;
-    bool failed;                   /* memory is out; see sunder_i_map_broken() */
-    bool marked;                   /* covered counts are right */
+    bool failed; /* memory is out; see sunder_i_map_broken() */
+    bool marked; /* covered counts are right */
     uint32_t stamp;
 
     sunder_i_map_vertex *vertex;
@@ -173,7 +179,8 @@ uint32_t sunder_i_history_leaf(sunder_i_planar_map *map, uint32_t trapezoid);
 void sunder_i_history_at(sunder_i_planar_map *map, uint32_t node, uint32_t vertex, uint32_t smaller, uint32_t greater);
 void sunder_i_history_by(sunder_i_planar_map *map, uint32_t node, uint32_t line, uint32_t below, uint32_t above);
 void sunder_i_history_alias(sunder_i_planar_map *map, uint32_t node, uint32_t to);
-/* Turns `node` into a balanced tree over the trapezoids t[0 .. n - 1], which stand from left to right. Needs n nodes of room. */
+/* Turns `node` into a balanced tree over the trapezoids t[0 .. n - 1], which stand from left to right. Needs n nodes of
+ * room. */
 void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_t *t, size_t n);
 /* The trapezoid that contains a point; for a point on a wall or an edge the one right of and above it: so a vertex at
  * the point is its `left`, and an edge through it its `bottom`. */
@@ -187,8 +194,8 @@ typedef enum sunder_i_wall { SUNDER_I_WALL_INSIDE, SUNDER_I_WALL_ON_BOTTOM, SUND
 void sunder_i_trapezoid_install(sunder_i_planar_map *map, uint32_t t);
 /* Puts up the wall of vertex v in t, which keeps its left part; returns the right part. Room: 1 trapezoid, 2 nodes. */
 uint32_t sunder_i_trapezoid_split(sunder_i_planar_map *map, uint32_t t, uint32_t v, sunder_i_wall wall);
-/* Draws edge e (its end, line and sides are set) through the trapezoids of map->crossed, from the one right of end[0] to
- * the one left of end[1]. Room: 1 trapezoid, crossed.n + 1 nodes. */
+/* Draws edge e (its end, line and sides are set) through the trapezoids of map->crossed, from the one right of end[0]
+ * to the one left of end[1]. Room: 1 trapezoid, crossed.n + 1 nodes. */
 void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e);
 
 /* ---- merging.c ---- */
@@ -200,16 +207,16 @@ void sunder_i_trapezoid_join(sunder_i_planar_map *map, uint32_t t, uint32_t r);
 
 /* ---- edges.c ---- */
 
-/* The first trapezoid right of v for a segment on that line to the right. *lower is the half-edge right below it there, or
- * NOWHERE; *same the one on the line itself: then there is no such trapezoid. */
+/* The first trapezoid right of v for a segment on that line to the right. *lower is the half-edge right below it there,
+ * or NOWHERE; *same the one on the line itself: then there is no such trapezoid. */
 uint32_t sunder_i_edge_wedge(sunder_i_planar_map *map, uint32_t v, uint32_t line, uint32_t *lower, uint32_t *same);
 /* A vertex inside trapezoid t. */
 uint32_t sunder_i_edge_isolated(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site);
 /* A vertex on edge e, which keeps its smaller part. hint: a trapezoid along e with the site at its top or bottom. */
 uint32_t sunder_i_edge_split(sunder_i_planar_map *map, uint32_t e, const sunder_i_site *site, uint32_t hint);
 /* The edge from v to w through map->crossed; lower as from sunder_i_edge_wedge(). */
-uint32_t sunder_i_edge_make(sunder_i_planar_map *map, uint32_t v, uint32_t w, uint32_t lower, uint32_t line, uint32_t up,
-                            uint32_t down);
+uint32_t sunder_i_edge_make(sunder_i_planar_map *map, uint32_t v, uint32_t w, uint32_t lower, uint32_t line,
+                            uint32_t up, uint32_t down);
 bool sunder_i_edge_remove(sunder_i_planar_map *map, uint32_t e);
 void sunder_i_edge_drop_vertex(sunder_i_planar_map *map, uint32_t v); /* isolated */
 void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* mergeable */
@@ -218,11 +225,20 @@ void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* mergeab
 
 /* The vertex at a site (numbers in map->arena), made where there is none. NOWHERE if memory is out. */
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site);
-/* Walks from vertex v to a site to the right of it (whose numbers are in map->arena), along the line through both, and draws the edges; returns the vertex
- * there. up, down: regions that end here from above and from below. record: edges go to map->ring, as the half-edges with
- * the region on their left. */
-uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line, uint32_t up,
-                           uint32_t down, bool record);
+/* Walks from vertex v to a site to the right of it (whose numbers are in map->arena), along the line through both, and
+ * draws the edges; returns the vertex there. up, down: regions that end here from above and from below. record: edges
+ * go to map->ring, as the half-edges with the region on their left. */
+uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_site *target, uint32_t line,
+                           uint32_t up, uint32_t down, bool record);
+
+/* ---- clean.c ---- */
+
+/* Counts of an edge and of a vertex that stay, for the union as one region. */
+void sunder_i_map_settle_edge(sunder_i_planar_map *map, uint32_t e);
+void sunder_i_map_settle_vertex(sunder_i_planar_map *map, uint32_t v);
+/* Removes the edges of edges_inside and then the vertices of vertices_inside, all covered; all faces around count 1
+ * already. */
+bool sunder_i_map_remove_covered(sunder_i_planar_map *map);
 
 /* ---- polygon.c, mark.c ---- */
 

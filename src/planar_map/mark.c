@@ -1,6 +1,6 @@
-/* Marking: how many regions contain each trapezoid, from the unbounded ones inwards. Across a wall the count is the same; across
- * an edge it differs by the regions that end there. An edge is crossed at its smaller end only: the trapezoids along one
- * side of it are neighbours across walls. */
+/* Marking: how many regions contain each trapezoid, from the unbounded ones inwards. Across a wall the count is the
+ * same; across an edge it differs by the regions that end there. An edge is crossed at its smaller end only: the
+ * trapezoids along one side of it are neighbours across walls. */
 #include "planar_map/map.h"
 
 size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t stop, uint32_t to[6], int64_t step[6])

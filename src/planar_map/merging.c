@@ -1,8 +1,8 @@
 /* The vertical decomposition under removal: the reverse of trapezoids.c.
  *
- * Where an edge goes, the walls that ended on it run on to the next edge: so the rows of trapezoids above it and below it become one
- * row, with a wall at each vertex that either had one. Where an isolated vertex goes, or one in the middle of an
- * edge, its walls go. */
+ * Where an edge goes, the walls that ended on it run on to the next edge: so the rows of trapezoids above it and below
+ * it become one row, with a wall at each vertex that either had one. Where an isolated vertex goes, or one in the
+ * middle of an edge, its walls go. */
 #include "planar_map/map.h"
 
 /* Collects the rows above and below edge e, from left to right. */
@@ -25,9 +25,15 @@ static bool collect_rows(sunder_i_planar_map *map, uint32_t e)
 static uint32_t begin(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t left, uint32_t covered)
 {
     const uint32_t m = sunder_i_map_new_trapezoid(map);
-    map->trapezoid[m] = (sunder_i_trapezoid){.top = map->trapezoid[u].top, .bottom = map->trapezoid[d].bottom,
-                                             .left = left, .right = NOWHERE, .lu = NOWHERE, .ll = NOWHERE,
-                                             .ru = NOWHERE, .rl = NOWHERE, .covered = covered,
+    map->trapezoid[m] = (sunder_i_trapezoid){.top = map->trapezoid[u].top,
+                                             .bottom = map->trapezoid[d].bottom,
+                                             .left = left,
+                                             .right = NOWHERE,
+                                             .lu = NOWHERE,
+                                             .ll = NOWHERE,
+                                             .ru = NOWHERE,
+                                             .rl = NOWHERE,
+                                             .covered = covered,
                                              .stamp = map->trapezoid[u].stamp};
     sunder_i_history_leaf(map, m);
     map->made.item[map->made.n++] = m; /* collect_rows() made the list long enough */
@@ -102,8 +108,8 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     while (i + 1 < un || j + 1 < dn) {
         const uint32_t p = z[u[i]].right, q = z[d[j]].right;
         /* The last of a row ends in the edge's end, which is beyond all other walls. */
-        const bool upper = j + 1 == dn ||
-                           (i + 1 < un && sunder_i_site_cmp(map, &map->vertex[p].site, &map->vertex[q].site) < 0);
+        const bool upper =
+            j + 1 == dn || (i + 1 < un && sunder_i_site_cmp(map, &map->vertex[p].site, &map->vertex[q].site) < 0);
         z[m].right = upper ? p : q;
         const uint32_t next = begin(map, upper ? u[i + 1] : u[i], upper ? d[j] : d[j + 1], z[m].right, covered);
         if (upper) {

@@ -4,12 +4,13 @@
  * crossing x, y of degree 3 over w of degree 2.
  *     side of a corner 2, of a crossing 4; order of corners 1, of two crossings 5; turn of two lines 2.
  * A corner that is a sum with Steiner points has x, y of degree d + 1 over w of degree d (d = 2 for one Steiner point,
- * 4 for two); its line, given a lattice direction, has A, B of degree d + 1 and C of degree d + 2 before the common divisor
- * is taken out, and the degrees grow accordingly: crossings of two such lines have x, y of degree 2 d + 3 over w of degree
- * 2 d + 2, ordered in degree 4 d + 5. Nothing is ever constructed from a crossing, so no number grows beyond that.
+ * 4 for two); its line, given a lattice direction, has A, B of degree d + 1 and C of degree d + 2 before the common
+ * divisor is taken out, and the degrees grow accordingly: crossings of two such lines have x, y of degree 2 d + 3 over
+ * w of degree 2 d + 2, ordered in degree 4 d + 5. Nothing is ever constructed from a crossing, so no number grows
+ * beyond that.
  *
- * The exact answer is always the sign of a sum of up to three products; up to 16 limbs each (1024 bits) it is
- * worked out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
+ * The exact answer is always the sign of a sum of up to three products; up to 16 limbs each (1024 bits) it is worked
+ * out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
 #include "planar_map/map.h"
 
 #include <math.h>
@@ -72,15 +73,14 @@ static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunde
     }
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
     sunder_i_big t = sunder_i_big_mul(&map->scratch, a[0], b[0]);
-    for (int i = 1; i < n; i++)
-        t = sunder_i_big_add(&map->scratch, t, sunder_i_big_mul(&map->scratch, a[i], b[i]));
+    for (int i = 1; i < n; i++) t = sunder_i_big_add(&map->scratch, t, sunder_i_big_mul(&map->scratch, a[i], b[i]));
     const int sign = sunder_i_big_sign(t);
     sunder_i_arena_release(&map->scratch, mark);
     return sign;
 }
 
-static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i_big pn, sunder_i_big pw, sunder_i_big qn,
-                          sunder_i_big qw)
+static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i_big pn, sunder_i_big pw,
+                          sunder_i_big qn, sunder_i_big qw)
 {
     if (p != q) return p < q ? -1 : 1;
     map->lattice->operations.exact_fallbacks++;
@@ -100,15 +100,15 @@ int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, co
 /* The filter. With u = 2^-53: the site's doubles and the reference's are off by at most u times their magnitude; the
  * differences dx, dy round once, a and b are off by u, products and the sum round once more. So the error is at most
  *     (|a dx| + |b dy|) 4 u (1 + u)^3  +  u (|a| (|px| + |rx|) + |b| (|py| + |ry|)) (1 + u)^3
- * and twice that is asked for. Subnormal coordinates (of a wide lattice) and subnormal a, b add no more than 2^-1074 times
- * the other factor, below 2^502: 2^-500 covers them, and costs a lattice of integers nothing. */
+ * and twice that is asked for. Subnormal coordinates (of a wide lattice) and subnormal a, b add no more than 2^-1074
+ * times the other factor, below 2^502: 2^-500 covers them, and costs a lattice of integers nothing. */
 int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p)
 {
     map->lattice->operations.orientation_tests++;
     const double s = line->a * (p->ax - line->rx), t = line->b * (p->ay - line->ry), det = s + t;
-    const double bound = 0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-500 +
-                         0x1p-52 * (fabs(line->a) * (fabs(p->ax) + fabs(line->rx)) +
-                                    fabs(line->b) * (fabs(p->ay) + fabs(line->ry)));
+    const double bound =
+        0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-500 +
+        0x1p-52 * (fabs(line->a) * (fabs(p->ax) + fabs(line->rx)) + fabs(line->b) * (fabs(p->ay) + fabs(line->ry)));
     if (det > bound) return 1;
     if (det < -bound) return -1;
     map->lattice->operations.exact_fallbacks++;
@@ -148,8 +148,8 @@ sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at, 
 }
 
 /* a b - c d, the result alone left in the arena. */
-static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big c,
-                          sunder_i_big d)
+static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b,
+                          sunder_i_big c, sunder_i_big d)
 {
     sunder_i_arena *s = &map->scratch;
     const sunder_i_mark mark = sunder_i_arena_mark(s);

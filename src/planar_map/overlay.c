@@ -1,8 +1,8 @@
 /* All of one map into another, in random order.
  *
- * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the other
- * map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior, so
- * walks add nothing to it but what the overlaid edges say. */
+ * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the
+ * other map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior,
+ * so walks add nothing to it but what the overlaid edges say. */
 #include "planar_map/map.h"
 
 /* splitmix64 [Steele, Lea, Flood 2014]. */
@@ -49,7 +49,8 @@ static bool add_edge(sunder_i_planar_map *map, const sunder_i_planar_map *of, na
     const uint32_t v = vertex_here(map, of, n, edge->end[0]), line = n->line[edge->line];
     if (v == NOWHERE || line == NOWHERE) return false;
     const uint32_t known = n->vertex[edge->end[1]];
-    const sunder_i_site target = known != NOWHERE ? map->vertex[known].site : copied_site(map, &of->vertex[edge->end[1]].site);
+    const sunder_i_site target =
+        known != NOWHERE ? map->vertex[known].site : copied_site(map, &of->vertex[edge->end[1]].site);
     if (sunder_i_map_broken(map)) return false;
     const uint32_t w = sunder_i_map_walk(map, v, &target, line, edge->sides[0], edge->sides[1], false);
     n->vertex[edge->end[1]] = w;
@@ -95,13 +96,14 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
     return sunder_i_map_status(map, err);
 }
 
-/* What is alive of a map goes into a new one, which takes its place; of the old one only vertices, lines and edges with their
- * ends, lines and counts need to be in order. */
+/* What is alive of a map goes into a new one, which takes its place; of the old one only vertices, lines and edges with
+ * their ends, lines and counts need to be in order. */
 bool sunder_i_map_renew(sunder_i_planar_map *map)
 {
     sunder_i_planar_map *fresh;
     if (sunder_i_planar_map_new(map->lattice, draw(&map->random), &fresh, NULL) != SUNDER_OK) return false;
-    if (sunder_i_planar_map_overlay(fresh, map, NULL) != SUNDER_OK || sunder_i_planar_map_mark(fresh, NULL) != SUNDER_OK) {
+    if (sunder_i_planar_map_overlay(fresh, map, NULL) != SUNDER_OK ||
+        sunder_i_planar_map_mark(fresh, NULL) != SUNDER_OK) {
         sunder_i_planar_map_free(fresh);
         return false;
     }
@@ -112,8 +114,9 @@ bool sunder_i_map_renew(sunder_i_planar_map *map)
     return true;
 }
 
-/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places the long way
- * round. The factor keeps the cost of starting afresh below that of the insertions that made it necessary. */
+/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places
+ * the long way round. The factor keeps the cost of starting afresh below that of the insertions that made it
+ * necessary. */
 bool sunder_i_map_compact(sunder_i_planar_map *map)
 {
     const size_t live = map->trapezoids - map->dead_trapezoids;

@@ -5,28 +5,29 @@
  * insertion and under removal together with its history, so that a place is found in expected logarithmic time where
  * the order of insertion is random [Mul90, Sei91]. README.md tells the idea, the invariants and the degenerate cases.
  *
- * Points are homogeneous: (x / w, y / w), w > 0, in units of the lattice. All order is lexicographic (x, then y), which is
- * the order by x after a shear by an infinitesimal: so a vertical edge goes from its lower end to its upper one, and its
- * left side is "above" it. An edge e has two half-edges: 2 e from the smaller end to the greater, 2 e + 1 back. "Left" is
- * left of the half-edge, so the side above e is the left of 2 e, and the side below it the left of 2 e + 1.
+ * Points are homogeneous: (x / w, y / w), w > 0, in units of the lattice. All order is lexicographic (x, then y), which
+ * is the order by x after a shear by an infinitesimal: so a vertical edge goes from its lower end to its upper one, and
+ * its left side is "above" it. An edge e has two half-edges: 2 e from the smaller end to the greater, 2 e + 1 back.
+ * "Left" is left of the half-edge, so the side above e is the left of 2 e, and the side below it the left of 2 e + 1.
  *
  * Counting. Every region that goes into the map is open, and is said by its sides: a half-edge carries the number of
  * regions that have it on their boundary and lie on its left (`sides`). From these
- *     covered(face)    how many regions contain it: differs across an edge by sides(h) - sides(twin(h)), 0 outermost;
- *     covered(edge)    how many contain its relative interior: covered(face left of h) - sides(h), for both h alike;
- *     covered(vertex)  how many contain the vertex: those that contain what is right below it, less those of them that
- *                      have the vertex on their boundary. The counts on the half-edges around the vertex do not tell that
- *                      number (four squares around a vertex look like four half-planes), so it is kept (`below`).
+ *   - covered(face), how many regions contain it: it differs across an edge by sides(h) - sides(twin(h)), 0 outermost;
+ *   - covered(edge), how many contain its relative interior: covered(face left of h) - sides(h), for both h alike;
+ *   - covered(vertex), how many contain the vertex: those that contain what is right below it, less those of them that
+ *     have it on their boundary. The counts on the half-edges around the vertex do not tell that number (four squares
+ *     around a vertex look like four half-planes), so it is kept (`below`).
+ *
  * An edge or a vertex with covered = 0 between faces with covered > 0 is a degenerate hole.
  *
  * The covered counts are right after mark(), clean() and unite_polygon(); insert_*() and overlay() leave them stale.
  *
- * Ids are dense enough to index arrays with: vertices below vertex_end(), edges below edge_end(), faces below face_end(). Those
- * of removed vertices and edges are dead (alive says so) and may come back. Functions that change the map may change any id,
- * unless it says otherwise below.
+ * Ids are dense enough to index arrays with: vertices below vertex_end(), edges below edge_end(), faces below
+ * face_end(). Those of removed vertices and edges are dead (alive says so) and may come back. Functions that change the
+ * map may change any id, unless it says otherwise below.
  *
- * A function that fails (SUNDER_ENOMEM is all that can happen) leaves a map that can only be freed.
- * A map is not shared between threads; operations are counted on its lattice. Nothing here recurses. */
+ * A function that fails (SUNDER_ENOMEM is all that can happen) leaves a map that can only be freed. A map is not shared
+ * between threads; operations are counted on its lattice. Nothing here recurses. */
 #ifndef SUNDER_I_PLANAR_MAP_H
 #define SUNDER_I_PLANAR_MAP_H
 
@@ -64,12 +65,13 @@ sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const
 sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, const sunder_i_xyw a, const sunder_i_xyw b,
                                                  uint32_t left, uint32_t right, uint32_t *first, uint32_t *last,
                                                  sunder_error *err);
-/* Adds a point as a vertex (isolated, or splitting the edge that it lies on), with so many more regions below it that have it on
- * their boundary. */
+/* Adds a point as a vertex (isolated, or splitting the edge that it lies on), with so many more regions below it that
+ * have it on their boundary. */
 sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, const sunder_i_xyw at, uint32_t below,
                                                uint32_t *vertex, sunder_error *err);
 
-/* Adds all edges and isolated vertices of `other`, with their counts, in random order. Both maps stand on one lattice. */
+/* Adds all edges and isolated vertices of `other`, with their counts, in random order. Both maps stand on one
+ * lattice. */
 sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder_i_planar_map *other,
                                           sunder_error *err);
 
@@ -78,8 +80,8 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
 /* Computes covered for all of the map, by one traversal from the outermost face. Linear. */
 sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *err);
 
-/* Makes the map that of the union of all its regions, degenerate holes kept. mark() must have been called since the last
- * insertion (unite_polygon() needs no such call).
+/* Makes the map that of the union of all its regions, degenerate holes kept. mark() must have been called since the
+ * last insertion (unite_polygon() needs no such call).
  *  - Every edge and vertex with covered >= 1 is removed; so all that remain have covered = 0.
  *  - Vertices that have become needless are merged: two edges on one line with equal counts on each side.
  *  - The union counts as one region from then on: covered of faces is 0 or 1, sides and below likewise. */
@@ -94,8 +96,9 @@ sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const 
 
 /* ---- Removal by hand ---- */
 
-/* Removes an edge, given by one of its half-edges; its ends stay, isolated perhaps. Faces on both sides become one, whose
- * covered is the edge's (the least of the three). Ids of other vertices and edges stay. */
+/* Removes an edge, given by one of its half-edges; its ends stay, isolated perhaps. Ids of other vertices and edges
+ * stay. Covered counts are stale afterwards, and mark() makes sense only if the edge's two half-edges had equal counts.
+ */
 sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t h, sunder_error *err);
 /* Removes an isolated vertex. */
 sunder_status sunder_i_planar_map_remove_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err);
@@ -133,7 +136,8 @@ uint32_t sunder_i_planar_map_sides(const sunder_i_planar_map *map, uint32_t h);
 uint32_t sunder_i_planar_map_edge_covered(const sunder_i_planar_map *map, uint32_t e);
 /* covered of the face left of h; does not need faces(). */
 uint32_t sunder_i_planar_map_left_covered(const sunder_i_planar_map *map, uint32_t h);
-/* The supporting line of h: xyw[0] x + xyw[1] y + xyw[2] = 0 on it, > 0 left of it. Only a positive multiple is fixed. */
+/* The supporting line of h: xyw[0] x + xyw[1] y + xyw[2] = 0 on it, > 0 left of it. Only a positive multiple is
+ * fixed. */
 void sunder_i_planar_map_line(const sunder_i_planar_map *map, uint32_t h, sunder_i_big line[3]);
 
 /* ---- Looking: faces ---- */
@@ -160,7 +164,8 @@ typedef enum sunder_i_map_place { SUNDER_I_IN_FACE, SUNDER_I_ON_EDGE, SUNDER_I_A
 typedef struct sunder_i_location {
     sunder_i_map_place place;
     uint32_t id;      /* of the vertex or edge; NOWHERE in a face */
-    uint32_t below;   /* a half-edge with the point on its left, right below it (the edge itself if on one); NOWHERE at the bottom */
+    uint32_t below;   /* a half-edge right below the point, with it on the left (of a point on an edge that edge); or
+                         NOWHERE */
     uint32_t covered; /* of the place: face, edge or vertex */
     uint32_t face;    /* of a point in a face, if faces() is in force; else NOWHERE */
 } sunder_i_location;
@@ -178,8 +183,8 @@ typedef struct sunder_i_map_size {
 
 void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size *out);
 
-/* Proves, exactly and in about n log n, every invariant of half-edges, counts, geometry, trapezoids and history (README.md lists
- * them). NULL if all hold, else a sentence on the first that does not. */
+/* Proves, exactly and in about n log n, every invariant of half-edges, counts, geometry, trapezoids and history
+ * (README.md lists them). NULL if all hold, else a sentence on the first that does not. */
 const char *sunder_i_planar_map_check(sunder_i_planar_map *map);
 
 #endif

@@ -1,6 +1,6 @@
-/* A convex polygon as two chains from its smallest corner to its greatest: the lower one counter-clockwise, the upper one
- * clockwise. The polygon is above the edges of the lower chain and below those of the upper one, and right below the vertices
- * that lie inside the upper chain and no others of its boundary. */
+/* A convex polygon as two chains from its smallest corner to its greatest: the lower one counter-clockwise, the upper
+ * one clockwise. The polygon is above the edges of the lower chain and below those of the upper one, and right below
+ * the vertices that lie inside the upper chain and no others of its boundary. */
 #include "planar_map/map.h"
 
 typedef struct chain {

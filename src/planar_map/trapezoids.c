@@ -40,8 +40,9 @@ uint32_t sunder_i_trapezoid_split(sunder_i_planar_map *map, uint32_t t, uint32_t
     return r;
 }
 
-/* The part of a wall that an edge leaves as it was, on the side of its vertex: `before` and `after` of old stand on its two
- * sides, and `a`, `b` take their places. Across it lie other trapezoids (edges end in the vertex), or each other. */
+/* The part of a wall that an edge leaves as it was, on the side of its vertex: `before` and `after` of old stand on its
+ * two sides, and `a`, `b` take their places. Across it lie other trapezoids (edges end in the vertex), or each
+ * other. */
 static void pass_upper(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
                        const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b)
 {
@@ -72,11 +73,12 @@ static void pass_lower(sunder_i_planar_map *map, const sunder_i_trapezoid *befor
     if (old_after->ll != NOWHERE) z[old_after->ll].rl = b;
 }
 
-/* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no longer
- * reaches below: the lower part runs on into the next trapezoid, and the upper part ends; and the other way round. So
- * each crossed trapezoid but the first begins exactly one new part, at the same vertex and along the same other edge, and
- * takes its id: so edges and vertices that knew it as theirs still do. The first begins two, and the upper one takes its id.
- * Invariant: u and d are the parts above and below that are open at the trapezoid looked at; `old` is what it was. */
+/* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no
+ * longer reaches below: the lower part runs on into the next trapezoid, and the upper part ends; and the other way
+ * round. So each crossed trapezoid but the first begins exactly one new part, at the same vertex and along the same
+ * other edge, and takes its id: so edges and vertices that knew it as theirs still do. The first begins two, and the
+ * upper one takes its id. Invariant: u and d are the parts above and below that are open at the trapezoid looked at;
+ * `old` is what it was. */
 void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
 {
     sunder_i_trapezoid *z = map->trapezoid;
@@ -101,12 +103,17 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
         if (i + 1 == n) break;
         const uint32_t p = old.right, next = t[i + 1];
         const sunder_i_trapezoid after = z[next];
-        /* The row goes on through the part of the wall below its vertex p, or above it; where p has no edge to the right both
-         * parts lead to the same trapezoid, and the side of p tells. */
-        const bool p_above = old.rl == next && (old.ru != next || sunder_i_site_side(map, &map->line[line],
-                                                                                     &map->vertex[p].site) > 0);
-        z[next] = (sunder_i_trapezoid){.left = p, .covered = after.covered, .stamp = after.stamp,
-                                       .lu = NOWHERE, .ll = NOWHERE, .ru = NOWHERE, .rl = NOWHERE};
+        /* The row goes on through the part of the wall below its vertex p, or above it; where p has no edge to the
+         * right both parts lead to the same trapezoid, and the side of p tells. */
+        const bool p_above =
+            old.rl == next && (old.ru != next || sunder_i_site_side(map, &map->line[line], &map->vertex[p].site) > 0);
+        z[next] = (sunder_i_trapezoid){.left = p,
+                                       .covered = after.covered,
+                                       .stamp = after.stamp,
+                                       .lu = NOWHERE,
+                                       .ll = NOWHERE,
+                                       .ru = NOWHERE,
+                                       .rl = NOWHERE};
         if (p_above) {
             z[next].top = after.top;
             z[next].bottom = e;

@@ -1,5 +1,5 @@
-/* planar_map/: random convex polygons on small grids, where coincidences are the rule, inserted, united, overlaid and removed;
- * the checker after every step, and counts and places against the polygons themselves in GMP's rationals. */
+/* planar_map/: random convex polygons on small grids, where coincidences are the rule, inserted, united, overlaid and
+ * removed; the checker after every step, and counts and places against the polygons themselves in GMP's rationals. */
 #include "gmp_numbers.h"
 #include "planar_map/planar_map.h"
 #include "random.h"
@@ -50,7 +50,8 @@ static bool random_polygon(rng *g, polygon *p, bool loose)
     const int style = (int)rng_int(g, 0, 3), wide = style == 3 ? 1000 : (int)rng_int(g, 2, 8);
     p->w = rng_once_in(g, 3) ? rng_int(g, 2, 5) : 1;
     if (style == 0) { /* a rectangle */
-        const long x = rng_int(g, 0, wide - 1), y = rng_int(g, 0, wide - 1), a = rng_int(g, 1, wide), b = rng_int(g, 1, wide);
+        const long x = rng_int(g, 0, wide - 1), y = rng_int(g, 0, wide - 1), a = rng_int(g, 1, wide),
+                   b = rng_int(g, 1, wide);
         *p = (polygon){4, {x, x + a, x + a, x}, {y, y, y + b, y + b}, p->w};
         return true;
     }
@@ -67,7 +68,8 @@ static bool random_polygon(rng *g, polygon *p, bool loose)
             while (m >= start + 2) {
                 const long turn = cross(hull[m - 1][0] - hull[m - 2][0], hull[m - 1][1] - hull[m - 2][1],
                                         xy[i][0] - hull[m - 1][0], xy[i][1] - hull[m - 1][1]);
-                if (turn > 0 || (turn == 0 && loose && (xy[i][0] != hull[m - 1][0] || xy[i][1] != hull[m - 1][1]))) break;
+                if (turn > 0 || (turn == 0 && loose && (xy[i][0] != hull[m - 1][0] || xy[i][1] != hull[m - 1][1])))
+                    break;
                 m--;
             }
             hull[m][0] = xy[i][0];
@@ -163,8 +165,8 @@ static void add_point(world *w, mpq_srcptr x, mpq_srcptr y)
     mpq_set(w->at[w->points++].y, y);
 }
 
-/* Crossings of the lines of all sides (among them every vertex of the arrangement), in random order and not more than fit, points
- * halfway between them, and points of a grid. */
+/* Crossings of the lines of all sides (among them every vertex of the arrangement), in random order and not more than
+ * fit, points halfway between them, and points of a grid. */
 static void choose_points(world *w)
 {
     mpq_t x, y;

@@ -1,5 +1,5 @@
-/* planar_map/: the degenerate positions one by one, on maps small enough to say what they must be; every way to look at them;
- * numbers of every size; and every allocation failing once. */
+/* planar_map/: the degenerate positions one by one, on maps small enough to say what they must be; every way to look at
+ * them; numbers of every size; and every allocation failing once. */
 #include "failing.h"
 #include "planar_map/planar_map.h"
 #include "random.h"
@@ -68,8 +68,8 @@ static void polygon(bed *b, size_t n, const long (*xy)[2], bool unite)
 {
     sunder_i_xyw corner[8];
     for (size_t i = 0; i < n; i++) set(b, corner[i], xy[i][0], xy[i][1], 1);
-    assert_int_equal((unite ? sunder_i_planar_map_unite_polygon : sunder_i_planar_map_insert_polygon)(
-                         b->map, (const sunder_i_xyw *)corner, NULL, n, NULL),
+    assert_int_equal((unite ? sunder_i_planar_map_unite_polygon
+                            : sunder_i_planar_map_insert_polygon)(b->map, (const sunder_i_xyw *)corner, NULL, n, NULL),
                      SUNDER_OK);
     check(b);
 }
@@ -172,8 +172,8 @@ static void test_star(void **state)
     close_bed(&b);
 }
 
-/* Four squares around a vertex and four half-planes (so large that they are) look alike on their sides: the vertex that the squares leave
- * uncovered has one region all around it, the other two. */
+/* Four squares around a vertex and four half-planes (so large that they are) look alike on their sides: the vertex that
+ * the squares leave uncovered has one region all around it, the other two. */
 static void test_wrapped_vertex(void **state)
 {
     (void)state;
@@ -202,19 +202,20 @@ static void build_holes(bed *b, bool unite)
     box(b, 0, 0, 10, 4, unite);
     box(b, 0, 6, 10, 4, unite);
     box(b, 0, 0, 4, 10, unite);
-    box(b, 6, 0, 4, 10, unite);   /* a hole (4, 4) - (6, 6) in a square */
+    box(b, 6, 0, 4, 10, unite); /* a hole (4, 4) - (6, 6) in a square */
     box(b, 4, 0, 1, 5, unite);
-    box(b, 5, 0, 1, 5, unite);    /* its lower half filled, all but the segment between the two */
+    box(b, 5, 0, 1, 5, unite); /* its lower half filled, all but the segment between the two */
     box(b, 20, 0, 4, 4, unite);
     box(b, 24, 4, 4, 4, unite);
     box(b, 20, 4, 4, 4, unite);
-    box(b, 24, 0, 4, 4, unite);   /* four squares: a cross of segments */
-    box(b, 20, 3, 8, 2, unite);   /* which loses its middle and its arms to the sides */
+    box(b, 24, 0, 4, 4, unite); /* four squares: a cross of segments */
+    box(b, 20, 3, 8, 2, unite); /* which loses its middle and its arms to the sides */
 }
 
 static void expect_holes(bed *b)
 {
-    /* outer square 4, hole 4 + antenna from (5, 4) to (5, 5) through the hole's bottom; second: outer 4, two segments that hang off it. */
+    /* outer square 4, hole 4 + antenna from (5, 4) to (5, 5) through the hole's bottom; second: outer 4, two segments
+     * that hang off it. */
     assert_int_equal(sunder_i_planar_map_faces(b->map, NULL), SUNDER_OK);
     assert_int_equal(locate(b, 5, 6, 1).place, SUNDER_I_ON_EDGE);
     assert_int_equal(locate(b, 11, 11, 2).covered, 0); /* in the hole */
@@ -265,8 +266,10 @@ static void test_degenerate_point(void **state)
     polygon(&b, 3, left, true);
     expect_size(&b, 5, 8, 5); /* the diagonals are uncovered */
     box(&b, -4, 1, 8, 3, true);
-    const long ring[4][4][2] = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{0, 0}, {0, 4}, {-4, 4}, {-4, 0}},
-                                {{0, 0}, {-4, 0}, {-4, -4}, {0, -4}}, {{0, 0}, {0, -4}, {4, -4}, {4, 0}}};
+    const long ring[4][4][2] = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}},
+                                {{0, 0}, {0, 4}, {-4, 4}, {-4, 0}},
+                                {{0, 0}, {-4, 0}, {-4, -4}, {0, -4}},
+                                {{0, 0}, {0, -4}, {4, -4}, {4, 0}}};
     for (int i = 0; i < 4; i++) polygon(&b, 4, ring[i], true);
     expect_size(&b, 5, 4, 2); /* the outline, and the centre alone */
     const sunder_i_location l = locate(&b, 0, 0, 1);
@@ -280,6 +283,36 @@ static void test_degenerate_point(void **state)
     assert_int_equal(sunder_i_planar_map_face_covered(b.map, f), 1);
     box(&b, -1, -1, 2, 2, true);
     expect_size(&b, 4, 4, 2);
+    close_bed(&b);
+}
+
+/* Small polygons come and a large one buries them, until the history is worth a hundred maps: it must not stay. */
+static void test_history_starts_afresh(void **state)
+{
+    (void)state;
+    bed b;
+    open_bed(&b, 1e6, false);
+    rng g = rng_start(test_seed(), 3);
+    size_t most = 0;
+    bool shrank = false;
+    for (int i = 0; i < 60; i++) {
+        box(&b, 0, 1000 * i, 1000, 900, true);
+        for (int k = 0; k < 30; k++) {
+            const long x = rng_int(&g, 0, 900), y = rng_int(&g, 0, 800);
+            const long xy[3][2] = {{x, 1000 * i + y}, {x + 90, 1000 * i + y + 10}, {x + 20, 1000 * i + y + 90}};
+            polygon(&b, 3, xy, true);
+        }
+        for (int k = 0; k < 10; k++) box(&b, rng_int(&g, 0, 900), 1000 * i + rng_int(&g, 0, 900), 200, 300, true);
+        box(&b, -500, -5, 5000, 1000 * i + 1300, true);
+        sunder_i_map_size size;
+        sunder_i_planar_map_size(b.map, &size);
+        assert_int_equal(size.edges, 4);
+        shrank = shrank || size.history < most;
+        most = size.history > most ? size.history : most;
+    }
+    assert_true(shrank);
+    assert_true(most < 70000);
+    assert_int_equal(locate(&b, 0, 0, 1).covered, 1);
     close_bed(&b);
 }
 
@@ -328,7 +361,8 @@ static void test_faces(void **state)
 
 /* ---- Numbers ---- */
 
-/* Corners over denominators of sixty bits, on coordinates of sixty bits: nothing that a double, or three, could tell apart. */
+/* Corners over denominators of sixty bits, on coordinates of sixty bits: nothing that a double, or three, could tell
+ * apart. */
 static void test_large_numbers(void **state)
 {
     (void)state;
@@ -342,7 +376,8 @@ static void test_large_numbers(void **state)
             set(&b, corner[0], x * 5 + big, y * 5 - big, big - i % 5);
             set(&b, corner[1], x * 5 + 7 + big, y * 5 - big, big - i % 5);
             set(&b, corner[2], x * 5 + 3 + big, y * 5 + 4 - big, big - i % 5);
-            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)corner, NULL, 3, NULL), SUNDER_OK);
+            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)corner, NULL, 3, NULL),
+                             SUNDER_OK);
             check(&b);
         }
         mark(&b);
@@ -381,8 +416,9 @@ static void test_wide_lattice(void **state)
             for (int k = 0; k < 4; k++)
                 along[k] = (sunder_i_point){sunder_i_lattice_sub(&b.lattice, n[(k + 1) % 4][0], n[k][0]),
                                             sunder_i_lattice_sub(&b.lattice, n[(k + 1) % 4][1], n[k][1])};
-            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)at, i & 1 ? along : NULL, 4, NULL),
-                             SUNDER_OK);
+            assert_int_equal(
+                sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)at, i & 1 ? along : NULL, 4, NULL),
+                SUNDER_OK);
             check(&b);
         }
     mark(&b);
@@ -413,7 +449,8 @@ static bool whole_run(void *context)
     sunder_i_xyw p;
     if (ok) set(&b, p, 1, 1, 1);
     sunder_i_location l;
-    ok = ok && sunder_i_planar_map_mark(b.map, NULL) == SUNDER_OK && sunder_i_planar_map_clean(b.map, NULL) == SUNDER_OK &&
+    ok = ok && sunder_i_planar_map_mark(b.map, NULL) == SUNDER_OK &&
+         sunder_i_planar_map_clean(b.map, NULL) == SUNDER_OK &&
          sunder_i_planar_map_overlay(b.map, other, NULL) == SUNDER_OK &&
          sunder_i_planar_map_mark(b.map, NULL) == SUNDER_OK && sunder_i_planar_map_faces(b.map, NULL) == SUNDER_OK &&
          !b.arena.failed && sunder_i_planar_map_locate(b.map, p, &l, NULL) == SUNDER_OK &&
@@ -443,6 +480,7 @@ int main(void)
         cmocka_unit_test(test_wrapped_vertex),
         cmocka_unit_test(test_holes),
         cmocka_unit_test(test_degenerate_point),
+        cmocka_unit_test(test_history_starts_afresh),
         cmocka_unit_test(test_faces),
         cmocka_unit_test(test_large_numbers),
         cmocka_unit_test(test_wide_lattice),

@@ -1,0 +1,84 @@
+/* The step of the incremental union: a convex polygon comes on top of a clean map, and what it makes redundant goes.
+ *
+ * That is what lies inside the polygon, found by a flood of trapezoids from its boundary, and those parts of the
+ * boundary that lie inside the union so far. Elsewhere nothing has changed: an edge outside has the same faces on both
+ * sides as before. */
+#include "planar_map/map.h"
+
+static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
+{
+    sunder_i_trapezoid *z = &map->trapezoid[t];
+    if (z->stamp == stamp) return true;
+    z->stamp = stamp;
+    return sunder_i_map_push(map, &map->inside, t);
+}
+
+/* The trapezoids, edges and vertices strictly inside the ring. Ring edges and vertices bear the stamp already. */
+static bool flood(sunder_i_planar_map *map, uint32_t stamp)
+{
+    map->inside.n = map->edges_inside.n = map->vertices_inside.n = 0;
+    for (size_t i = 0; i < map->ring.n; i++)
+        if (!see(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
+    for (size_t i = 0; i < map->inside.n; i++) { /* the list is its own queue */
+        const uint32_t t = map->inside.item[i];
+        uint32_t to[6];
+        int64_t step[6];
+        const size_t n = sunder_i_map_around(map, t, stamp, to, step);
+        for (size_t k = 0; k < n; k++)
+            if (!see(map, to[k], stamp)) return false;
+        const uint32_t e = map->trapezoid[t].bottom, v = map->trapezoid[t].left;
+        if (map->edge[e].up == t && map->edge[e].stamp != stamp && !sunder_i_map_push(map, &map->edges_inside, e))
+            return false;
+        if (map->vertex[v].stamp != stamp) {
+            map->vertex[v].stamp = stamp;
+            if (!sunder_i_map_push(map, &map->vertices_inside, v)) return false;
+        }
+    }
+    return true;
+}
+
+static bool clean_ring(sunder_i_planar_map *map)
+{
+    const uint32_t stamp = ++map->stamp;
+    for (size_t i = 0; i < map->ring.n; i++) {
+        const uint32_t h = map->ring.item[i];
+        map->edge[h >> 1].stamp = stamp;
+        map->vertex[sunder_i_planar_map_origin(map, h)].stamp = stamp;
+    }
+    if (!flood(map, stamp)) return false;
+    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered++;
+    /* Each vertex of the ring begins one of its half-edges. Those that stay wait on the stack; ring keeps its edges
+     * that stay. */
+    map->stack.n = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < map->ring.n; i++) {
+        const uint32_t h = map->ring.item[i], v = sunder_i_planar_map_origin(map, h);
+        const bool covered = sunder_i_planar_map_vertex_covered(map, v) > 0;
+        if (!sunder_i_map_push(map, covered ? &map->vertices_inside : &map->stack, v)) return false;
+        if (sunder_i_planar_map_edge_covered(map, h >> 1) == 0)
+            map->ring.item[kept++] = h;
+        else if (!sunder_i_map_push(map, &map->edges_inside, h >> 1))
+            return false;
+    }
+    map->ring.n = kept;
+    for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered = 1;
+    if (!sunder_i_map_remove_covered(map)) return false;
+    for (size_t i = 0; i < map->ring.n; i++) sunder_i_map_settle_edge(map, map->ring.item[i] >> 1);
+    for (size_t i = 0; i < map->stack.n; i++) sunder_i_map_settle_vertex(map, map->stack.item[i]);
+    for (size_t i = 0; i < map->stack.n; i++)
+        if (sunder_i_planar_map_mergeable(map, map->stack.item[i])) sunder_i_edge_merge(map, map->stack.item[i]);
+    return true;
+}
+
+sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+                                                const sunder_i_point *along, size_t n, sunder_error *err)
+{
+    const sunder_status status = sunder_i_map_polygon(map, corner, along, n, true, err);
+    if (status != SUNDER_OK) return status;
+    if (!clean_ring(map) || !sunder_i_map_compact(map)) {
+        map->failed = true;
+        return sunder_i_no_memory(err);
+    }
+    map->marked = true;
+    return sunder_i_map_status(map, err);
+}
