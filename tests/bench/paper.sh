@@ -7,6 +7,7 @@
 # Installs what is missing and builds (not if SUNDER_BUILD names a build), runs, and writes to the output folder
 #
 #   paper.csv                 a line a run: sizes, seconds by phase, counts by phase, memory, hash of the exact result
+#   pieces.csv                what each convex decomposition makes of each input: pieces, subsums and their sides, seconds
 #   run.txt                   machine, compiler, commit, seed, limits
 #   tables.md                 exponents in n fitted over the sizes; phases; orders; decompositions
 #   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
@@ -35,9 +36,9 @@ if [[ -z ${SUNDER_BUILD:-} ]]; then
   setup_need gnuplot gnuplot-nox gnuplot --version
   setup_need Python python3 python3 --version
   setup_install
-  setup_build "$source" "$SUNDER_BUILD" sunder sunder-families
+  setup_build "$source" "$SUNDER_BUILD" sunder sunder-families bench_paper
 fi
-sunder=$SUNDER_BUILD/sunder families=$SUNDER_BUILD/sunder-families
+sunder=$SUNDER_BUILD/sunder families=$SUNDER_BUILD/sunder-families pieces=$SUNDER_BUILD/bench_paper
 for tool in "$sunder" "$families" jq gnuplot python3; do
   command -v "$tool" >/dev/null || { echo "paper.sh: no $tool" >&2; exit 1; }
 done
@@ -161,11 +162,19 @@ one() {
   fi
 }
 
+count_pieces() {
+  if [[ -x $pieces ]]; then
+    SUNDER_BENCH_SECONDS=0.1 timeout "$((10 * limit))" "$pieces" "$out/inputs/${name}_$size.wkt" | sed "s/^/$name,$size,/" >>"$out/pieces.csv" ||
+      echo "$name $size: the pieces could not be counted"
+  fi
+}
+
 experiments() {
   local algorithm decomposition order
   for name in "${names[@]}"; do
     for size in $sizes; do
       draw "$name" "$size"
+      count_pieces
       one convolution '' ''
       for algorithm in $algorithms; do
         case $algorithm in auto | convolution) continue ;; esac
@@ -221,8 +230,9 @@ agreement() {
 declare -A seen=() stopped=()
 header | tee "$out/run.txt"
 echo "$columns" >"$out/paper.csv"
+echo family,size,decomposition,used,pieces_p,pieces_q,subsums,sides,seconds_decompose,seconds_subsums >"$out/pieces.csv"
 pictures
 experiments
-python3 "$source/tests/bench/paper_charts.py" "$out/paper.csv" "$out"
+python3 "$source/tests/bench/paper_charts.py" "$out"
 agreement | tee -a "$out/run.txt"
 echo "$out"

@@ -1,4 +1,4 @@
-"""paper_charts.py CSV FOLDER: bar charts (figure-5.svg, figure-6.svg, figure-7.svg, by gnuplot) and tables.md from the runs of paper.sh."""
+"""paper_charts.py FOLDER: bar charts (figure-5.svg, figure-6.svg, figure-7.svg, by gnuplot) and tables.md from the runs of paper.sh."""
 import csv
 import math
 import os
@@ -174,7 +174,19 @@ def decompositions(runs):
                                              for f in found)]
 
 
-def tables(runs, folder):
+def pieces(counted):
+    """Pieces of P x pieces of Q, sides of all subsums, microseconds to decompose, at the largest size of each family."""
+    for family in ordered(counted, "family"):
+        size = max((r["size"] for r in counted if r["family"] == family), key=int)
+        cells = []
+        for d in DECOMPOSITIONS:
+            r = next((r for r in counted if (r["family"], r["size"], r["decomposition"]) == (family, size, d)), None)
+            used = "" if not r or r["used"] == d else f' ({r["used"]})'
+            cells.append(f'{r["pieces_p"]} x {r["pieces_q"]}, {r["sides"]}, {1e6 * float(r["seconds_decompose"]):.0f}{used}' if r else "-")
+        yield [family, size, *cells]
+
+
+def tables(runs, counted, folder):
     with open(os.path.join(folder, "tables.md"), "w") as out:
         table(out, "Exponents in n (vertices of P): least squares in logarithms over the sizes from 20 on.",
               ["family", "road", "sizes", "output", "crossings", "orientation tests", "comparisons", "seconds", "memory"], growth(runs))
@@ -183,14 +195,17 @@ def tables(runs, folder):
                "orientation tests", "left open by the filter"], phases(runs))
         table(out, "The order by fatness: its cost in parts of that of the random order.",
               ["family", "road", "n", "crossings", "orientation tests", "seconds"], orders(runs))
+        table(out, "What the decompositions make: pieces of P x pieces of Q, sides of all subsums, microseconds to decompose both.",
+              ["family", "n", *DECOMPOSITIONS], pieces(counted))
         table(out, "Decompositions: seconds to decompose / in all, random order.", ["family", "road", "n", *DECOMPOSITIONS],
               decompositions(runs))
 
 
 def main():
-    runs = read(sys.argv[1])
-    charts(runs, sys.argv[2])
-    tables(runs, sys.argv[2])
+    folder = sys.argv[1]
+    runs, counted = (read(os.path.join(folder, name)) for name in ("paper.csv", "pieces.csv"))
+    charts(runs, folder)
+    tables(runs, counted, folder)
 
 
 main()

@@ -1,0 +1,94 @@
+/* bench_paper FILE: what each convex decomposition makes of P and Q. One CSV line a decomposition: its name, the one used, pieces
+ * of P and of Q, subsums, sides of all subsums, seconds to decompose and to form the subsums. The seconds are medians. Uses the library's
+ * inner headers: pieces are no part of the public interface. */
+#include "decomposition/convex_sum.h"
+#include "wkt_input.h"
+
+typedef struct pieces {
+    uint32_t p, q;
+    size_t sides;
+    sunder_i_decomposition_kind used;
+    double decompose, subsums;
+} pieces;
+
+static sunder_status add_pieces(sunder_i_lattice *lattice, const sunder_i_decomposition *p, const sunder_i_decomposition *q,
+                                pieces *out)
+{
+    sunder_i_arena arena;
+    bool ok = true;
+    sunder_i_arena_init(&arena);
+    out->sides = 0;
+    for (uint32_t i = 0; ok && i < p->pieces; i++)
+        for (uint32_t j = 0; ok && j < q->pieces; j++) {
+            sunder_i_convex_sum sum;
+            ok = sunder_i_convex_sum_of(lattice, p, i, q, j, &arena, &sum);
+            if (ok) out->sides += sum.corners;
+        }
+    sunder_i_arena_free(&arena);
+    return ok ? SUNDER_OK : SUNDER_ENOMEM;
+}
+
+static sunder_status once(const sunder_shape *p, const sunder_shape *q, sunder_i_decomposition_kind kind, pieces *out)
+{
+    sunder_i_placed placed;
+    sunder_i_decomposition a, b;
+    const sunder_i_place_options options = {0};
+    sunder_status status = sunder_i_place(p, q, &options, &placed, NULL);
+    if (status) return status;
+    double start = bench_now();
+    status = sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q, kind, &a, &b, NULL);
+    out->decompose = bench_now() - start;
+    if (!status) {
+        start = bench_now();
+        status = add_pieces(&placed.lattice, &a, &b, out);
+        out->subsums = bench_now() - start;
+        out->p = a.pieces;
+        out->q = b.pieces;
+        out->used = a.used != kind ? a.used : b.used;
+        sunder_i_decomposition_clear(&a);
+        sunder_i_decomposition_clear(&b);
+    }
+    sunder_i_placed_free(&placed);
+    return status;
+}
+
+static sunder_status measure(const sunder_shape *p, const sunder_shape *q, sunder_i_decomposition_kind kind)
+{
+    double decompose[100], subsums[100], spent = 0;
+    size_t n = 0;
+    pieces found = {0};
+    while (bench_again(n, spent)) {
+        const sunder_status status = once(p, q, kind, &found);
+        if (status) return status;
+        decompose[n] = found.decompose;
+        subsums[n] = found.subsums;
+        spent += decompose[n] + subsums[n];
+        n++;
+    }
+    printf("%s,%s,%u,%u,%zu,%zu,%.9f,%.9f\n", sunder_i_decomposition_string(kind), sunder_i_decomposition_string(found.used),
+           (unsigned)found.p, (unsigned)found.q, (size_t)found.p * found.q, found.sides, bench_median(decompose, n),
+           bench_median(subsums, n));
+    fflush(stdout);
+    return SUNDER_OK;
+}
+
+int main(int argc, char **argv)
+{
+    bench_set p, q;
+    sunder_shape *a = NULL, *b = NULL;
+    sunder_error err = {0};
+    if (argc != 2 || !bench_pair_read(argv[1], &p, &q)) {
+        fprintf(stderr, "usage: bench_paper FILE\n");
+        return 2;
+    }
+    sunder_status status = sunder_shape_from_rings(p.xy, p.ring_end, p.poly_end, p.polygons, SUNDER_STRICT, &a, &err);
+    if (!status) status = sunder_shape_from_rings(q.xy, q.ring_end, q.poly_end, q.polygons, SUNDER_STRICT, &b, &err);
+    for (int kind = SUNDER_I_HERTEL_MEHLHORN; !status && kind <= SUNDER_I_MIXED; kind++)
+        status = measure(a, b, (sunder_i_decomposition_kind)kind);
+    if (status) fprintf(stderr, "bench_paper: %s %s\n", sunder_status_string(status), err.message);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    bench_set_free(&p);
+    bench_set_free(&q);
+    return status != SUNDER_OK;
+}
