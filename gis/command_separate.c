@@ -16,12 +16,14 @@ typedef struct separate_run {
     sunder_report *report;
     sunder_layer_summary summary;
     gis_progress progress;
+    unsigned chosen; /* which layers are written */
     bool verified;
     double start, read, write;
 } separate_run;
 
-static bool write_layers(const separate_run *run, unsigned chosen, gis_error *error)
+static bool write_layers(const separate_run *run, gis_error *error)
 {
+    unsigned chosen = run->chosen;
     gis_sink *sink = run->sink;
     const gis_layer_input *input = &run->input;
     if ((chosen & GIS_LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
@@ -34,16 +36,16 @@ static bool write_layers(const separate_run *run, unsigned chosen, gis_error *er
 }
 
 /* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
-static bool open_sink(separate_run *run, unsigned *chosen, gis_error *error)
+static bool open_sink(separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!gis_layers_chosen(run->options, run->input.points, chosen, error))
+    if (!gis_layers_chosen(run->options, run->input.points, &run->chosen, error))
         return false;
-    if (*chosen & GIS_LAYER_DISPLACEMENT)
+    if (run->chosen & GIS_LAYER_DISPLACEMENT)
         run->suffixes[n++] = "displacement";
-    if (*chosen & GIS_LAYER_CONFLICTS)
+    if (run->chosen & GIS_LAYER_CONFLICTS)
         run->suffixes[n++] = "conflicts";
-    if (*chosen & GIS_LAYER_SYMBOLS)
+    if (run->chosen & GIS_LAYER_SYMBOLS)
         run->suffixes[n++] = "symbols";
     gis_sink_request request =
         gis_options_sink(run->options, run->options->operand[1], gis_source_name(run->input.source));
@@ -51,23 +53,22 @@ static bool open_sink(separate_run *run, unsigned *chosen, gis_error *error)
     if (!gis_sink_open(&request, run->input.source, &run->sink, error))
         return false;
     if (!gis_sink_takes_more(run->sink))
-        *chosen = GIS_LAYER_MAIN;
+        run->chosen = GIS_LAYER_MAIN;
     return true;
 }
 
 /* All but the last step, which is gis_deliver()'s. */
 static bool solve_and_write(separate_run *run, gis_error *error)
 {
-    unsigned chosen;
     gis_sink_result result;
-    if (!open_sink(run, &chosen, error))
+    if (!open_sink(run, error))
         return false;
     gis_progress_stage(&run->progress, 0.1, 0.8);
     if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
     gis_progress_stage(&run->progress, 0.8, 1);
     double begin = gis_clock();
-    if (!write_layers(run, chosen, error) || !gis_sink_finish(run->sink, &result, error))
+    if (!write_layers(run, error) || !gis_sink_finish(run->sink, &result, error))
         return false;
     run->write = gis_clock() - begin;
     run->verified = run->summary.verified && result.exact;
@@ -213,6 +214,9 @@ static bool print_summary(const void *separated, gis_error *error)
         printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            optimality_gap(summary));
+    if (gis_any_conflict(after) && (run->chosen & GIS_LAYER_CONFLICTS))
+        printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
+               gis_options_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
            gis_clock() - run->start);
     return true;

@@ -89,8 +89,9 @@ void gis_help_command(const gis_command *command)
         printf("P, Q: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N], square:SIDE,\n"
                "rectangle:WxH, or a data source. ");
     printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n",
-           command->bit & GIS_LAYERS ? ", 3 conflicts" : "");
+           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n"
+           "Example: sunder %s %s\n",
+           command->bit & GIS_LAYERS ? ", 3 conflicts" : "", command->name, command->example);
 }
 
 void gis_help_program(void)

@@ -75,6 +75,7 @@ typedef struct gis_command {
     const char *operands; /* as in the usage line */
     size_t least, most;   /* how many operands */
     const char *summary;
+    const char *example; /* operands and options of a usual call */
     int (*run)(const gis_options *options); /* prints its own errors; returns the exit status */
 } gis_command;
 

@@ -61,10 +61,14 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
     gis_json_close(out, '}');
 }
 
+bool gis_any_conflict(const sunder_conflict_counts *counts)
+{
+    return counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
+}
+
 int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts)
 {
-    bool any = counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
-    return any && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS : GIS_DONE;
+    return gis_any_conflict(counts) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS : GIS_DONE;
 }
 
 /* The one variable of the program that is not handed from function to function: a signal has no other way in. */

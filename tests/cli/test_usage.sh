@@ -13,6 +13,7 @@ for command in separate check sum pair; do
     [ "$(wc -l <out)" -le 45 ] || fail "$command --help does not fit a screen: $(wc -l <out) lines"
     [ "$(awk 'length > w { w = length } END { print w }' out)" -le 120 ] || fail "$command --help is too wide"
     says out "Usage: sunder $command"
+    says out "Example: sunder $command"
 done
 expect 0 separate --help
 for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '0 done, 1 failed, 2 wrong usage, 3 conflicts'; do
