@@ -6,17 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Up to so many pairs of a line and a subsum other than its own make a leaf, and always where there are so few subsums: then
- * looking at a pair costs less than sorting it out. Measured on stars, combs, forks and random polygons. */
+/* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than sorting it
+ * out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
-#define LEAF_SUBSUMS 2
+#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
 /* After so many splits in a row that thin out less than a tenth a cell is left as it is: a few lines are then bundles of coincident
  * sides, which no split will part and every split doubles; many lines may be a cluster in a corner of the cell (or truly
  * concurrent, and then only one half keeps them). */
 #define STUBBORN_SPLITS_FEW 3
 #define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
-#define MANY_SIDES 500
+#define MANY_SIDES 250
 
 /* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */
 typedef struct approx_side {
@@ -28,18 +28,39 @@ typedef struct box {
 } box;
 
 typedef struct entry {
-    uint32_t subsum, sides; /* how many entries of the side list are its */
+    uint32_t subsum, runs; /* how many entries of the run list are its */
 } entry;
+
+/* Consecutive sides of one subsum that turn by less than half a turn together. Where operands have many sides, as rounded ones do, most
+ * questions are answered for a whole run at once; it falls apart where a cell becomes as small as it is. */
+typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
+
+#define LONGEST_RUN 32
+#define RUN_BITS 27   /* where there are more sides than these bits can number, every run is a single side */
+#define FEW_SIDES 16  /* subsums with fewer are listed side by side */
 
 typedef struct cell {
     box b;
-    size_t entry_from, entry_to, side_from, side_to;
+    size_t entry_from, entry_to, run_from, run_to;
+    size_t sides; /* of all its runs */
     uint32_t stubborn;
     int axis;     /* to split across */
     double share; /* of the whole work, taking each half as half of its parent's */
 } cell;
 
+/* A candidate and the part of the box at hand that it may pass through. */
+typedef struct crossing {
+    uint32_t side, line;
+    box part;
+} crossing;
+
+/* Marks of a candidate while the cells are made: it passes through a leaf of several subsums; through one of its own subsum alone; it is, in
+ * some cell, not all of its line's story. */
+enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
+
 typedef struct builder {
+    run single_most;  /* the greatest number of a single side */
+    uint32_t run_shift; /* RUN_BITS, or past the number */
     const sunder_i_subsums *subsums;
     const sunder_i_lines *lines;
     const sunder_sum_options *options;
@@ -49,12 +70,15 @@ typedef struct builder {
     double error;     /* bound on the distance error of a start point, see filter_subsum() */
     entry *entries;   /* lists of all cells on the stack, one after the other */
     size_t entries_n, entries_capacity;
-    uint32_t *sides;
-    size_t sides_n, sides_capacity;
+    run *runs;
+    size_t runs_n, runs_capacity;
+    crossing *crossing; /* of the box at hand */
+    size_t crossing_n, crossing_capacity;
     cell *stack;
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
     uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
+    bool *shared;     /* [lines] somewhere one subsum stands for several along the line */
     uint32_t cells;   /* stamps given out */
     double done;      /* share of the work, for progress */
     bool no_memory;
@@ -65,6 +89,13 @@ static inline double least(double a, double b) { return a < b ? a : b; }
 static inline double most_of(double a, double b) { return a > b ? a : b; }
 
 static int64_t diff(sunder_i_lattice *l, int64_t b, int64_t a) { return l->narrow ? b - a : sunder_i_lattice_sub(l, b, a); }
+
+static uint32_t run_from(const builder *b, run r) { return r & b->single_most; }
+
+static uint32_t run_end(const builder *b, run r)
+{
+    return (r & b->single_most) + (uint32_t)((uint64_t)r >> b->run_shift) + 1;
+}
 
 static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
@@ -151,40 +182,65 @@ static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
     return true;
 }
 
+/* Lists the candidates of some runs that pass through a box. */
+static void gather(builder *b, size_t from, size_t to, const box *c)
+{
+    const uint32_t *of = b->lines->of;
+    b->crossing_n = 0;
+    for (size_t i = from; i < to; i++) {
+        const run r = b->runs[i];
+        if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
+        for (uint32_t k = run_from(b, r), end = run_end(b, r); k < end; k++) {
+            if (of[k] == SUNDER_I_NO_LINE) continue;
+            crossing *x = &b->crossing[b->crossing_n];
+            if (!clip(b, &b->side[k], c, &x->part)) continue;
+            x->side = k;
+            x->line = of[k];
+            b->crossing_n++;
+        }
+    }
+}
+
 /* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes through it is
  * covered there. */
 static void close_cell(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
 {
-    box part;
     b->cells++;
-    for (size_t i = parent->side_from; i < parent->side_to; i++) {
-        const uint32_t k = b->sides[i], line = b->lines->of[k];
-        if (line == SUNDER_I_NO_LINE || b->stamp[line] == b->cells || !clip(b, &b->side[k], c, &part)) continue;
+    gather(b, parent->run_from, parent->run_to, c);
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        b->out->fate[b->crossing[i].side] |= CONTESTED;
+        if (b->stamp[line] == b->cells) continue;
         b->stamp[line] = b->cells;
         if (!push_pair(b, line, one) || (other != one && !push_pair(b, line, other))) return;
     }
 }
 
-/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. */
+/* A leaf that one subsum alone reaches into. */
+static void lone_leaf(builder *b, const cell *c)
+{
+    gather(b, c->run_from, c->run_to, &c->b);
+    for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
+}
+
+/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. The candidates are gathered. */
 static void open_leaf(builder *b, const cell *c)
 {
-    box part;
     const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
-    for (size_t i = c->side_from; i < c->side_to; i++) {
-        const uint32_t k = b->sides[i], line = b->lines->of[k];
-        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[k], &c->b, &part)) continue;
-        b->out->live[k] = b->out->live_line[line] = true;
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        b->out->fate[b->crossing[i].side] |= PASSES;
         b->stamp[line] = b->stamp[line] == once || b->stamp[line] == again ? again : once;
     }
     const uint32_t pushed = ++b->cells;
-    for (size_t i = c->side_from; i < c->side_to; i++) {
-        const uint32_t k = b->sides[i], line = b->lines->of[k];
-        if (line == SUNDER_I_NO_LINE || b->stamp[line] == pushed || !clip(b, &b->side[k], &c->b, &part)) continue;
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        if (b->stamp[line] == pushed) continue;
         const bool alone = b->stamp[line] == once;
         b->stamp[line] = pushed;
         for (size_t e = c->entry_from; e < c->entry_to; e++) {
             const uint32_t subsum = b->entries[e].subsum;
-            if (alone && apart(&b->reach[subsum], &part)) continue;
+            if (alone && apart(&b->reach[subsum], &b->crossing[i].part)) continue;
             if (!push_pair(b, line, subsum)) return;
         }
     }
@@ -211,10 +267,10 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
 static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
 {
     uint32_t side[SINGLES], subsum[SINGLES], n = 0;
-    size_t at = c->side_from;
-    for (size_t e = c->entry_from; e < c->entry_to && n < SINGLES; at += b->entries[e].sides, e++)
-        if (b->entries[e].sides == 1) {
-            side[n] = b->sides[at];
+    size_t at = c->run_from;
+    for (size_t e = c->entry_from; e < c->entry_to && n < SINGLES; at += b->entries[e].runs, e++)
+        if (b->entries[e].runs == 1 && b->runs[at] <= b->single_most) {
+            side[n] = b->runs[at];
             subsum[n++] = b->entries[e].subsum;
         }
     for (uint32_t i = 0; i < n; i++)
@@ -234,9 +290,12 @@ static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
     const uint32_t line = b->lines->of[side];
     if (line == SUNDER_I_NO_LINE) return false;
     uint32_t *seen = &b->single[2 * (size_t)line + (b->subsums->rank[side] >= b->subsums->classes)];
-    if (*seen == stamp) return true;
-    *seen = stamp;
-    return false;
+    if (*seen != stamp) {
+        *seen = stamp;
+        return false;
+    }
+    b->shared[line] = true;
+    return true;
 }
 
 /* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many lines they
@@ -245,16 +304,16 @@ static size_t shrink(builder *b, cell *c, const box *whole)
 {
     size_t lines = 0;
     double span[2] = {0, 0}; /* of all candidates together, along each axis */
-    box need = nothing, part;
+    box need = nothing;
     b->cells++;
-    for (size_t i = c->side_from; i < c->side_to; i++) {
-        const uint32_t line = b->lines->of[b->sides[i]];
-        if (line == SUNDER_I_NO_LINE || !clip(b, &b->side[b->sides[i]], whole, &part)) continue;
-        grow(&need, &part);
-        span[0] += part.high[0] - part.low[0];
-        span[1] += part.high[1] - part.low[1];
-        lines += b->stamp[line] != b->cells;
-        b->stamp[line] = b->cells;
+    gather(b, c->run_from, c->run_to, whole);
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const crossing *x = &b->crossing[i];
+        grow(&need, &x->part);
+        span[0] += x->part.high[0] - x->part.low[0];
+        span[1] += x->part.high[1] - x->part.low[1];
+        lines += b->stamp[x->line] != b->cells;
+        b->stamp[x->line] = b->cells;
     }
     c->b = need;
     /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. */
@@ -267,71 +326,141 @@ typedef struct half {
     box b;
     double cx, cy;     /* centre */
     entry *entries;
-    uint32_t *sides;
-    size_t entries_n, sides_n;
+    run *runs;
+    size_t entries_n, runs_n, sides;
     bool held;
     uint32_t holder;   /* the subsum that holds it */
     uint32_t stamp;    /* of known_half_plane() */
 } half;
 
-/* Takes note of what one subsum is in one half: its sides that pass are behind the half's list, `sides` of them. */
-static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t sides)
+/* Takes note of what one subsum is in one half: its runs that pass are behind the half's list, n of them with so many sides. */
+static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t n, uint32_t sides)
 {
-    if (sides == 0) {
+    if (n == 0) {
         h->held = true;
         h->holder = subsum;
-    } else if (sides > 1 || !known_half_plane(b, h->sides[h->sides_n], h->stamp)) {
-        h->entries[h->entries_n++] = (entry){subsum, sides};
-        h->sides_n += sides;
+    } else if (sides > 1 || !known_half_plane(b, h->runs[h->runs_n], h->stamp)) {
+        h->entries[h->entries_n++] = (entry){subsum, n};
+        h->runs_n += n;
+        h->sides += sides;
     }
 }
 
-/* One subsum against one half, from its side i on; n of the sides before that pass. */
-static void filter_one(builder *b, half *h, const uint32_t *side, const entry *source, uint32_t i, uint32_t n, double hx,
+enum { BEYOND, WITHIN, ACROSS }; /* of a box: outside a line for certain, inside for certain, or neither */
+
+/* The half and the line along s through the start of `at`; hx, hy: half the extent of the half. */
+static int side_of_half(const builder *b, const half *h, const approx_side *s, const approx_side *at, double hx, double hy)
+{
+    const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+    const double error = b->error * (adx + ady) + 0x1p-900;
+    const double c = s->dx * (h->cy - at->ay) - s->dy * (h->cx - at->ax);
+    return c + reach < -error ? BEYOND : c - reach > error ? WITHIN : ACROSS;
+}
+
+/* What of a run passes through a half: how many runs, and sides in them. */
+typedef struct passed {
+    bool beyond; /* all of the half is beyond the subsum */
+    uint32_t n, sides;
+} passed;
+
+/* Writes what of a run of several sides passes to `out`.
+ *
+ * The start of the run is inside all its sides, and their directions lie between those of the first and the last: so what
+ * is inside the two lines along these through the start is inside all sides. */
+static passed pass_run(const builder *b, const half *h, run r, double hx, double hy, run *out)
+{
+    struct {
+        uint32_t from, n;
+    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most LONGEST_RUN = 2^5 sides, halved again and again */
+    passed p = {false, 0, 0};
+    for (uint32_t waiting = 0;;) {
+        const approx_side *first = &b->side[at.from], *last = first + at.n - 1, *middle = first + at.n / 2;
+        const int where = side_of_half(b, h, middle, middle, hx, hy);
+        if (where == BEYOND) return (passed){true, 0, 0};
+        const bool passes = where == ACROSS || (at.n > 1 && (side_of_half(b, h, first, first, hx, hy) != WITHIN ||
+                                                             side_of_half(b, h, last, first, hx, hy) != WITHIN));
+        if (passes && at.n > 1 && fabs(last->ax - first->ax) + fabs(last->ay - first->ay) > hx + hy) {
+            todo[waiting].from = at.from + at.n / 2;
+            todo[waiting++].n = at.n - at.n / 2;
+            at.n /= 2;
+            continue;
+        }
+        if (passes) {
+            out[p.n++] = (at.n - 1) << RUN_BITS | at.from;
+            p.sides += at.n;
+        }
+        if (waiting == 0) return p;
+        at = todo[--waiting];
+    }
+}
+
+/* One subsum against one half, from its run i on; of the runs before, n with so many sides pass. */
+static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more, double hx,
                        double hy)
 {
     if (h->held) return;
-    uint32_t *out = h->sides + h->sides_n;
-    for (; i < source->sides; i++) {
-        const approx_side *s = &b->side[side[i]];
+    run *out = h->runs + h->runs_n;
+    const run single_most = b->single_most;
+    for (; i < source->runs; i++) {
+        const run r = runs[i];
+        if (r > single_most) {
+            const passed p = pass_run(b, h, r, hx, hy, out + n);
+            if (p.beyond) return;
+            n += p.n;
+            more += p.sides - p.n;
+            continue;
+        }
+        const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
         const double error = b->error * (adx + ady) + 0x1p-900;
         const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
         if (c + reach < -error) return; /* all of the half is beyond this side */
-        out[n] = side[i];
+        out[n] = r;
         n += !(c - reach > error); /* else all of it is on the inner side, and the side need not be kept */
     }
-    settle_entry(b, h, source->subsum, n);
+    settle_entry(b, h, source->subsum, n, n + more);
 }
 
 /* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each half. */
-static void filter_subsum(builder *b, half h[2], const uint32_t *side, const entry *source, double hx, double hy)
+static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
 {
-    uint32_t *out0 = h[0].sides + h[0].sides_n, *out1 = h[1].sides + h[1].sides_n;
-    uint32_t i = 0, n0 = 0, n1 = 0;
+    run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
+    const run single_most = b->single_most;
+    uint32_t i = 0, n0 = 0, n1 = 0, more0 = 0, more1 = 0;
     bool miss0 = h[0].held || apart(&b->reach[source->subsum], &h[0].b);
     bool miss1 = h[1].held || apart(&b->reach[source->subsum], &h[1].b);
-    for (; i < source->sides && !miss0 && !miss1; i++) {
-        const approx_side *s = &b->side[side[i]];
+    for (; i < source->runs && !miss0 && !miss1; i++) {
+        const run r = runs[i];
+        if (r > single_most) {
+            const passed p0 = pass_run(b, &h[0], r, hx, hy, out0 + n0), p1 = pass_run(b, &h[1], r, hx, hy, out1 + n1);
+            miss0 = p0.beyond;
+            miss1 = p1.beyond;
+            n0 += p0.n;
+            n1 += p1.n;
+            more0 += p0.sides - p0.n;
+            more1 += p1.sides - p1.n;
+            continue;
+        }
+        const approx_side *s = &b->side[r];
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
         const double error = b->error * (adx + ady) + 0x1p-900;
         const double c0 = s->dx * (h[0].cy - s->ay) - s->dy * (h[0].cx - s->ax);
         const double c1 = s->dx * (h[1].cy - s->ay) - s->dy * (h[1].cx - s->ax);
-        out0[n0] = out1[n1] = side[i];
+        out0[n0] = out1[n1] = r;
         n0 += !(c0 - reach > error);
         n1 += !(c1 - reach > error);
         miss0 = c0 + reach < -error;
         miss1 = c1 + reach < -error;
     }
-    if (!miss0) filter_one(b, &h[0], side, source, i, n0, hx, hy);
-    if (!miss1) filter_one(b, &h[1], side, source, i, n1, hx, hy);
+    if (!miss0) filter_one(b, &h[0], runs, source, i, n0, more0, hx, hy);
+    if (!miss1) filter_one(b, &h[1], runs, source, i, n1, more1, hx, hy);
 }
 
 /* A cell with many sides that splits well is split on, across its longer axis, without a closer look. */
 static size_t halve(cell *c, const half *h)
 {
     c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
-    return h->sides_n;
+    return h->sides;
 }
 
 /* What is left of a half when its lists are made: a cell to split further, or settled. */
@@ -342,24 +471,28 @@ static void settle_half(builder *b, const cell *parent, const half *h)
         b->done += parent->share / 2;
         return;
     }
-    cell c = {h->b, b->entries_n, b->entries_n + h->entries_n, b->sides_n, b->sides_n + h->sides_n, 0, 0,
+    cell c = {h->b, b->entries_n, b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0, 0,
               parent->share / 2};
     memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
-    memmove(b->sides + c.side_from, h->sides, h->sides_n * sizeof *h->sides);
+    memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
+    if (h->entries_n == 1) {
+        lone_leaf(b, &c);
+        b->done += c.share;
+        return;
+    }
     uint32_t two[2];
     if (find_two(b, &c, &h->b, two)) {
         close_cell(b, parent, &h->b, two[0], two[1]);
         b->done += c.share;
         return;
     }
-    c.stubborn = 10 * h->sides_n < 9 * (parent->side_to - parent->side_from) ? 0 : parent->stubborn + 1;
-    const size_t lines = h->sides_n > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
+    c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
+    const size_t lines = h->sides > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
-    const bool leaf =
-        h->entries_n <= LEAF_SUBSUMS || lines * (h->entries_n - 1) <= LEAF_PAIRS || c.stubborn >= patience;
+    const bool leaf = lines * (h->entries_n - 1) <= (h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS) || c.stubborn >= patience;
     if (lines > 0 && !leaf) {
         b->entries_n = c.entry_to;
-        b->sides_n = c.side_to;
+        b->runs_n = c.run_to;
         b->stack[b->stack_n++] = c;
         return;
     }
@@ -371,9 +504,10 @@ static void settle_half(builder *b, const cell *parent, const half *h)
  * than kept. */
 static bool reserve_halves(builder *b, const cell *c)
 {
-    const size_t e = c->entry_to - c->entry_from, s = c->side_to - c->side_from + 1;
+    const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
     if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 2 * e, sizeof *b->entries) &&
-        sunder_i_reserve(&b->sides, &b->sides_capacity, b->sides_n + 2 * s, sizeof *b->sides) &&
+        sunder_i_reserve(&b->runs, &b->runs_capacity, b->runs_n + 2 * s, sizeof *b->runs) &&
+        sunder_i_reserve(&b->crossing, &b->crossing_capacity, s, sizeof *b->crossing) &&
         sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 2, sizeof *b->stack))
         return true;
     b->no_memory = true;
@@ -383,7 +517,7 @@ static bool reserve_halves(builder *b, const cell *c)
 static void split(builder *b, const cell *c)
 {
     if (!reserve_halves(b, c)) return;
-    const size_t e = c->entry_to - c->entry_from, s = c->side_to - c->side_from + 1;
+    const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
     half h[2];
     memset(h, 0, sizeof h);
     h[0].b = h[1].b = c->b;
@@ -392,16 +526,16 @@ static void split(builder *b, const cell *c)
         h[k].cx = h[k].b.low[0] / 2 + h[k].b.high[0] / 2;
         h[k].cy = h[k].b.low[1] / 2 + h[k].b.high[1] / 2;
         h[k].entries = b->entries + b->entries_n + (size_t)k * e;
-        h[k].sides = b->sides + b->sides_n + (size_t)k * s;
+        h[k].runs = b->runs + b->runs_n + (size_t)k * s;
         h[k].stamp = ++b->cells;
     }
     /* The halves are of one size up to rounding; the larger stands for both. */
     const double hx = most_of(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
     const double hy = most_of(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
-    size_t from = c->side_from;
+    size_t from = c->run_from;
     for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
-        filter_subsum(b, h, b->sides + from, &b->entries[i], hx, hy);
-        from += b->entries[i].sides;
+        filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
+        from += b->entries[i].runs;
     }
     settle_half(b, c, &h[0]);
     if (!b->no_memory) settle_half(b, c, &h[1]);
@@ -426,6 +560,22 @@ static int compare_extents(void *context, uint32_t a, uint32_t b)
     return (extent[a] < extent[b]) - (extent[a] > extent[b]);
 }
 
+/* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
+static void add_runs(builder *b, uint32_t subsum)
+{
+    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum), end = b->subsums->end[subsum];
+    const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
+    const uint32_t *rank = b->subsums->rank;
+    const size_t before = b->runs_n;
+    for (uint32_t k = first; k < end;) {
+        uint32_t n = 1;
+        while (n < longest && k + n < end && rank[k + n] - rank[k] < b->subsums->classes) n++;
+        b->runs[b->runs_n++] = n > 1 ? (n - 1) << RUN_BITS | k : k;
+        k += n;
+    }
+    b->entries[b->entries_n++] = (entry){subsum, (uint32_t)(b->runs_n - before)};
+}
+
 /* The root holds every side of every subsum, the largest subsums first: those are the ones that close cells. */
 static bool make_root(builder *b, const box *all, cell *root)
 {
@@ -433,18 +583,14 @@ static bool make_root(builder *b, const box *all, cell *root)
     double *extent = sunder_i_alloc(s->n, sizeof *extent);
     uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
     bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&
-              sunder_i_reserve(&b->sides, &b->sides_capacity, s->sides, sizeof *b->sides);
+              sunder_i_reserve(&b->runs, &b->runs_capacity, s->sides, sizeof *b->runs);
     for (uint32_t i = 0; ok && i < s->n; i++) {
         order[i] = i;
         extent[i] = extent_of(b, i);
     }
     ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
-    for (size_t i = 0; ok && i < s->n; i++) {
-        const uint32_t first = sunder_i_subsum_first(s, order[i]), end = s->end[order[i]];
-        b->entries[b->entries_n++] = (entry){order[i], end - first};
-        for (uint32_t k = first; k < end; k++) b->sides[b->sides_n++] = k;
-    }
-    *root = (cell){*all, 0, b->entries_n, 0, b->sides_n, 0, 0, 1};
+    for (size_t i = 0; ok && i < s->n; i++) add_runs(b, order[i]);
+    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);
     sunder_i_free(order);
@@ -461,7 +607,7 @@ static sunder_status descend(builder *b, sunder_error *err)
     while (b->stack_n > 0 && !b->no_memory) {
         const cell c = b->stack[--b->stack_n];
         b->entries_n = c.entry_to; /* lists above belong to cells already done */
-        b->sides_n = c.side_to;
+        b->runs_n = c.run_to;
         if (b->options && b->options->progress && (++tick & 63) == 0 &&
             !b->options->progress(b->done, b->options->progress_user))
             return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
@@ -470,25 +616,51 @@ static sunder_status descend(builder *b, sunder_error *err)
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
+/* Of the marks the fates. An open candidate is paired with its own subsum, where leaves that it has to itself did not do so. */
+static bool settle_fates(builder *b)
+{
+    const sunder_i_subsums *s = b->subsums;
+    for (uint32_t i = 0; i < s->n; i++)
+        for (uint32_t k = sunder_i_subsum_first(s, i); k < s->end[i]; k++) {
+            uint8_t *fate = &b->out->fate[k];
+            if ((*fate & (PASSES | ALONE)) == 0)
+                *fate = SUNDER_I_COVERED;
+            else if (*fate == ALONE && !b->shared[b->lines->of[k]]) {
+                *fate = SUNDER_I_WHOLE;
+                b->out->whole++;
+            } else {
+                if ((*fate & ALONE) && !push_pair(b, b->lines->of[k], i)) return false;
+                *fate = SUNDER_I_OPEN;
+                b->out->live_line[b->lines->of[k]] = true;
+            }
+        }
+    return true;
+}
+
 sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
                                   const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     if (subsums->sides == 0) return SUNDER_OK;
-    builder b = {.subsums = subsums, .lines = lines, .options = options, .out = out};
-    out->live = sunder_i_calloc(subsums->sides, sizeof *out->live);
+    const bool runs = subsums->sides < (size_t)1 << RUN_BITS;
+    builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX, .run_shift = runs ? RUN_BITS : 32, .subsums = subsums, .lines = lines, .options = options, .out = out};
+    out->fate = sunder_i_calloc(subsums->sides, sizeof *out->fate);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
-    const bool ok = out->live && out->live_line && b.stamp && b.single;
-    const sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
+    b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
+    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared;
+    sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
+    if (status == SUNDER_OK && !settle_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);
     sunder_i_free(b.reach);
     sunder_i_free(b.entries);
-    sunder_i_free(b.sides);
+    sunder_i_free(b.runs);
+    sunder_i_free(b.crossing);
     sunder_i_free(b.stack);
     sunder_i_free(b.stamp);
     sunder_i_free(b.single);
+    sunder_i_free(b.shared);
     if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
     return status;
 }
@@ -496,7 +668,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
 void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing)
 {
     sunder_i_free(pairing->pair);
-    sunder_i_free(pairing->live);
+    sunder_i_free(pairing->fate);
     sunder_i_free(pairing->live_line);
     memset(pairing, 0, sizeof *pairing);
 }

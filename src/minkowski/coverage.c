@@ -22,7 +22,7 @@ typedef struct event {
 typedef struct finder {
     const sunder_i_subsums *subsums;
     const sunder_i_lines *lines;
-    const bool *live;
+    const uint8_t *fate;
     sunder_i_coverage *out;
     event *events; /* of the line at hand */
     size_t events_n, events_capacity;
@@ -100,7 +100,7 @@ static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, ui
     const uint32_t next = side + 1 < p->first + p->n ? side + 1 : p->first;
     const sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
     const sunder_i_fraction to = sunder_i_along(l, line->a, line->b, p->s->corner[next]);
-    const int32_t live = f->live[side];
+    const int32_t live = f->fate[side] == SUNDER_I_OPEN;
     if (left) {
         add_event(f, from, (state){0, 1, 0, live}, side);
         add_event(f, to, (state){0, -1, 0, -live}, next);
@@ -229,6 +229,41 @@ static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t 
     sweep(f, number);
 }
 
+/* ---- Sides that are boundary as they stand ---- */
+
+/* The place of a corner of a subsum. Between two whole sides nothing else comes there. */
+static uint32_t corner_place(finder *f, uint32_t corner, bool between)
+{
+    const sunder_i_hpoint p = sunder_i_hpoint_of(f->subsums->lattice, f->subsums->corner[corner]);
+    const uint32_t place =
+        between ? sunder_i_places_append(&f->out->places, &p) : sunder_i_places_add(&f->out->places, &p);
+    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
+    return place;
+}
+
+static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
+{
+    const sunder_i_subsums *s = f->subsums;
+    bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* the side before k */
+    uint32_t first_place = SUNDER_I_NO_PLACE, to = SUNDER_I_NO_PLACE;
+    for (uint32_t k = first; k < end; k++) {
+        const bool whole = f->fate[k] == SUNDER_I_WHOLE;
+        if (whole) {
+            const uint32_t next = k + 1 < end ? k + 1 : first;
+            const uint32_t from = before && k > first ? to : corner_place(f, k, before);
+            if (k == first) first_place = from;
+            to = next == first && first_place != SUNDER_I_NO_PLACE
+                     ? first_place
+                     : corner_place(f, next, f->fate[next] == SUNDER_I_WHOLE);
+            if (f->no_memory) return;
+            const uint32_t line = f->lines->of[k];
+            add_piece(f, s->rank[k] < s->classes ? (sunder_i_piece){line, from, to, SUNDER_I_LEFT}
+                                                 : (sunder_i_piece){line, to, from, SUNDER_I_RIGHT});
+        }
+        before = whole;
+    }
+}
+
 /* Lines that no open leaf holds are covered throughout. */
 static void drop_dead_lines(sunder_i_cell_pairs *pairing)
 {
@@ -244,8 +279,9 @@ static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
     sunder_i_coverage *o = f->out;
     size_t live = 0;
     for (uint32_t i = 0; i < f->lines->n; i++) live += pairing->live_line[i];
-    return sunder_i_places_init(&o->places, f->subsums->lattice, pairing->most, live + live / 8) &&
-           sunder_i_reserve(&o->piece, &o->pieces_capacity, live + live / 8 + 1, sizeof *o->piece);
+    const size_t usual = live + live / 8;
+    return sunder_i_places_init(&o->places, f->subsums->lattice, pairing->most, usual, pairing->whole) &&
+           sunder_i_reserve(&o->piece, &o->pieces_capacity, usual + pairing->whole + 1, sizeof *o->piece);
 }
 
 static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
@@ -260,6 +296,10 @@ static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
         ok = !f->no_memory;
         i = j;
     }
+    for (size_t i = 0; ok && pairing->whole && i < f->subsums->n; i++) {
+        take_whole_sides(f, sunder_i_subsum_first(f->subsums, i), f->subsums->end[i]);
+        ok = !f->no_memory;
+    }
     return ok && !f->subsums->lattice->arena.failed;
 }
 
@@ -267,7 +307,7 @@ sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sund
                                      sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    finder f = {.subsums = subsums, .lines = lines, .live = pairing->live, .out = out};
+    finder f = {.subsums = subsums, .lines = lines, .fate = pairing->fate, .out = out};
     const bool ok = find_all(&f, pairing);
     sunder_i_free(f.events);
     sunder_i_free(f.order);

@@ -63,7 +63,8 @@ static bool make_table(sunder_i_places *g, size_t places)
     return true;
 }
 
-bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected)
+bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected,
+                          size_t appended)
 {
     memset(places, 0, sizeof *places);
     places->lattice = lattice;
@@ -71,20 +72,31 @@ bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, do
     places->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
     /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
     places->error = most * 0x1p-48;
-    return sunder_i_reserve(&places->point, &places->capacity, expected + 1, sizeof *places->point) &&
+    return sunder_i_reserve(&places->point, &places->capacity, expected + appended + 1, sizeof *places->point) &&
            make_table(places, expected);
+}
+
+uint32_t sunder_i_places_append(sunder_i_places *places, const sunder_i_hpoint *p)
+{
+    if (!sunder_i_reserve(&places->point, &places->capacity, places->n + 1, sizeof *places->point))
+        return SUNDER_I_NO_PLACE;
+    places->point[places->n] = *p;
+    return (uint32_t)places->n++;
 }
 
 uint32_t sunder_i_places_add(sunder_i_places *places, const sunder_i_hpoint *p)
 {
     const uint32_t known = find_near(places, p);
     if (known != SUNDER_I_NO_PLACE) return known;
-    if (2 * (places->n + 1) > places->mask + 1 && !make_table(places, 2 * places->n)) return SUNDER_I_NO_PLACE;
-    if (!sunder_i_reserve(&places->point, &places->capacity, places->n + 1, sizeof *places->point))
-        return SUNDER_I_NO_PLACE;
-    places->point[places->n] = *p;
-    insert(places, (uint32_t)places->n);
-    return (uint32_t)places->n++;
+    if (2 * (places->entered + 1) > places->mask + 1) {
+        if (!make_table(places, 2 * places->n)) return SUNDER_I_NO_PLACE;
+        places->entered = places->n;
+    }
+    const uint32_t number = sunder_i_places_append(places, p);
+    if (number == SUNDER_I_NO_PLACE) return number;
+    insert(places, number);
+    places->entered++;
+    return number;
 }
 
 void sunder_i_places_free(sunder_i_places *places)
