@@ -11,15 +11,16 @@
  *
  * Few pieces alone are not the aim, nor are short diagonals: a long diagonal of P is paid k_Q times, one more piece
  * of P as often as Q is long. With Q fixed, c is a constant plus, for each diagonal of P, its length times 2 k_Q
- * plus b_Q + 2 d_Q: the weights of optimal.c's dynamic programming, which finds the best P for this Q. The two are
- * solved in turn, from the fewest pieces on, until c falls no further: a local minimum of c in both, never worse
- * than the optimal decompositions are (where both can be computed). Members with holes, or of too many vertices,
- * have the triangulation's diagonals taken away, longest first, once.
+ * plus b_Q + 2 d_Q: the weights of optimal.c's dynamic programming, which finds the best P for this Q (or nearly:
+ * see there). The two are solved in turn, from the fewest pieces on, until c falls no further: a local minimum of c
+ * in both, never worse than the optimal decompositions are (where both can be computed). Members with holes, or of
+ * too many vertices, have the triangulation's diagonals taken away, longest first, once.
  *
  * Lengths are doubles: they choose among exact decompositions. */
 #include "decomposition/maker.h"
 
 #include <math.h>
+#include <string.h>
 
 #define ROUNDS 8 /* it settles in two or three */
 
@@ -92,15 +93,25 @@ static bool solve(side *s, double each, double by_length)
     return true;
 }
 
+static double objective(const side *p, const side *q) { return q->pieces * p->perimeters + p->pieces * q->perimeters; }
+
 static bool solve_both(side *p, side *q)
 {
+    double weight[2][2] = {{1, 0}, {1, 0}}; /* of p and of q: each, by length */
     if (!solve(p, 1, 0) || !solve(q, 1, 0)) return false;
-    double cost = q->pieces * p->perimeters + p->pieces * q->perimeters;
+    double least = objective(p, q);
     for (int i = 0; i < ROUNDS; i++) {
-        if (!solve(p, q->perimeters, 2 * q->pieces) || !solve(q, p->perimeters, 2 * p->pieces)) return false;
-        const double now = q->pieces * p->perimeters + p->pieces * q->perimeters;
-        if (!(now < cost)) break;
-        cost = now;
+        const double for_p[2] = {q->perimeters, 2 * q->pieces};
+        if (!solve(p, for_p[0], for_p[1])) return false;
+        const double for_q[2] = {p->perimeters, 2 * p->pieces};
+        if (!solve(q, for_q[0], for_q[1])) return false;
+        const double now = objective(p, q);
+        /* Back to the best, by the weights that led there. */
+        if (now > least) return solve(p, weight[0][0], weight[0][1]) && solve(q, weight[1][0], weight[1][1]);
+        if (now == least) break;
+        least = now;
+        memcpy(weight[0], for_p, sizeof for_p);
+        memcpy(weight[1], for_q, sizeof for_q);
     }
     return true;
 }

@@ -14,7 +14,9 @@
  * in the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is
  * kept of it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's
  * first link matters too, since the angle at i from there to j must not exceed pi: later first links are better, and
- * what is kept are the chains that no other beats in both (a front).
+ * what is kept are the chains that no other beats in both (a front). Where each
+ * diagonal weighs one, a chain to u that is not lighter than the link (i, u) itself is beaten by that, so fronts are
+ * short. With other weights fronts are cut off at FRONT_MOST, and the result may not quite be the least.
  *
  * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
  *
@@ -31,6 +33,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Where weights differ, fronts may grow long: as many as a vertex sees. The lightest are kept, and the link alone. */
+#define FRONT_MOST 8
 
 /* A convex chain that starts at the vertex in hand: its last link arrives from `from`; `before` is the chain without
  * it. */
@@ -51,6 +56,7 @@ struct sunder_i_program {
     chain *chain; /* grows */
     uint32_t chains;
     size_t chain_room;
+    uint32_t *least;                      /* [n] see least_start(); NONE: not asked yet */
     uint32_t *head, *tail;                /* [n] chains that arrive at each vertex */
     uint32_t pieces, *piece_end, *corner; /* of the last solution */
     uint32_t *front;                      /* kept chains at one vertex; grows */
@@ -159,6 +165,7 @@ sunder_i_program *sunder_i_program_new(sunder_i_maker *m, const sunder_i_member 
     p->first = member->first;
     p->n = member->n;
     p->reflex = sunder_i_arena_alloc(arena, p->n, sizeof *p->reflex);
+    p->least = sunder_i_arena_alloc(arena, p->n, sizeof *p->least);
     p->head = sunder_i_arena_alloc(arena, p->n, sizeof *p->head);
     p->tail = sunder_i_arena_alloc(arena, p->n, sizeof *p->tail);
     p->piece_end = sunder_i_arena_alloc(arena, p->n, sizeof *p->piece_end);
@@ -216,18 +223,47 @@ static uint32_t front_add(sunder_i_program *p, uint32_t n, uint32_t c)
         p->m->scratch.failed = true;
         return kept;
     }
+    if (kept >= FRONT_MOST && p->by_length > 0) {
+        uint32_t heaviest = SUNDER_I_NONE;
+        for (uint32_t k = 0; k < kept; k++) {
+            const chain *old = &p->chain[p->front[k]];
+            if (old->before == SUNDER_I_NONE) continue; /* the link alone may be all that can go on */
+            if (heaviest == SUNDER_I_NONE || old->weight > p->chain[p->front[heaviest]].weight) heaviest = k;
+        }
+        if (p->chain[p->front[heaviest]].weight > now->weight) p->front[heaviest] = c;
+        return kept;
+    }
     p->front[kept++] = c;
     return kept;
+}
+
+/* The least first link of chains from i that may go on to v: later ones leave an angle of at most pi at i. By
+ * halving, since the vertices linked to i stand in the order of their angles; a vertex that i does not see may get
+ * any answer, for no chain through it can be closed. */
+static uint32_t least_start(sunder_i_program *p, uint32_t i, uint32_t v)
+{
+    if (!p->reflex[i]) return 0;
+    if (p->least[v] != SUNDER_I_NONE) return p->least[v];
+    uint32_t lo = p->up_first[i], hi = p->up_first[i + 1];
+    while (lo < hi) {
+        const uint32_t middle = lo + (hi - lo) / 2;
+        if (p->up[middle] >= v || turn(p, v, i, p->up[middle]) >= 0)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    return p->least[v] = lo < p->up_first[i + 1] ? p->up[lo] : v;
 }
 
 /* The chains of the front go on from u over link e. */
 static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint32_t n)
 {
     const uint32_t v = p->up[e];
-    if (n == 0 || (u != i && turn(p, u, v, i) < 0)) return true;
+    if (n == 0 || turn(p, u, v, i) < 0) return true;
+    const uint32_t least = least_start(p, i, v);
     for (uint32_t k = 0; k < n; k++) {
         const chain *c = &p->chain[p->front[k]];
-        if (p->reflex[i] && turn(p, v, i, c->start) < 0) continue;
+        if (c->start < least) continue;
         const chain longer = {c->weight + p->within[e] + weight_of(p, u, e), u, c->start, p->front[k], SUNDER_I_NONE};
         if (!add_chain(p, v, longer)) return false;
     }
@@ -248,7 +284,7 @@ static uint32_t lightest(const sunder_i_program *p, uint32_t u)
 static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
 {
     p->chains = 0;
-    for (uint32_t v = i; v <= last; v++) p->head[v] = SUNDER_I_NONE;
+    for (uint32_t v = i; v <= last; v++) p->head[v] = p->least[v] = SUNDER_I_NONE;
     uint32_t link = p->up_first[i];
     const uint32_t link_end = p->up_first[i + 1];
     for (uint32_t u = i + 1; u < last; u++) {
