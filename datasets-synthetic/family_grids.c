@@ -21,27 +21,27 @@ void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_st
     }
 }
 
-/* blocks and long bars + a ladder of plates: the sum of a block and a plate is nearly a square, and small; that of a bar and a
- * plate is long, thin by any measure of shape, and covers the whole row of those squares. All rows together leave no gap,
- * so the sum has order m + n vertices.
+/* blocks and long bars + a ladder of plates: the sum of a block and a plate is stout, and overlaps its neighbours in the row a
+ * little; that of a bar and a plate is long, thin by any measure of shape, and covers the whole row of those. All rows
+ * together leave no gap, so the sum has order m + n vertices.
  *
- * Stoutest first inserts the m n / 2 squares, one beside the other, before the first bar buries them. A random order has a
+ * Stoutest first arranges the m n / 32 blocks, each with its neighbours, before the first bar buries them. A random order has a
  * bar in each row after two insertions there, on average, and finds the rest covered. */
 void family_fat_cover(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
-    enum { PITCH = 2000, BLOCK = 1200 };
-    const size_t half = at_least_one(m / 8), bars = at_least_one(m / 4 - half), rows = at_least_one(n / 4);
-    const int64_t length = (int64_t)(half + 1) * PITCH;
-    for (size_t i = 0; i < half; i++) {
+    enum { PITCH = 2000, BLOCK = 2600, PLATE = 1200, BAR = PITCH - PLATE + 100, EDGE = 300 };
+    const size_t blocks = at_least_one(m / 8), bars = at_least_one(m / 4 - blocks), rows = at_least_one(n / 4);
+    const int64_t length = (int64_t)(blocks + 1) * PITCH;
+    for (size_t i = 0; i < blocks; i++) {
         const int64_t x = (int64_t)(i + 1) * PITCH - BLOCK / 2 + family_integer(&streams->p, -200, 200);
-        const int64_t y = family_integer(&streams->p, 50, 100);
-        family_rectangle(p, x, y, x + BLOCK, y + family_integer(&streams->p, 20, 50));
+        const int64_t y = family_integer(&streams->p, 0, 400);
+        family_rectangle(p, x, y, x + BLOCK, y + family_integer(&streams->p, 50, 400));
     }
     for (size_t i = 0; i < bars; i++)
-        family_rectangle(p, -family_integer(&streams->p, 1, 500), -family_integer(&streams->p, 1, 500),
-                         length + family_integer(&streams->p, 1, 500), PITCH + family_integer(&streams->p, 1, 500));
+        family_rectangle(p, -family_integer(&streams->p, 1, EDGE), -family_integer(&streams->p, 1, EDGE),
+                         length + family_integer(&streams->p, 1, EDGE), BAR + family_integer(&streams->p, 1, EDGE));
     for (size_t i = 0; i < rows; i++) {
         const int64_t y = (int64_t)i * PITCH;
-        family_rectangle(q, family_integer(&streams->q, -50, -20), y, family_integer(&streams->q, 20, 50), y + BLOCK);
+        family_rectangle(q, family_integer(&streams->q, -50, -20), y, family_integer(&streams->q, 20, 50), y + PLATE);
     }
 }
