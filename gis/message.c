@@ -1,5 +1,6 @@
-/* message.c: one line a message. Texts from elsewhere (a driver, the core) may hold line breaks; a script that reads
- * stderr line by line must still see one message as one line. */
+/* message.c: one line a message. Texts from elsewhere (a driver, a broken file) may hold line breaks and other control
+ * characters; a script that reads stderr line by line must still see one message as one line, and a terminal must not
+ * be told what to do by a file. */
 #include "message.h"
 
 #include <stdarg.h>
@@ -10,7 +11,7 @@ static void print_line(const char *kind, const char *text)
     fflush(stdout); /* so that the order is right where both go to one terminal */
     fprintf(stderr, "sunder: %s: ", kind);
     for (const char *c = text; *c; c++)
-        fputc(*c == '\n' || *c == '\r' ? ' ' : *c, stderr);
+        fputc((unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c, stderr);
     fputc('\n', stderr);
 }
 

@@ -29,6 +29,9 @@ both 'broken.gpkg' broken.gpkg
 ogr2ogr whole.geojson in.gpkg
 head -c 400 whole.geojson >cut.geojson
 both 'cut.geojson' cut.geojson
+escape=$(printf 'no\033[31m\013such.gpkg')
+both 'such.gpkg' "$escape"
+if LC_ALL=C grep -q '[[:cntrl:]]' err; then fail "control characters in a message"; fi
 : >nothing.geojson
 both 'nothing.geojson' nothing.geojson
 for part in shx shp dbf; do # a Shapefile in part
