@@ -172,7 +172,7 @@ static const char *check_history(sunder_i_planar_map *map, uint32_t t)
         p[1] = a[1];
         p[2] = a[2];
     }
-    const sunder_i_site site = sunder_i_site_of(map, p, s);
+    const sunder_i_site site = sunder_i_site_of(map, p);
     const char *wrong = NULL;
     if (z->bottom != NOWHERE && sunder_i_site_side(map, &map->line[map->edge[z->bottom].line], &site) < 0)
         wrong = "a point between the walls of a trapezoid is below its bottom";

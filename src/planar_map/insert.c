@@ -14,15 +14,19 @@
  * edges: split. Ends at vertices: equal sites. Nothing is ever found by being near. */
 #include "planar_map/map.h"
 
-uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site)
+uint32_t sunder_i_map_vertex_in(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site)
 {
-    if (sunder_i_map_broken(map)) return NOWHERE;
-    const uint32_t t = sunder_i_history_find(map, site);
     const sunder_i_trapezoid *z = &map->trapezoid[t];
     if (z->left != NOWHERE && sunder_i_site_cmp(map, &map->vertex[z->left].site, site) == 0) return z->left;
     if (z->bottom != NOWHERE && sunder_i_site_side(map, &map->line[map->edge[z->bottom].line], site) == 0)
         return sunder_i_edge_split(map, z->bottom, site, t);
     return sunder_i_edge_isolated(map, t, site);
+}
+
+uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site)
+{
+    if (sunder_i_map_broken(map)) return NOWHERE;
+    return sunder_i_map_vertex_in(map, sunder_i_history_find(map, site), site);
 }
 
 /* Where a piece ends. */
@@ -42,29 +46,31 @@ typedef struct crossing_cache {
 
 static const sunder_i_map_line *line_of(sunder_i_planar_map *map, uint32_t e) { return &map->line[map->edge[e].line]; }
 
-static const sunder_i_site *crossing(sunder_i_planar_map *map, uint32_t e, uint32_t line, crossing_cache *cache)
+static const sunder_i_site *crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_map_line *line,
+                                     crossing_cache *cache)
 {
     if (cache->edge != e) {
         cache->edge = e;
-        cache->site = sunder_i_line_crossing(map, line_of(map, e), &map->line[line], &map->scratch);
+        cache->site = sunder_i_line_crossing(map, line_of(map, e), line, &map->scratch);
     }
     return &cache->site;
 }
 
 /* The segment goes past the right wall of t, whose vertex lies above it (above = true) or below. Can it leave by the
  * edge e on its other side (the bottom, or the top) before the wall? At the wall it is beyond that edge, or is not. */
-static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, uint32_t line, bool above,
+static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, const sunder_i_map_line *line, bool above,
                            crossing_cache *cache)
 {
     if (e == NOWHERE) return false;
     const uint32_t end = map->edge[e].end[1], wall = map->trapezoid[t].right;
     if (end == wall) return true; /* the edge ends on the vertex's side of the segment */
-    const int side = sunder_i_site_side(map, &map->line[line], &map->vertex[end].site);
+    const int side = sunder_i_site_side(map, line, &map->vertex[end].site);
     if (side != (above ? 1 : -1)) return false;
     return sunder_i_site_cmp(map, crossing(map, e, line, cache), &map->vertex[wall].site) < 0;
 }
 
-static void stop_crossing(sunder_i_planar_map *map, uint32_t e, uint32_t line, crossing_cache *cache, stop *s)
+static void stop_crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_map_line *line, crossing_cache *cache,
+                          stop *s)
 {
     s->kind = ON_EDGE;
     s->id = e;
@@ -73,8 +79,8 @@ static void stop_crossing(sunder_i_planar_map *map, uint32_t e, uint32_t line, c
 }
 
 /* The target lies left of the right wall of t: where is the segment's next stop? */
-static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, uint32_t line,
-                             crossing_cache *cache, stop *s)
+static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target,
+                             const sunder_i_map_line *line, crossing_cache *cache, stop *s)
 {
     const uint32_t bottom = map->trapezoid[t].bottom, top = map->trapezoid[t].top;
     *s = (stop){.kind = INSIDE, .id = NOWHERE, .site = *target, .done = true};
@@ -97,7 +103,8 @@ static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_
 
 /* Follows the segment from trapezoid t, in which it begins at the left wall's vertex, to its next stop; the trapezoids
  * that it runs through are in map->crossed. */
-static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, uint32_t line, stop *s)
+static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, const sunder_i_map_line *line,
+                   stop *s)
 {
     crossing_cache low = {.edge = NOWHERE}, high = {.edge = NOWHERE};
     map->crossed.n = 0;
@@ -111,7 +118,7 @@ static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *ta
             stop_before_wall(map, t, target, line, cache, s);
             return true;
         }
-        const int side = c == 0 ? 0 : sunder_i_site_side(map, &map->line[line], &map->vertex[z->right].site);
+        const int side = c == 0 ? 0 : sunder_i_site_side(map, line, &map->vertex[z->right].site);
         if (side == 0) {
             *s = (stop){.kind = AT_VERTEX, .id = z->right, .done = c == 0};
             return true;
@@ -123,6 +130,27 @@ static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *ta
             return true;
         }
         t = side > 0 ? z->rl : z->ru;
+    }
+}
+
+bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_site *target,
+                        const sunder_i_map_line *line, sunder_i_list *list)
+{
+    for (;;) {
+        const sunder_i_trapezoid *z = &map->trapezoid[*t];
+        const int c = z->right == NOWHERE ? -1 : sunder_i_site_cmp(map, target, &map->vertex[z->right].site);
+        if (c < 0)
+            return (z->bottom == NOWHERE || sunder_i_site_side(map, line_of(map, z->bottom), target) > 0) &&
+                   (z->top == NOWHERE || sunder_i_site_side(map, line_of(map, z->top), target) < 0);
+        const int side = c == 0 ? 0 : sunder_i_site_side(map, line, &map->vertex[z->right].site);
+        if (side == 0) return false;
+        crossing_cache cache = {.edge = NOWHERE};
+        const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
+        const bool leaves = leaves_by_edge(map, *t, side > 0 ? z->bottom : z->top, line, side > 0, &cache);
+        sunder_i_arena_release(&map->scratch, mark);
+        if (leaves) return false;
+        *t = side > 0 ? z->rl : z->ru;
+        if (!sunder_i_map_push(map, list, *t << 1 | (side > 0))) return false;
     }
 }
 
@@ -164,7 +192,7 @@ uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_
             map->edge[e].sides[1] += down;
         } else {
             stop s;
-            if (!follow(map, t, target, line, &s)) return NOWHERE;
+            if (!follow(map, t, target, &map->line[line], &s)) return NOWHERE;
             done = s.done;
             w = vertex_at_stop(map, &s);
             if (w == NOWHERE) return NOWHERE;
@@ -184,7 +212,7 @@ sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, const s
 {
     sunder_i_map_drop_faces(map);
     map->marked = false;
-    const sunder_i_site site = sunder_i_site_of(map, at, &map->arena);
+    const sunder_i_site given = sunder_i_site_of(map, at), site = sunder_i_site_copy(&given, &map->arena);
     const uint32_t v = sunder_i_map_vertex_at(map, &site);
     if (sunder_i_map_broken(map) || v == NOWHERE) return sunder_i_no_memory(err);
     map->vertex[v].below += below;
@@ -198,10 +226,11 @@ sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, const
 {
     sunder_i_map_drop_faces(map);
     map->marked = false;
-    const sunder_i_site p = sunder_i_site_of(map, a, &map->arena), q = sunder_i_site_of(map, b, &map->arena);
+    const sunder_i_site pa = sunder_i_site_of(map, a), p = sunder_i_site_copy(&pa, &map->arena);
+    const sunder_i_site qb = sunder_i_site_of(map, b), q = sunder_i_site_copy(&qb, &map->arena);
     const bool forward = sunder_i_site_cmp(map, &p, &q) < 0;
     const sunder_i_site *from = forward ? &p : &q, *to = forward ? &q : &p;
-    const sunder_i_map_line through = sunder_i_line_through(map, from, to, NULL);
+    const sunder_i_map_line through = sunder_i_line_through(map, from, to, NULL, &map->arena);
     if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
     const uint32_t line = sunder_i_map_new_line(map, &through);
     const uint32_t v = line == NOWHERE ? NOWHERE : sunder_i_map_vertex_at(map, from);

@@ -5,7 +5,7 @@ sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, const sunder_
                                          sunder_error *err)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
-    const sunder_i_site site = sunder_i_site_of(map, at, &map->scratch);
+    const sunder_i_site site = sunder_i_site_of(map, at);
     if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
     const uint32_t t = sunder_i_history_find(map, &site);
     const sunder_i_trapezoid *z = &map->trapezoid[t];

@@ -63,12 +63,12 @@ static bool grow(void *array, size_t *capacity, uint32_t used, size_t more, size
 
 bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, size_t trapezoids, size_t nodes)
 {
-    /* Half-edges are 32 bits, vertices in the history 30. */
+    /* Half-edges are 32 bits, vertices in the history 30, trapezoids with a flag 32. */
     const size_t most = (size_t)1 << 30;
     if (!grow(&map->vertex, &map->vertex_capacity, map->vertices, vertices, sizeof *map->vertex, most) ||
         !grow(&map->edge, &map->edge_capacity, map->edges, edges, sizeof *map->edge, most) ||
         !grow(&map->trapezoid, &map->trapezoid_capacity, map->trapezoids, trapezoids, sizeof *map->trapezoid,
-              4 * most - 2) ||
+              2 * most - 1) ||
         !grow(&map->node, &map->node_capacity, map->nodes, nodes, sizeof *map->node, 4 * most - 2))
         map->failed = true;
     return !map->failed;
@@ -250,3 +250,10 @@ void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size 
                  map->line_capacity * sizeof *map->line + map->trapezoid_capacity * sizeof *map->trapezoid +
                  map->node_capacity * sizeof *map->node + map->number_bytes;
 }
+
+int sunder_i_planar_map_turn(sunder_i_planar_map *map, uint32_t e, uint32_t f)
+{
+    return sunder_i_line_turn(map, &map->line[map->edge[e].line], &map->line[map->edge[f].line]);
+}
+
+bool sunder_i_planar_map_failed(sunder_i_planar_map *map) { return sunder_i_map_broken(map); }

@@ -140,11 +140,15 @@ int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, con
 /* Where two lines that are not parallel cross; in the arena given. */
 sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g,
                                      sunder_i_arena *arena);
-/* The site of a point, its numbers copied to the arena. */
-sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at, sunder_i_arena *arena);
-/* The line through p and q, p < q; with along != NULL its direction is that of the lattice vector or its reverse. */
+/* The site of a point; its numbers stay where they are. */
+sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at);
+/* The line through p and q, p < q, its numbers in the arena given; with along != NULL its direction is that of the
+ * lattice vector or its reverse. */
 sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
-                                        const sunder_i_point *along);
+                                        const sunder_i_point *along, sunder_i_arena *arena);
+/* The same with numbers of its own. */
+sunder_i_site sunder_i_site_copy(const sunder_i_site *from, sunder_i_arena *arena);
+sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_arena *arena);
 
 /* ---- map.c ---- */
 
@@ -225,6 +229,13 @@ void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* mergeab
 
 /* The vertex at a site (numbers in map->arena), made where there is none. NOWHERE if memory is out. */
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site);
+/* The same in the trapezoid that the history leads to. */
+uint32_t sunder_i_map_vertex_in(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site);
+/* Follows the segment from a point inside trapezoid *t, or at its left wall, to a site further right, drawing nothing;
+ * for each trapezoid entered 2 * its id + (is it below the wall's vertex that it is entered?) goes to the list, and *t
+ * is the last one. False at the first vertex or edge in the way. */
+bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_site *target,
+                        const sunder_i_map_line *line, sunder_i_list *list);
 /* Walks from vertex v to a site to the right of it (whose numbers are in map->arena), along the line through both, and
  * draws the edges; returns the vertex there. up, down: regions that end here from above and from below. record: edges
  * go to map->ring, as the half-edges with the region on their left. */
@@ -242,8 +253,10 @@ bool sunder_i_map_remove_covered(sunder_i_planar_map *map);
 
 /* ---- polygon.c, mark.c ---- */
 
+/* insert_polygon(), for unite_polygon(): the map is clean and counts are right. Then a polygon that a covered face
+ * contains is left out, and map->ring is empty; else it holds the polygon's boundary. */
 sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along,
-                                   size_t n, bool record, sunder_error *err);
+                                   size_t n, bool unite, sunder_error *err);
 /* What lies across walls from t, and across edges where t is the leftmost one along them: n of at most 6. step[i] is
  * covered(to[i]) - covered(t) as the sides say. With stop != 0, edges of that stamp are not crossed. */
 size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t stop, uint32_t to[6], int64_t step[6]);

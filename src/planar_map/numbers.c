@@ -139,10 +139,9 @@ static void approximate(sunder_i_planar_map *map, sunder_i_site *s)
     sunder_i_arena_release(&map->scratch, mark);
 }
 
-sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at, sunder_i_arena *arena)
+sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at)
 {
-    sunder_i_site s;
-    for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_copy(arena, at[i]);
+    sunder_i_site s = {.at = {at[0], at[1], at[2]}};
     approximate(map, &s);
     return s;
 }
@@ -186,7 +185,7 @@ static sunder_i_big lattice_big(sunder_i_planar_map *map, int64_t n)
 }
 
 sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
-                                        const sunder_i_point *along)
+                                        const sunder_i_point *along, sunder_i_arena *arena)
 {
     sunder_i_arena *s = &map->scratch;
     const sunder_i_mark mark = sunder_i_arena_mark(s);
@@ -216,7 +215,21 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     const sunder_i_big one = sunder_i_big_i64(s, 1);
     line.a = sunder_i_big_ratio(s, abc[0], one, -bits);
     line.b = sunder_i_big_ratio(s, abc[1], one, -bits);
-    for (int i = 0; i < 3; i++) line.abc[i] = sunder_i_big_copy(&map->arena, abc[i]);
-    sunder_i_arena_release(s, mark);
+    for (int i = 0; i < 3; i++) line.abc[i] = arena == s ? abc[i] : sunder_i_big_copy(arena, abc[i]);
+    if (arena != s) sunder_i_arena_release(s, mark);
     return line;
+}
+
+sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_arena *arena)
+{
+    sunder_i_map_line line = *from;
+    for (int i = 0; i < 3; i++) line.abc[i] = sunder_i_big_copy(arena, from->abc[i]);
+    return line;
+}
+
+sunder_i_site sunder_i_site_copy(const sunder_i_site *from, sunder_i_arena *arena)
+{
+    sunder_i_site site = *from;
+    for (int i = 0; i < 3; i++) site.at[i] = sunder_i_big_copy(arena, from->at[i]);
+    return site;
 }

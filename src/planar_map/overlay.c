@@ -14,17 +14,9 @@ static uint64_t draw(uint64_t *state)
     return z ^ (z >> 31);
 }
 
-static sunder_i_site copied_site(sunder_i_planar_map *map, const sunder_i_site *from)
-{
-    sunder_i_site s = *from;
-    for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_copy(&map->arena, from->at[i]);
-    return s;
-}
-
 static uint32_t copied_line(sunder_i_planar_map *map, const sunder_i_map_line *from)
 {
-    sunder_i_map_line l = *from;
-    for (int i = 0; i < 3; i++) l.abc[i] = sunder_i_big_copy(&map->arena, from->abc[i]);
+    const sunder_i_map_line l = sunder_i_line_copy(from, &map->arena);
     return sunder_i_map_broken(map) ? NOWHERE : sunder_i_map_new_line(map, &l);
 }
 
@@ -36,7 +28,7 @@ typedef struct names {
 static uint32_t vertex_here(sunder_i_planar_map *map, const sunder_i_planar_map *of, names *n, uint32_t v)
 {
     if (n->vertex[v] == NOWHERE) {
-        const sunder_i_site site = copied_site(map, &of->vertex[v].site);
+        const sunder_i_site site = sunder_i_site_copy(&of->vertex[v].site, &map->arena);
         n->vertex[v] = sunder_i_map_vertex_at(map, &site);
     }
     return n->vertex[v];
@@ -50,7 +42,7 @@ static bool add_edge(sunder_i_planar_map *map, const sunder_i_planar_map *of, na
     if (v == NOWHERE || line == NOWHERE) return false;
     const uint32_t known = n->vertex[edge->end[1]];
     const sunder_i_site target =
-        known != NOWHERE ? map->vertex[known].site : copied_site(map, &of->vertex[edge->end[1]].site);
+        known != NOWHERE ? map->vertex[known].site : sunder_i_site_copy(&of->vertex[edge->end[1]].site, &map->arena);
     if (sunder_i_map_broken(map)) return false;
     const uint32_t w = sunder_i_map_walk(map, v, &target, line, edge->sides[0], edge->sides[1], false);
     n->vertex[edge->end[1]] = w;

@@ -140,6 +140,11 @@ uint32_t sunder_i_planar_map_left_covered(const sunder_i_planar_map *map, uint32
  * fixed. */
 void sunder_i_planar_map_line(const sunder_i_planar_map *map, uint32_t h, sunder_i_big line[3]);
 
+/* Is edge f steeper than edge e (+1), or less steep (-1), or parallel to it (0)? In the sheared order. */
+int sunder_i_planar_map_turn(sunder_i_planar_map *map, uint32_t e, uint32_t f);
+/* Has memory run out in a question about the map since? Answers are then worth nothing. */
+bool sunder_i_planar_map_failed(sunder_i_planar_map *map);
+
 /* ---- Looking: faces ---- */
 
 /* Finds the faces; lasts until the map changes, and the functions below may be called only until then. Linear.

@@ -3,58 +3,120 @@
  * the vertices that lie inside the upper chain and no others of its boundary. */
 #include "planar_map/map.h"
 
-typedef struct chain {
-    const sunder_i_site *site; /* the corners' */
-    const sunder_i_point *along;
-    size_t n;
-    bool upper, record;
-} chain;
+typedef struct boundary {
+    size_t n, least, most;
+    sunder_i_site *site;     /* numbers are the caller's, later the map's */
+    sunder_i_map_line *line; /* of side i, from corner i to the next; in the scratch arena. Empty sides have none */
+    bool *empty;
+    bool unite;
+} boundary;
 
-static bool walk_chain(sunder_i_planar_map *map, const chain *c, uint32_t v, size_t from, size_t to)
+/* The corner after i along a chain, and the side between the two. */
+static size_t step(const boundary *b, bool upper, size_t i, size_t *side)
 {
-    for (size_t i = from; i != to;) {
-        const size_t j = c->upper ? (i + c->n - 1) % c->n : (i + 1) % c->n;
-        const bool empty = sunder_i_site_cmp(map, &c->site[i], &c->site[j]) == 0;
-        if (!empty) {
-            const sunder_i_point *along = c->along ? &c->along[c->upper ? j : i] : NULL;
-            const sunder_i_map_line through = sunder_i_line_through(map, &c->site[i], &c->site[j], along);
+    const size_t j = upper ? (i + b->n - 1) % b->n : (i + 1) % b->n;
+    *side = upper ? j : i;
+    return j;
+}
+
+static bool prepare(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along, boundary *b)
+{
+    b->site = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->site);
+    b->line = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->line);
+    b->empty = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->empty);
+    if (!b->site || !b->line || !b->empty) return false;
+    b->least = b->most = 0;
+    for (size_t i = 0; i < b->n; i++) b->site[i] = sunder_i_site_of(map, corner[i]);
+    for (size_t i = 1; i < b->n; i++) {
+        if (sunder_i_site_cmp(map, &b->site[i], &b->site[b->least]) < 0) b->least = i;
+        if (sunder_i_site_cmp(map, &b->site[i], &b->site[b->most]) > 0) b->most = i;
+    }
+    for (size_t i = 0; i < b->n; i++) {
+        const sunder_i_site *p = &b->site[i], *q = &b->site[(i + 1) % b->n];
+        const int c = sunder_i_site_cmp(map, p, q);
+        b->empty[i] = c == 0;
+        if (c != 0)
+            b->line[i] = c < 0 ? sunder_i_line_through(map, p, q, along ? &along[i] : NULL, &map->scratch)
+                               : sunder_i_line_through(map, q, p, along ? &along[i] : NULL, &map->scratch);
+    }
+    return !sunder_i_map_broken(map);
+}
+
+/* ---- A polygon inside a covered face ---- */
+
+static bool glide_chain(sunder_i_planar_map *map, const boundary *b, bool upper, uint32_t t, sunder_i_list *list)
+{
+    list->n = 0;
+    for (size_t i = b->least, side; i != b->most;) {
+        const size_t j = step(b, upper, i, &side);
+        if (!b->empty[side] && !sunder_i_map_glide(map, &t, &b->site[j], &b->line[side], list)) return false;
+        i = j;
+    }
+    return true;
+}
+
+/* Does the polygon change nothing? So it is if its smallest corner, in trapezoid t, is strictly inside a covered face,
+ * and both chains go through the same trapezoids without meeting a vertex or an edge: then these contain it. (It may
+ * change nothing in other cases too; those are for the cleaning to find out.) */
+static bool is_redundant(sunder_i_planar_map *map, const boundary *b, uint32_t t)
+{
+    const sunder_i_trapezoid *z = &map->trapezoid[t];
+    const sunder_i_site *first = &b->site[b->least];
+    if (z->covered == 0 || (z->left != NOWHERE && sunder_i_site_cmp(map, &map->vertex[z->left].site, first) == 0) ||
+        (z->bottom != NOWHERE && sunder_i_site_side(map, &map->line[map->edge[z->bottom].line], first) == 0))
+        return false;
+    return glide_chain(map, b, false, t, &map->above) && glide_chain(map, b, true, t, &map->beneath) &&
+           map->above.n == map->beneath.n &&
+           (map->above.n == 0 ||
+            memcmp(map->above.item, map->beneath.item, map->above.n * sizeof *map->above.item) == 0);
+}
+
+/* ---- Drawing it ---- */
+
+static bool walk_chain(sunder_i_planar_map *map, const boundary *b, bool upper, uint32_t v)
+{
+    for (size_t i = b->least, side; i != b->most;) {
+        const size_t j = step(b, upper, i, &side);
+        if (!b->empty[side]) {
+            const sunder_i_map_line kept = sunder_i_line_copy(&b->line[side], &map->arena);
             if (sunder_i_map_broken(map)) return false;
-            const uint32_t line = sunder_i_map_new_line(map, &through);
+            const uint32_t line = sunder_i_map_new_line(map, &kept);
             if (line == NOWHERE) return false;
-            v = sunder_i_map_walk(map, v, &c->site[j], line, !c->upper, c->upper, c->record);
+            v = sunder_i_map_walk(map, v, &b->site[j], line, !upper, upper, b->unite);
             if (v == NOWHERE) return false;
-            if (c->upper && sunder_i_site_cmp(map, &c->site[j], &c->site[to]) != 0) map->vertex[v].below++;
+            if (upper && sunder_i_site_cmp(map, &b->site[j], &b->site[b->most]) != 0) map->vertex[v].below++;
         }
         i = j;
     }
     return true;
 }
 
+static bool draw(sunder_i_planar_map *map, boundary *b, uint32_t t)
+{
+    for (size_t i = 0; i < b->n; i++) b->site[i] = sunder_i_site_copy(&b->site[i], &map->arena);
+    if (sunder_i_map_broken(map)) return false;
+    const uint32_t v = sunder_i_map_vertex_in(map, t, &b->site[b->least]);
+    return v != NOWHERE && walk_chain(map, b, false, v) && walk_chain(map, b, true, v);
+}
+
 sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along,
-                                   size_t n, bool record, sunder_error *err)
+                                   size_t n, bool unite, sunder_error *err)
 {
     sunder_i_map_drop_faces(map);
-    map->marked = false;
     map->ring.n = 0;
-    sunder_i_site *site = sunder_i_alloc(n, sizeof *site);
-    if (!site) {
+    const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
+    boundary b = {.n = n, .unite = unite};
+    if (prepare(map, corner, along, &b)) {
+        const uint32_t t = sunder_i_history_find(map, &b.site[b.least]);
+        if (!unite || !is_redundant(map, &b, t)) {
+            map->marked = false;
+            if (!sunder_i_map_broken(map) && !draw(map, &b, t)) map->failed = true;
+        }
+    } else
         map->failed = true;
-        return sunder_i_no_memory(err);
-    }
-    size_t least = 0, most = 0;
-    for (size_t i = 0; i < n; i++) site[i] = sunder_i_site_of(map, corner[i], &map->arena);
-    for (size_t i = 1; i < n && !sunder_i_map_broken(map); i++) {
-        if (sunder_i_site_cmp(map, &site[i], &site[least]) < 0) least = i;
-        if (sunder_i_site_cmp(map, &site[i], &site[most]) > 0) most = i;
-    }
-    chain c = {site, along, n, false, record};
-    const uint32_t v = sunder_i_map_vertex_at(map, &site[least]);
-    if (v != NOWHERE && walk_chain(map, &c, v, least, most)) {
-        c.upper = true;
-        walk_chain(map, &c, v, least, most);
-    }
-    sunder_i_free(site);
-    return sunder_i_map_status(map, err);
+    if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
+    sunder_i_arena_release(&map->scratch, mark);
+    return SUNDER_OK;
 }
 
 sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,

@@ -74,7 +74,7 @@ sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const 
                                                 const sunder_i_point *along, size_t n, sunder_error *err)
 {
     const sunder_status status = sunder_i_map_polygon(map, corner, along, n, true, err);
-    if (status != SUNDER_OK) return status;
+    if (status != SUNDER_OK || map->ring.n == 0) return status;
     if (!clean_ring(map) || !sunder_i_map_compact(map)) {
         map->failed = true;
         return sunder_i_no_memory(err);
