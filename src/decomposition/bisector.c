@@ -281,18 +281,7 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
     sunder_i_lattice *l = b->m->lattice;
     const sunder_i_rings *r = &b->m->rings;
     const sunder_i_point from = r->at[cut->from];
-    const sunder_i_hit hit = sunder_i_sight_shoot(&b->sight, cut->from, cut->toward);
-    if (hit.which == SUNDER_I_NONE) return false;
-    cut->at = hit.which;
-    if (hit.at_vertex) {
-        cut->end = SUNDER_I_AT_VERTEX;
-        cut->length = sunder_i_along(l, from, cut->toward, r->at[hit.which]);
-    } else {
-        const sunder_i_point a = r->at[hit.which], c = r->at[r->next[hit.which]];
-        cut->end = SUNDER_I_ON_EDGE;
-        cut->length = sunder_i_crossing(l, from, cut->toward, a, c);
-        cut->on = sunder_i_crossing(l, a, c, from, cut->toward);
-    }
+    if (!sunder_i_cut_run(cut, &b->sight)) return false;
     double box[4];
     hull(b, cut->from, cut->end, cut->at, box);
     for (uint32_t k = 0; k < b->cuts; k++) {

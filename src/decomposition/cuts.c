@@ -35,6 +35,26 @@ typedef struct subdivision {
     uint32_t *line;               /* [halves] */
 } subdivision;
 
+bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_sight *sight)
+{
+    const sunder_i_rings *r = sight->r;
+    sunder_i_lattice *l = r->lattice;
+    const sunder_i_point from = r->at[cut->from];
+    const sunder_i_hit hit = sunder_i_sight_shoot(sight, cut->from, cut->toward);
+    if (hit.which == SUNDER_I_NONE) return false;
+    cut->at = hit.which;
+    if (hit.at_vertex) {
+        cut->end = SUNDER_I_AT_VERTEX;
+        cut->length = sunder_i_along(l, from, cut->toward, r->at[hit.which]);
+        return true;
+    }
+    const sunder_i_point a = r->at[hit.which], b = r->at[r->next[hit.which]];
+    cut->end = SUNDER_I_ON_EDGE;
+    cut->length = sunder_i_crossing(l, from, cut->toward, a, b);
+    cut->on = sunder_i_crossing(l, a, b, from, cut->toward);
+    return true;
+}
+
 int sunder_i_around(sunder_i_lattice *l, sunder_i_point ref, sunder_i_point a, sunder_i_point b)
 {
     const sunder_i_point u[2] = {a, b};

@@ -109,6 +109,8 @@ typedef struct sunder_i_cut {
     sunder_i_fraction on;     /* where on the edge, or on the cut, in units of its vector; not of AT_VERTEX */
 } sunder_i_cut;
 
+/* From what the cut starts with, its end on the member's rings. False where memory is out. */
+bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_sight *sight);
 /* The pieces into which the cuts divide the member; none of them is reflex. */
 void sunder_i_cuts_apply(sunder_i_maker *m, const sunder_i_member *member, const sunder_i_cut *cut, uint32_t n);
 /* Order of a and b by counter-clockwise angle from the vector ref, in [0, 2 pi). */

@@ -21,23 +21,6 @@ static bool is_inside(const sunder_i_rings *r, uint32_t v, sunder_i_point d)
     return sunder_i_cross_sign(l, in, d) < 0 || sunder_i_cross_sign(l, d, out) < 0;
 }
 
-static bool finish_cut(const sunder_i_rings *r, sunder_i_cut *cut, sunder_i_hit hit)
-{
-    sunder_i_lattice *l = r->lattice;
-    const sunder_i_point from = r->at[cut->from];
-    if (hit.which == SUNDER_I_NONE) return false;
-    cut->at = hit.which;
-    if (hit.at_vertex) {
-        cut->end = SUNDER_I_AT_VERTEX;
-        return true;
-    }
-    cut->end = SUNDER_I_ON_EDGE;
-    const sunder_i_point a = r->at[hit.which], b = r->at[r->next[hit.which]];
-    cut->length = sunder_i_crossing(l, from, cut->toward, a, b);
-    cut->on = sunder_i_crossing(l, a, b, from, cut->toward);
-    return true;
-}
-
 void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
 {
     const sunder_i_rings *r = &m->rings;
@@ -55,10 +38,10 @@ void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
             const sunder_i_point along = k ? down : up;
             if (!is_inside(r, v, along)) continue;
             cut[n] = (sunder_i_cut){.from = v, .along = along, .toward = sunder_i_point_add(l, r->at[v], along)};
-            const sunder_i_hit hit = sunder_i_sight_shoot(&sight, v, cut[n].toward);
-            const bool twice = k && hit.at_vertex && hit.which != SUNDER_I_NONE && sunder_i_is_reflex(r, hit.which) &&
-                               is_inside(r, hit.which, up);
-            if (!twice && finish_cut(r, &cut[n], hit)) n++;
+            if (!sunder_i_cut_run(&cut[n], &sight)) continue;
+            const bool twice = k && cut[n].end == SUNDER_I_AT_VERTEX && sunder_i_is_reflex(r, cut[n].at) &&
+                               is_inside(r, cut[n].at, up);
+            if (!twice) n++;
         }
     }
     if (!sunder_i_maker_failed(m)) sunder_i_cuts_apply(m, member, cut, n);
