@@ -11,6 +11,7 @@
 
 typedef struct sum_run {
     const gis_options *options;
+    sunder_sum_options how;
     gis_operands operands;
     sunder_shape *reflected; /* -Q, with --reflect */
     sunder_sum *sum;
@@ -19,6 +20,48 @@ typedef struct sum_run {
     double max_deviation; /* of layers; NaN: none are written */
     double read, decompose, compute, write, start;
 } sum_run;
+
+/* The number of the word among the names of an enumeration, in which every choice of the option is found. */
+static unsigned choice(const char *word, const char *(*name)(unsigned))
+{
+    unsigned i = 0;
+    while (strcmp(name(i), word) != 0)
+        i++;
+    return i;
+}
+
+static const char *algorithm_name(unsigned i)
+{
+    return sunder_algorithm_string((sunder_algorithm)i);
+}
+
+static const char *decomposition_name(unsigned i)
+{
+    return sunder_decomposition_string((sunder_decomposition)i);
+}
+
+static const char *order_name(unsigned i)
+{
+    return sunder_order_string((sunder_order)i);
+}
+
+/* How the sum is to be made. The planar map is refused where nobody would see it, or nothing makes it. */
+static bool choose_road(sum_run *run, gis_error *error)
+{
+    const gis_options *options = run->options;
+    run->how.algorithm = (sunder_algorithm)choice(options->text[OPT_ALGORITHM], algorithm_name);
+    run->how.decomposition = (sunder_decomposition)choice(options->text[OPT_DECOMPOSITION], decomposition_name);
+    run->how.order = (sunder_order)choice(options->text[OPT_ORDER], order_name);
+    run->how.seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
+    run->how.keep_map = options->given[OPT_PLANAR_MAP];
+    if (!run->how.keep_map)
+        return true;
+    if (run->how.algorithm == SUNDER_CONVOLUTION)
+        return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
+    if (!options->operand[2] || strcmp(options->operand[2], "/vsistdout/") == 0)
+        return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
+    return true;
+}
 
 static bool compute(sum_run *run, gis_error *error)
 {
@@ -34,7 +77,9 @@ static bool compute(sum_run *run, gis_error *error)
         q = run->reflected;
         run->decompose += gis_clock() - begin;
     }
-    sunder_sum_options how = {.progress = gis_progress_call, .progress_user = &progress};
+    sunder_sum_options how = run->how;
+    how.progress = gis_progress_call;
+    how.progress_user = &progress;
     double begin = gis_clock();
     sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
     if (status != SUNDER_OK)
@@ -190,33 +235,51 @@ static void json_seconds(gis_json *out, const sum_run *run)
     gis_json_close(out, '}');
 }
 
+/* The convolution has no phases that count for themselves. */
+static void json_operations(gis_json *out, const sum_run *run)
+{
+    static const char *const phase[] = {"decompose", "subsums", "union"};
+    sunder_operations operations;
+    sunder_sum_operations(run->sum, &operations);
+    gis_json_key(out, "operations");
+    gis_json_open(out, '{');
+    gis_json_operations(out, &operations);
+    gis_json_key(out, "phases");
+    gis_json_open(out, '{');
+    for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
+        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &operations))
+            break;
+        gis_json_key(out, phase[i]);
+        gis_json_open(out, '{');
+        gis_json_operations(out, &operations);
+        gis_json_close(out, '}');
+    }
+    gis_json_close(out, '}');
+    gis_json_close(out, '}');
+}
+
 /* The summary, with `geometry` (its keys, ready) at the end unless that is NULL. */
 static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gis_error *error)
 {
-    sunder_operations operations;
-    sunder_sum_operations(run->sum, &operations);
+    sunder_sum_method method;
+    sunder_sum_get_method(run->sum, &method);
+    bool united = method.decomposition != SUNDER_DECOMPOSITION_AUTO; /* the convolution's pieces are its own affair */
     gis_json_open(out, '{');
     gis_json_key(out, "command");
     gis_json_string(out, "sum");
     gis_json_key(out, "algorithm");
-    gis_json_string(out, "convolution"); /* what `auto` chooses, too */
+    gis_json_string(out, sunder_algorithm_string(method.algorithm));
     gis_json_key(out, "decomposition");
-    gis_json_null(out);
+    gis_json_string(out, united ? sunder_decomposition_string(method.decomposition) : NULL);
     gis_json_key(out, "order");
-    gis_json_null(out);
+    gis_json_string(out, united ? sunder_order_string(method.order) : NULL);
     json_operand(out, "p", run->operands.p);
     json_operand(out, "q", run->operands.q);
     gis_json_line(out);
     if (!json_result(out, run, error))
         return false;
     gis_json_line(out);
-    gis_json_key(out, "operations");
-    gis_json_open(out, '{');
-    gis_json_operations(out, &operations);
-    gis_json_key(out, "phases"); /* convolution has no phases that count for themselves */
-    gis_json_open(out, '{');
-    gis_json_close(out, '}');
-    gis_json_close(out, '}');
+    json_operations(out, run);
     gis_json_line(out);
     json_seconds(out, run);
     gis_json_key(out, "peak_rss_bytes");
@@ -231,9 +294,11 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
 /* Opened before the work is done: what can be refused is refused at once. */
 static bool open_sink(sum_run *run, const char *path, gis_error *error)
 {
-    static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", NULL};
+    static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", "faces", "edges", "vertices",
+                                           NULL};
+    static const char *const without_map[] = {"degenerate_segments", "degenerate_points", NULL};
     run->request = gis_options_sink(run->options, path, "sum");
-    run->request.suffixes = suffixes;
+    run->request.suffixes = run->how.keep_map ? suffixes : without_map;
     return gis_operands_spare(&run->operands, run->options, path, error) &&
            gis_sink_open(&run->request, gis_operands_source(&run->operands), &run->sink, error);
 }
@@ -243,6 +308,7 @@ static bool write_layers(sum_run *run, gis_error *error)
 {
     gis_sink_result result;
     if (!gis_write_sum(run->sink, run->sum, run->operands.crs, &run->max_deviation, error) ||
+        (run->how.keep_map && !gis_write_map(run->sink, sunder_sum_map(run->sum), run->operands.crs, error)) ||
         !gis_sink_finish(run->sink, &result, error))
         return false;
     if (!result.exact)
@@ -274,7 +340,7 @@ int gis_command_sum(const gis_options *options)
 {
     gis_error error;
     sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
-    bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error);
+    bool taken, ok = choose_road(&run, &error) && gis_stdout_taken(options, options->operand[2], &taken, &error);
     ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
     run.read = gis_clock() - run.start - run.operands.building;
     ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));

@@ -35,4 +35,9 @@ bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviat
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,
                    gis_error *error);
 
+/* The layers MAIN_faces (all but the outermost), MAIN_edges and MAIN_vertices of the planar map beneath a sum, with the
+ * field covered_by (sum_map.c). Rounded to doubles; a face that falls together so is left out, one that falls apart is
+ * several features. */
+bool gis_write_map(gis_sink *sink, const sunder_map *map, OGRSpatialReferenceH crs, gis_error *error);
+
 #endif

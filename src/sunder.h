@@ -144,9 +144,50 @@ SUNDER_API void sunder_shape_anchor(const sunder_shape *shape, double xy[2]);
 
 typedef struct sunder_sum sunder_sum;
 
+/* Roads to the sum. All lead to the same result, whatever the decomposition, the order and the seed. */
+typedef enum sunder_algorithm {
+    SUNDER_ALGORITHM_AUTO, /* the convolution; with keep_map the arrangement */
+    SUNDER_CONVOLUTION,    /* only sides that can bound the sum, settled line by line: by far the fastest */
+    SUNDER_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement, whose cells are then marked [AFH00] */
+    SUNDER_INCREMENTAL,    /* one subsum after the other united with the union so far [AFH00] */
+    SUNDER_DIVIDE          /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
+} sunder_algorithm;
+
+/* How the operands are cut into convex pieces; for all roads but the convolution. See src/decomposition/README. */
+typedef enum sunder_decomposition {
+    SUNDER_DECOMPOSITION_AUTO, /* Hertel and Mehlhorn's */
+    SUNDER_ANGLE_BISECTOR,     /* a cut from each reflex vertex, pairs of reflex vertices first */
+    SUNDER_VERTICAL,           /* vertical cuts from the reflex vertices */
+    SUNDER_TRIANGULATION,
+    SUNDER_HERTEL_MEHLHORN,    /* a triangulation without its needless diagonals */
+    SUNDER_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500 vertices, fall back to Hertel
+                       and Mehlhorn's */
+    SUNDER_MIXED    /* both operands together: least length of all subsums' boundaries; falls back likewise */
+} sunder_decomposition;
+
+/* In what order subsums go in; for all roads but the convolution. */
+typedef enum sunder_order {
+    SUNDER_ORDER_RANDOM,
+    SUNDER_ORDER_FAT, /* descending fatness, see src/unions/README */
+    SUNDER_ORDER_GIVEN /* as the pieces come */
+} sunder_order;
+
+/* "auto", "convolution", "arrangement", "incremental", "divide". */
+SUNDER_API const char *sunder_algorithm_string(sunder_algorithm algorithm);
+/* "auto", "angle-bisector", "vertical", "triangulation", "hertel-mehlhorn", "optimal", "mixed". */
+SUNDER_API const char *sunder_decomposition_string(sunder_decomposition decomposition);
+/* "random", "fat", "given". */
+SUNDER_API const char *sunder_order_string(sunder_order order);
+
+/* All zero: the defaults. */
 typedef struct sunder_sum_options {
     sunder_progress progress; /* NULL: none */
     void *progress_user;
+    sunder_algorithm algorithm;
+    sunder_decomposition decomposition;
+    sunder_order order;
+    uint64_t seed; /* of the random order, and of what is drawn besides */
+    bool keep_map; /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
 } sunder_sum_options;
 
 typedef struct sunder_sum_counts {
@@ -165,8 +206,9 @@ typedef struct sunder_sum_counts {
  * Degenerate holes (points of the interior of P + Q that are not in int P + int Q) are part of the result: as maximal
  * segments, and as points that lie on no segment.
  *
- * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL
- * Source  [GRS83] convolution; [BL11] reduced convolution; see src/minkowski/README for the road taken. */
+ * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_EARG for an option that is none of its values
+ * Source  [GRS83] convolution; [BL11] reduced convolution; [AFH00] the unions of subsums; see src/minkowski/README and
+ *         src/unions/README for the roads taken. */
 SUNDER_API sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q,
                                               const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
 SUNDER_API void sunder_sum_free(sunder_sum *sum);
@@ -175,6 +217,22 @@ SUNDER_API void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *count
 SUNDER_API void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations);
 /* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
 SUNDER_API void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
+
+/* What was done. decomposition is AUTO where nothing was decomposed (the convolution's pieces are its own affair), else
+ * what was used: Hertel and Mehlhorn's where the one asked for had to fall back on it. */
+typedef struct sunder_sum_method {
+    sunder_algorithm algorithm; /* never AUTO */
+    sunder_decomposition decomposition;
+    sunder_order order;
+    size_t pieces_p, pieces_q; /* convex pieces; 0 with the convolution */
+} sunder_sum_method;
+
+typedef enum sunder_phase { SUNDER_PHASE_DECOMPOSE, SUNDER_PHASE_SUBSUMS, SUNDER_PHASE_UNION } sunder_phase;
+
+SUNDER_API void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
+/* Operations of one phase; false, and all zero, if the road has no such phases (the convolution). */
+SUNDER_API bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_operations *operations);
+
 /* Rings of polygon p: 1 + its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon);
 /* Vertex numbers of one ring, in order, *n of them. */
@@ -189,6 +247,48 @@ SUNDER_API sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t 
                                                 sunder_error *err);
 /* The area as "num/den", freed with sunder_free(). */
 SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err);
+
+/* ---- The planar map beneath a sum --------------------------------------------------------------------------- */
+
+/* The subdivision of the plane that a union of subsums was read from, if sunder_sum_options.keep_map asked for it: of
+ * the arrangement road the whole arrangement of all subsums, else the map of the union. Each face, edge and vertex is
+ * covered by so many regions: open subsums, or, where the union is one region by then, 0 or 1. Edges and vertices
+ * between covered faces that no region covers are the degenerate holes.
+ *
+ * Vertices, edges and faces are numbered from 0; face 0 is the outermost one. Edge e is two half-edges, 2 e from its
+ * lexicographically smaller end to the greater and 2 e + 1 back; each has its face on the left. Lives as long as the
+ * sum. */
+typedef struct sunder_map sunder_map;
+
+#define SUNDER_NOWHERE UINT32_MAX
+
+SUNDER_API const sunder_map *sunder_sum_map(const sunder_sum *sum); /* NULL if it was not kept */
+SUNDER_API size_t sunder_map_vertices(const sunder_map *map);
+SUNDER_API size_t sunder_map_edges(const sunder_map *map);
+SUNDER_API size_t sunder_map_faces(const sunder_map *map);
+
+/* The coordinates of a vertex, as of a sum's: nearest doubles, and exact texts. */
+SUNDER_API void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2]);
+SUNDER_API sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y,
+                                                sunder_error *err);
+/* A half-edge out of a vertex; NOWHERE if it is isolated. */
+SUNDER_API uint32_t sunder_map_out(const sunder_map *map, uint32_t vertex);
+/* The face around a vertex, if it is isolated; else NOWHERE. */
+SUNDER_API uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex);
+
+SUNDER_API uint32_t sunder_map_origin(const sunder_map *map, uint32_t half);
+SUNDER_API uint32_t sunder_map_twin(uint32_t half);
+SUNDER_API uint32_t sunder_map_next(const sunder_map *map, uint32_t half); /* along the boundary of the face on its left */
+SUNDER_API uint32_t sunder_map_turn(const sunder_map *map, uint32_t half); /* counter-clockwise around its origin */
+SUNDER_API uint32_t sunder_map_face(const sunder_map *map, uint32_t half);
+
+/* Boundaries of a face, by one half-edge each: the outer one (NOWHERE for face 0), and *n inner ones. */
+SUNDER_API uint32_t sunder_map_outer(const sunder_map *map, uint32_t face);
+SUNDER_API const uint32_t *sunder_map_inner(const sunder_map *map, uint32_t face, size_t *n);
+
+SUNDER_API uint32_t sunder_map_vertex_covered(const sunder_map *map, uint32_t vertex);
+SUNDER_API uint32_t sunder_map_edge_covered(const sunder_map *map, uint32_t edge);
+SUNDER_API uint32_t sunder_map_face_covered(const sunder_map *map, uint32_t face);
 
 /* ---- Two features ----------------------------------------------------------------------------------------- */
 

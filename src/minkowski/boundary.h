@@ -9,21 +9,7 @@
 #define SUNDER_I_BOUNDARY_H
 
 #include "minkowski/coverage.h"
-
-struct sunder_sum {
-    sunder_i_lattice lattice;
-    double origin[2][2]; /* of each operand; their sum may not be a double */
-    sunder_i_hpoint *vertex;
-    uint32_t vertices;
-    uint32_t *ring_vertex;    /* of all rings, one after the other */
-    size_t *ring_end;         /* [rings] */
-    size_t *poly_end;         /* [polygons], in rings */
-    size_t rings, polygons;
-    uint32_t *segment;        /* [2 * segments] */
-    uint32_t *point;          /* [points] */
-    size_t segments, points;
-    double seconds[3];        /* decompose, subsums, unite */
-};
+#include "minkowski/sum.h"
 
 /* Takes the places of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with SUNDER_ENOMEM; the
  * caller then frees the sum. */

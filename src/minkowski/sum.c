@@ -3,6 +3,7 @@
 #include "minkowski/cells.h"
 #include "minkowski/minkowski.h"
 #include "minkowski/subsums.h"
+#include "unions/unions.h"
 
 #include <string.h>
 #include <time.h>
@@ -63,12 +64,33 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     return status;
 }
 
+/* Is each option one of its values? */
+static sunder_status check_options(const sunder_sum_options *o, sunder_error *err)
+{
+    if ((unsigned)o->algorithm > SUNDER_DIVIDE) return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
+    if ((unsigned)o->decomposition > SUNDER_MIXED)
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such decomposition");
+    if ((unsigned)o->order > SUNDER_ORDER_GIVEN) return sunder_i_fail(err, SUNDER_EARG, "there is no such order");
+    if (o->keep_map && o->algorithm == SUNDER_CONVOLUTION)
+        return sunder_i_fail(err, SUNDER_EARG, "the convolution makes no planar map; the other algorithms do");
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                      const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
+    static const sunder_sum_options defaults;
+    if (!options) options = &defaults;
+    sunder_status status = check_options(options, err);
+    if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
-    const sunder_status status = build(sum, p, q, force_wide, options, err);
+    sum->method.algorithm = options->algorithm                ? options->algorithm
+                            : options->keep_map ? SUNDER_ARRANGEMENT : SUNDER_CONVOLUTION;
+    if (sum->method.algorithm == SUNDER_CONVOLUTION)
+        status = build(sum, p, q, force_wide, options, err);
+    else
+        status = sunder_i_union_sum(sum, p, q, force_wide, options, err);
     if (status == SUNDER_OK)
         *out = sum;
     else
@@ -85,6 +107,7 @@ sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q,
 void sunder_sum_free(sunder_sum *sum)
 {
     if (!sum) return;
+    sunder_i_map_view_free(sum->map);
     sunder_i_lattice_free(&sum->lattice);
     sunder_i_free(sum->vertex);
     sunder_i_free(sum->ring_vertex);
@@ -104,6 +127,14 @@ void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *counts)
 void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations)
 {
     *operations = sum->lattice.operations;
+}
+
+void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method) { *method = sum->method; }
+
+bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_operations *operations)
+{
+    *operations = sum->phase[phase];
+    return sum->method.algorithm != SUNDER_CONVOLUTION;
 }
 
 void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite_seconds)

@@ -1,18 +1,12 @@
 /* Coordinates and area of a sum on the way out: exact rationals as text, nearest doubles. */
-#include "minkowski/boundary.h"
+#include "minkowski/sum.h"
 
 #include <math.h>
 
-/* The value of one coordinate: *num / *den * 2^exponent. A lattice of its own arena is used so that a const sum stays so and threads may
- * ask at once. */
-static long coordinate(sunder_i_arena *arena, const sunder_sum *sum, uint32_t vertex, int axis, sunder_i_big *num,
-                       sunder_i_big *den)
+long sunder_i_sum_coordinate(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d,
+                             sunder_i_big *num, sunder_i_big *den)
 {
     const sunder_i_lattice *l = &sum->lattice;
-    const sunder_i_hpoint *p = &sum->vertex[vertex];
-    const sunder_i_i256 *c = axis == 0 ? &p->x : &p->y;
-    sunder_i_big n = l->narrow ? sunder_i_big_i256(arena, *c) : l->pool[c->limb[0]];
-    sunder_i_big d = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
     d = sunder_i_big_mul(arena, d, l->denominator);
     /* n * 2^e / d + both origins, over one power of two. */
     long e = l->exponent;
@@ -34,27 +28,22 @@ static long coordinate(sunder_i_arena *arena, const sunder_sum *sum, uint32_t ve
     return e;
 }
 
-void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2])
+double sunder_i_sum_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d)
 {
-    sunder_i_arena arena = {0};
-    for (int k = 0; k < 2; k++) {
-        sunder_i_big num, den;
-        const long e = coordinate(&arena, sum, vertex, k, &num, &den);
-        xy[k] = arena.failed ? (double)NAN : sunder_i_big_ratio(&arena, num, den, e);
-    }
-    sunder_i_arena_free(&arena);
+    sunder_i_big num, den;
+    const long e = sunder_i_sum_coordinate(arena, sum, axis, n, d, &num, &den);
+    return arena->failed ? (double)NAN : sunder_i_big_ratio(arena, num, den, e);
 }
 
-sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, char **x, char **y, sunder_error *err)
+sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, const sunder_i_big xyw[3], char **x,
+                                 char **y, sunder_error *err)
 {
-    sunder_i_arena arena = {0};
     char *text[2] = {NULL, NULL};
     for (int k = 0; k < 2; k++) {
         sunder_i_big num, den;
-        const long e = coordinate(&arena, sum, vertex, k, &num, &den);
-        if (!arena.failed) text[k] = sunder_i_big_ratio_text(&arena, num, den, e);
+        const long e = sunder_i_sum_coordinate(arena, sum, k, xyw[k], xyw[2], &num, &den);
+        if (!arena->failed) text[k] = sunder_i_big_ratio_text(arena, num, den, e);
     }
-    sunder_i_arena_free(&arena);
     if (!text[0] || !text[1]) {
         sunder_i_free(text[0]);
         sunder_i_free(text[1]);
@@ -63,6 +52,35 @@ sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, cha
     *x = text[0];
     *y = text[1];
     return SUNDER_OK;
+}
+
+/* x, y, w of a vertex. */
+static void vertex_xyw(sunder_i_arena *arena, const sunder_sum *sum, uint32_t vertex, sunder_i_big xyw[3])
+{
+    const sunder_i_lattice *l = &sum->lattice;
+    const sunder_i_hpoint *p = &sum->vertex[vertex];
+    xyw[0] = l->narrow ? sunder_i_big_i256(arena, p->x) : l->pool[p->x.limb[0]];
+    xyw[1] = l->narrow ? sunder_i_big_i256(arena, p->y) : l->pool[p->y.limb[0]];
+    xyw[2] = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
+}
+
+void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2])
+{
+    sunder_i_arena arena = {0};
+    sunder_i_big xyw[3];
+    vertex_xyw(&arena, sum, vertex, xyw);
+    for (int k = 0; k < 2; k++) xy[k] = sunder_i_sum_double(&arena, sum, k, xyw[k], xyw[2]);
+    sunder_i_arena_free(&arena);
+}
+
+sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, char **x, char **y, sunder_error *err)
+{
+    sunder_i_arena arena = {0};
+    sunder_i_big xyw[3];
+    vertex_xyw(&arena, sum, vertex, xyw);
+    const sunder_status status = sunder_i_sum_texts(&arena, sum, xyw, x, y, err);
+    sunder_i_arena_free(&arena);
+    return status;
 }
 
 /* ---- Area ---- */
@@ -94,15 +112,9 @@ static ratio reduce(sunder_i_arena *arena, ratio r)
 /* Twice the area over one edge, x1 y2 - x2 y1, in lattice units: the origin drops out over a closed ring. */
 static ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u, uint32_t v)
 {
-    const sunder_i_lattice *l = &sum->lattice;
     sunder_i_big c[2][3];
-    const uint32_t vertex[2] = {u, v};
-    for (int k = 0; k < 2; k++) {
-        const sunder_i_hpoint *p = &sum->vertex[vertex[k]];
-        c[k][0] = l->narrow ? sunder_i_big_i256(arena, p->x) : l->pool[p->x.limb[0]];
-        c[k][1] = l->narrow ? sunder_i_big_i256(arena, p->y) : l->pool[p->y.limb[0]];
-        c[k][2] = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
-    }
+    vertex_xyw(arena, sum, u, c[0]);
+    vertex_xyw(arena, sum, v, c[1]);
     ratio r;
     r.num = sunder_i_big_sub(arena, sunder_i_big_mul(arena, c[0][0], c[1][1]), sunder_i_big_mul(arena, c[0][1], c[1][0]));
     r.den = sunder_i_big_mul(arena, c[0][2], c[1][2]);

@@ -2,6 +2,7 @@
 #include "predicate/kernel.h"
 #include "predicate/wide_vector.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -55,6 +56,29 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
         return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, (double)a.x, (double)a.y};
     const sunder_i_vector v = sunder_i_wide_get(l, a);
     return wide_hpoint(l, v.x, v.y, sunder_i_big_i64(&l->arena, 1));
+}
+
+static sunder_i_i256 big_i256(sunder_i_big a)
+{
+    sunder_i_i256 r = {{0, 0, 0, 0}, (a.size > 0) - (a.size < 0)};
+    const long n = a.size < 0 ? -a.size : a.size;
+    assert(n <= 4);
+    for (long i = 0; i < n && i < 4; i++) r.limb[i] = a.limb[i];
+    return r;
+}
+
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+{
+    sunder_i_arena *arena = &l->arena;
+    if (!l->narrow)
+        return wide_hpoint(l, sunder_i_big_copy(arena, x), sunder_i_big_copy(arena, y), sunder_i_big_copy(arena, w));
+    const sunder_i_i256 d = big_i256(w);
+    sunder_i_hpoint p = {.x = big_i256(x), .y = big_i256(y)};
+    p.w = (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]);
+    const double v = (double)p.w;
+    p.ax = sunder_i_i256_double(&p.x) / v;
+    p.ay = sunder_i_i256_double(&p.y) / v;
+    return p;
 }
 
 void sunder_i_hpoint_big(sunder_i_lattice *l, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,

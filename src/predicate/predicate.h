@@ -63,6 +63,8 @@ typedef struct sunder_i_hpoint {
 sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b,
                                    const sunder_i_fraction *t);
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
+/* From its integers, which are copied; w > 0. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings. */
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_big x, sunder_i_big y, sunder_i_big w);
 /* Lexicographic. */
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 /* By y alone. */

@@ -25,8 +25,8 @@ for option in --barrier --allow-jumps --effort --seed --max-shift-field --symbol
     if grep -qF -- "$option" out; then fail "$option is in --help"; fi
     refused 2 "unknown option $option" separate a b $option 1
 done
-for option in --decomposition --order --planar-map; do refused 2 "unknown option" sum square:1 square:1 $option; done
-refused 2 'must be one of' sum square:1 square:1 --algorithm divide
+for option in --decomposition --order --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
+refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' buffer a b
 refused 2 'unknown command' route a b
 refused 2 'which command'

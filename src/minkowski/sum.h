@@ -1,0 +1,34 @@
+/* A sum, whichever road made it. */
+#ifndef SUNDER_I_SUM_H
+#define SUNDER_I_SUM_H
+
+#include "predicate/predicate.h"
+
+struct sunder_sum {
+    sunder_i_lattice lattice;
+    double origin[2][2];      /* of each operand; their sum may not be a double */
+    sunder_i_hpoint *vertex;
+    uint32_t vertices;
+    uint32_t *ring_vertex;    /* of all rings, one after the other */
+    size_t *ring_end;         /* [rings] */
+    size_t *poly_end;         /* [polygons], in rings */
+    size_t rings, polygons;
+    uint32_t *segment;        /* [2 * segments] */
+    uint32_t *point;          /* [points] */
+    size_t segments, points;
+    sunder_sum_method method;
+    double seconds[3];        /* by sunder_phase */
+    sunder_operations phase[3];
+    sunder_map *map;          /* NULL: not kept; stands on the lattice */
+};
+
+/* The coordinate n / d on the lattice, as *num / *den * 2^exponent with the origins added; returns the exponent. The
+ * arena is the caller's and not the lattice's, so that a const sum stays so and threads may ask at once. */
+long sunder_i_sum_coordinate(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d,
+                             sunder_i_big *num, sunder_i_big *den);
+/* Such a coordinate as the nearest double (NaN if memory is out), and a point's two as texts. */
+double sunder_i_sum_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d);
+sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, const sunder_i_big xyw[3], char **x,
+                                 char **y, sunder_error *err);
+
+#endif

@@ -1,0 +1,70 @@
+/* Union by divide and conquer [AFH00, section 2].
+ *
+ * First P + Q_j for each of the t pieces Q_j, by increments: translates of P's pieces side by side, each grown by the same Q_j, so
+ * that unions stay near the size of P. Then pairs of these maps are united, and pairs of pairs, log t rounds: one map goes into
+ * the other, edge by edge in random order, as subsums do on the arrangement road; cells are marked; what is covered goes.
+ *
+ * Invariant: after each round the maps are those of the unions of equal runs of subsums, degenerate holes kept. A map
+ * counts as one open region with its boundary, so what holds of subsums in an arrangement holds of maps: an edge or vertex
+ * uncovered by both between covered faces stays.
+ *
+ * Cost: the sum over rounds of the sizes of the maps and of what crosses within pairs. Where Q has one piece this is the incremental
+ * union; where P has one, P + Q_j is a single subsum and rounds are all there is. */
+#include "unions/unions.h"
+
+static size_t edges_of(const sunder_i_planar_map *map)
+{
+    sunder_i_map_size size;
+    sunder_i_planar_map_size(map, &size);
+    return size.edges;
+}
+
+/* Both become *a, the smaller going into the larger; b is freed in any case. */
+static sunder_status unite_pair(sunder_i_planar_map **a, sunder_i_planar_map *b, sunder_error *err)
+{
+    if (edges_of(*a) < edges_of(b)) {
+        sunder_i_planar_map *const t = *a;
+        *a = b;
+        b = t;
+    }
+    sunder_status status = sunder_i_planar_map_overlay(*a, b, err);
+    sunder_i_planar_map_free(b);
+    if (status == SUNDER_OK) status = sunder_i_planar_map_mark(*a, err);
+    return status == SUNDER_OK ? sunder_i_planar_map_clean(*a, err) : status;
+}
+
+/* Map i is then the union of maps 2 i and 2 i + 1, *n of them; an odd one out waits. */
+static sunder_status halve(sunder_i_planar_map **map, uint32_t *n, sunder_error *err)
+{
+    const uint32_t before = *n;
+    sunder_status status = SUNDER_OK;
+    *n = before / 2 + before % 2;
+    for (uint32_t i = 0; i < *n; i++) {
+        sunder_i_planar_map *const a = map[2 * i], *const b = 2 * i + 1 < before ? map[2 * i + 1] : NULL;
+        if (i) map[2 * i] = NULL;
+        if (b) map[2 * i + 1] = NULL;
+        map[i] = a;
+        if (b && status == SUNDER_OK)
+            status = unite_pair(&map[i], b, err);
+        else
+            sunder_i_planar_map_free(b);
+    }
+    return status;
+}
+
+sunder_status sunder_i_unite_by_halves(sunder_i_uniting *u, sunder_i_planar_map **out, sunder_error *err)
+{
+    uint32_t n = u->q.pieces;
+    sunder_i_planar_map **map = sunder_i_calloc(n, sizeof(sunder_i_planar_map *));
+    if (!map) return sunder_i_no_memory(err);
+    sunder_status status = SUNDER_OK;
+    for (uint32_t j = 0; j < n && status == SUNDER_OK; j++)
+        status = sunder_i_unite_some(u, j * u->p.pieces, u->p.pieces, &map[j], err);
+    while (n > 1 && status == SUNDER_OK) status = halve(map, &n, err);
+    if (status == SUNDER_OK)
+        *out = map[0];
+    else
+        for (uint32_t j = 0; j < u->q.pieces; j++) sunder_i_planar_map_free(map[j]);
+    sunder_i_free(map);
+    return status;
+}

@@ -1,0 +1,54 @@
+/* Subsums are made one at a time, when their turn comes, and forgotten when they are in the map: so memory is the map's. Their
+ * time and operations are booked apart from the map's. */
+#include "decomposition/convex_sum.h"
+#include "unions/unions.h"
+
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void book(sunder_operations *to, const sunder_operations *before, const sunder_operations *after)
+{
+    to->comparisons += after->comparisons - before->comparisons;
+    to->orientation_tests += after->orientation_tests - before->orientation_tests;
+    to->segment_intersections += after->segment_intersections - before->segment_intersections;
+    to->exact_fallbacks += after->exact_fallbacks - before->exact_fallbacks;
+}
+
+static bool make(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
+{
+    const sunder_operations before = u->lattice->operations;
+    const double start = now();
+    const bool ok = sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces,
+                                           &u->arena, out);
+    u->seconds += now() - start;
+    book(&u->operations, &before, &u->lattice->operations);
+    return ok;
+}
+
+/* Each subsum counts as much, though later ones tend to cost more. */
+static bool go_on(const sunder_i_uniting *u)
+{
+    const sunder_sum_options *o = u->options;
+    return !o->progress || (u->fed & 15) || o->progress((double)u->fed / u->subsums, o->progress_user);
+}
+
+sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_t n, sunder_i_add_polygon add,
+                            sunder_i_planar_map *map, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (uint32_t i = 0; i < n && status == SUNDER_OK; i++, u->fed++) {
+        if (!go_on(u)) return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+        const sunder_i_mark mark = sunder_i_arena_mark(&u->arena);
+        sunder_i_convex_sum s;
+        if (!make(u, subsum[i], &s)) return sunder_i_no_memory(err);
+        status = add(map, (const sunder_i_xyw *)s.xyw, s.along, s.corners, err);
+        sunder_i_arena_release(&u->arena, mark);
+    }
+    return status;
+}

@@ -1,0 +1,150 @@
+/* The stages of a sum by union: operands on one lattice, pieces, the union, the outline read off its map. */
+#include "unions/unions.h"
+
+#include <string.h>
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static sunder_operations less(const sunder_operations *a, const sunder_operations *b)
+{
+    return (sunder_operations){a->comparisons - b->comparisons, a->orientation_tests - b->orientation_tests,
+                               a->segment_intersections - b->segment_intersections,
+                               a->exact_fallbacks - b->exact_fallbacks};
+}
+
+static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
+{
+    switch (asked) {
+    case SUNDER_ANGLE_BISECTOR:
+        return SUNDER_I_ANGLE_BISECTOR;
+    case SUNDER_VERTICAL:
+        return SUNDER_I_VERTICAL;
+    case SUNDER_TRIANGULATION:
+        return SUNDER_I_TRIANGULATION;
+    case SUNDER_OPTIMAL:
+        return SUNDER_I_OPTIMAL;
+    case SUNDER_MIXED:
+        return SUNDER_I_MIXED;
+    case SUNDER_HERTEL_MEHLHORN:
+    case SUNDER_DECOMPOSITION_AUTO:
+        break;
+    }
+    return SUNDER_I_HERTEL_MEHLHORN;
+}
+
+/* What was used for both, or Hertel and Mehlhorn's if some member had to fall back on it. */
+static sunder_decomposition used_by(const sunder_i_uniting *u, sunder_decomposition asked)
+{
+    if (asked == SUNDER_DECOMPOSITION_AUTO || u->p.fallbacks || u->q.fallbacks) return SUNDER_HERTEL_MEHLHORN;
+    return asked;
+}
+
+static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
+                           sunder_error *err)
+{
+    const uint64_t subsums = (uint64_t)u->p.pieces * u->q.pieces;
+    if (subsums >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ENOMEM, "there are too many pairs of convex pieces");
+    u->subsums = (uint32_t)subsums;
+    switch (algorithm) {
+    case SUNDER_INCREMENTAL:
+        return sunder_i_unite_by_increments(u, map, err);
+    case SUNDER_DIVIDE:
+        if (subsums) return sunder_i_unite_by_halves(u, map, err);
+        break;
+    default:
+        break;
+    }
+    return sunder_i_unite_by_arrangement(u, map, err);
+}
+
+/* The map goes to the sum, or is freed. */
+static sunder_status finish(sunder_sum *sum, sunder_i_planar_map *map, bool keep, sunder_error *err)
+{
+    const sunder_status status = sunder_i_outline(map, sum, err);
+    if (status == SUNDER_OK && keep) return sunder_i_map_view_take(map, sum, &sum->map, err);
+    sunder_i_planar_map_free(map);
+    return status;
+}
+
+static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_error *err)
+{
+    const double start = now();
+    const sunder_operations before = sum->lattice.operations;
+    sunder_i_planar_map *map;
+    sunder_status status = unite(u, sum->method.algorithm, &map, err);
+    if (status == SUNDER_OK) status = finish(sum, map, u->options->keep_map, err);
+    if (status != SUNDER_OK) return status;
+    const sunder_operations all = less(&sum->lattice.operations, &before);
+    sum->phase[SUNDER_PHASE_SUBSUMS] = u->operations;
+    sum->phase[SUNDER_PHASE_UNION] = less(&all, &u->operations);
+    sum->seconds[SUNDER_PHASE_SUBSUMS] = u->seconds;
+    sum->seconds[SUNDER_PHASE_UNION] = now() - start - u->seconds;
+    return SUNDER_OK;
+}
+
+static sunder_status place(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                           sunder_i_placed *placed, sunder_error *err)
+{
+    const sunder_i_place_options how = {.force_wide = force_wide};
+    const sunder_status status = sunder_i_place(p, q, &how, placed, err);
+    if (status != SUNDER_OK) return status;
+    sum->lattice = placed->lattice; /* moved: the points refer to its pool */
+    memset(&placed->lattice, 0, sizeof placed->lattice);
+    memcpy(sum->origin[0], placed->origin_p, sizeof sum->origin[0]);
+    memcpy(sum->origin[1], placed->origin_q, sizeof sum->origin[1]);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                                 const sunder_sum_options *options, sunder_error *err)
+{
+    const double start = now();
+    sunder_i_placed placed;
+    sunder_status status = place(sum, p, q, force_wide, &placed, err);
+    if (status != SUNDER_OK) return status;
+    sunder_i_uniting u = {
+        .lattice = &sum->lattice, .options = options, .fatness = SUNDER_I_FATNESS, .random = options->seed};
+    const sunder_operations before = sum->lattice.operations;
+    status = sunder_i_decompose_pair(&sum->lattice, p, placed.p, q, placed.q, kind_of(options->decomposition), &u.p,
+                                     &u.q, err);
+    sunder_i_placed_free(&placed);
+    if (status != SUNDER_OK) return status;
+    sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.operations, &before);
+    sum->seconds[SUNDER_PHASE_DECOMPOSE] = now() - start;
+    sum->method.decomposition = used_by(&u, options->decomposition);
+    sum->method.order = options->order;
+    sum->method.pieces_p = u.p.pieces;
+    sum->method.pieces_q = u.q.pieces;
+    status = unite_pieces(sum, &u, err);
+    sunder_i_decomposition_clear(&u.p);
+    sunder_i_decomposition_clear(&u.q);
+    sunder_i_arena_free(&u.arena);
+    return status;
+}
+
+/* ---- Names ---- */
+
+const char *sunder_algorithm_string(sunder_algorithm algorithm)
+{
+    static const char *const name[] = {"auto", "convolution", "arrangement", "incremental", "divide"};
+    return (unsigned)algorithm <= SUNDER_DIVIDE ? name[algorithm] : "";
+}
+
+const char *sunder_decomposition_string(sunder_decomposition decomposition)
+{
+    static const char *const name[] = {"auto",    "angle-bisector", "vertical", "triangulation", "hertel-mehlhorn",
+                                       "optimal", "mixed"};
+    return (unsigned)decomposition <= SUNDER_MIXED ? name[decomposition] : "";
+}
+
+const char *sunder_order_string(sunder_order order)
+{
+    static const char *const name[] = {"random", "fat", "given"};
+    return (unsigned)order <= SUNDER_ORDER_GIVEN ? name[order] : "";
+}

@@ -1,0 +1,74 @@
+/* Sums as unions of convex subsums, the three roads of Agarwal, Flato and Halperin [AFH00]. README.md tells of each.
+ *
+ *   P = union of P_i,  Q = union of Q_j,  R_ij = P_i + Q_j,  int P + int Q = union of the open R_ij
+ *
+ * What the files hand each other:
+ * unions.c       the stages: decompose, unite, read the outline off the map
+ * order.c        in what order the subsums go in
+ * feed.c         subsums made one at a time and put into a map
+ * arrangement.c, incremental.c, divide.c    the three unions
+ * outline.c      from a marked map to the canonical sum
+ * map_view.c     the map, for users */
+#ifndef SUNDER_I_UNIONS_H
+#define SUNDER_I_UNIONS_H
+
+#include "decomposition/decomposition.h"
+#include "minkowski/sum.h"
+#include "planar_map/planar_map.h"
+
+/* Fills an empty sum (but for its algorithm) by one of the three roads. On failure the caller frees the sum.
+ * Fails with SUNDER_ENOMEM, also where there are too many subsums to number, or SUNDER_ECANCEL. */
+sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                                 const sunder_sum_options *options, sunder_error *err);
+
+/* How fat a subsum is; order.c says what each is worth. */
+typedef enum sunder_i_fatness {
+    SUNDER_I_FAT_AREA,    /* area */
+    SUNDER_I_FAT_BREADTH, /* area by perimeter: from a half to one times the radius of the largest disc inside */
+    SUNDER_I_FAT_ROUND    /* area by the square of the perimeter: the same for all sizes */
+} sunder_i_fatness;
+
+#define SUNDER_I_FATNESS SUNDER_I_FAT_AREA /* what SUNDER_ORDER_FAT goes by */
+
+/* A union under way. Subsum k is the sum of piece k % pieces of P and piece k / pieces of Q. */
+typedef struct sunder_i_uniting {
+    sunder_i_lattice *lattice;
+    sunder_i_decomposition p, q;
+    sunder_i_arena arena; /* of the subsum at hand */
+    const sunder_sum_options *options;
+    sunder_i_fatness fatness;
+    uint64_t random;
+    uint32_t subsums, fed; /* how many there are, and went into a map already */
+    double seconds;        /* spent in making subsums, */
+    sunder_operations operations; /* and done there */
+} sunder_i_uniting;
+
+/* Puts n subsums in the order that the options ask for. False if memory is out. */
+bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n);
+/* The next number drawn, splitmix64 [Steele, Lea, Flood 2014]. */
+uint64_t sunder_i_draw(uint64_t *state);
+
+/* Makes each of n subsums in turn and puts it into the map: inserted as it is, or united with what is there. */
+typedef sunder_status (*sunder_i_add_polygon)(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+                                              const sunder_i_point *along, size_t n, sunder_error *err);
+sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_t n, sunder_i_add_polygon add,
+                            sunder_i_planar_map *map, sunder_error *err);
+
+/* The three unions. Each gives a new map, marked. */
+sunder_status sunder_i_unite_by_arrangement(sunder_i_uniting *u, sunder_i_planar_map **out, sunder_error *err);
+sunder_status sunder_i_unite_by_increments(sunder_i_uniting *u, sunder_i_planar_map **out, sunder_error *err);
+sunder_status sunder_i_unite_by_halves(sunder_i_uniting *u, sunder_i_planar_map **out, sunder_error *err);
+
+/* The incremental union of the subsums first .. first + n - 1. */
+sunder_status sunder_i_unite_some(sunder_i_uniting *u, uint32_t first, uint32_t n, sunder_i_planar_map **out,
+                                  sunder_error *err);
+
+/* The canonical sum off a marked map: fills vertices, rings, polygons, segments and points of the sum. */
+sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);
+
+/* Takes a marked map over for users to look at, also on failure. */
+sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum *sum, sunder_map **out,
+                                     sunder_error *err);
+void sunder_i_map_view_free(sunder_map *map);
+
+#endif
