@@ -7,7 +7,8 @@
 #   setup_install                         installs what the probes did not find
 #   setup_build SOURCE BUILD TARGET...    configures (Release) and builds
 
-setup_needed=() setup_wanted=() setup_packages=()
+setup_needed=() setup_wanted=()                   # in words
+setup_needed_packages=() setup_wanted_packages=() # an empty array is spelt ${a[@]+...}: old bashes call it unset
 
 setup_need() { # the probe is a command that succeeds where the thing is there
     local what=$1 packages=$2
@@ -15,7 +16,7 @@ setup_need() { # the probe is a command that succeeds where the thing is there
     "$@" >/dev/null 2>&1 && return
     setup_needed+=("$what ($packages)")
     # shellcheck disable=SC2206 # words
-    setup_packages+=($packages)
+    setup_needed_packages+=($packages)
 }
 
 setup_want() {
@@ -24,7 +25,7 @@ setup_want() {
     "$@" >/dev/null 2>&1 && return
     setup_wanted+=("$what ($packages)")
     # shellcheck disable=SC2206
-    setup_packages+=($packages)
+    setup_wanted_packages+=($packages)
 }
 
 setup_has_header() { # header, compiler flags...
@@ -38,6 +39,15 @@ setup_has_gdal() {
     command -v gdal-config && setup_has_header gdal.h $(gdal-config --cflags)
 }
 
+setup_has_fuzzer() { # the compiler alone does not do: Debian has the runtime of the sanitizers in a package of its own
+    local program status=0
+    program=$(mktemp)
+    echo 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { (void)d; return !n; }' |
+        clang -x c -fsanitize=fuzzer,address,undefined - -o "$program" || status=$?
+    rm -f "$program"
+    return $status
+}
+
 setup_toolchain() {
     setup_need "a C compiler" "gcc libc6-dev" setup_has_header stdlib.h
     setup_need "CMake 3.20" cmake cmake --version
@@ -47,44 +57,66 @@ setup_toolchain() {
     setup_need "GDAL's tools" gdal-bin ogr2ogr --version
 }
 
-setup_apt() {
-    local as_root=()
-    if [ "$(id -u)" -ne 0 ]; then
-        if ! command -v sudo >/dev/null; then
-            echo "neither root nor sudo: run  apt-get install ${setup_packages[*]}  as root" >&2
-            return 1
-        fi
-        as_root=(sudo)
+setup_as_root() {
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    else
+        sudo "$@"
     fi
-    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
-    "${apt[@]}" update || echo "the package lists could not be renewed; trying with those at hand" >&2
+}
+
+setup_apt() { # packages...
+    local apt=(setup_as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300)
     for _ in 1 2 3; do # another apt-get may hold the lock of the archives, for which there is no timeout
         "${apt[@]}" install --no-install-recommends "$@" && return
+        apt-get -q -s install --no-install-recommends "$@" >/dev/null 2>&1 || return # there is no such package
         sleep 20
     done
     return 1
 }
 
+# Some systems lack one or the other of these, or have it in another package: that must not keep the rest away.
+setup_apt_each() {
+    local package
+    setup_apt "$@" && return
+    for package in "$@"; do
+        setup_apt "$package" || echo "$package could not be installed: some tests will be skipped."
+    done
+}
+
+setup_refuse() {
+    echo "$1" >&2
+    exit 1
+}
+
 setup_install() {
-    if [ "${#setup_packages[@]}" -eq 0 ]; then
+    local needed=(${setup_needed[@]+"${setup_needed[@]}"}) wanted=(${setup_wanted[@]+"${setup_wanted[@]}"}) each
+    if [ $((${#needed[@]} + ${#wanted[@]})) -eq 0 ]; then
         return
     fi
-    printf 'missing: %s\n' "${setup_needed[@]}" "${setup_wanted[@]}" | grep -v '^missing: $' || true
-    if ! command -v apt-get >/dev/null; then
-        if [ "${#setup_needed[@]}" -gt 0 ]; then
-            echo "There is no apt-get here. Install what is missing (in brackets: Debian's package), then run this again." >&2
-            exit 1
-        fi
+    for each in ${needed[@]+"${needed[@]}"} ${wanted[@]+"${wanted[@]}"}; do
+        echo "missing: $each"
+    done
+    local packages=(${setup_needed_packages[@]+"${setup_needed_packages[@]}"} ${setup_wanted_packages[@]+"${setup_wanted_packages[@]}"})
+    local way=""
+    command -v apt-get >/dev/null ||
+        way="There is no apt-get here. Install what is missing (in brackets: Debian's package), then run this again."
+    if [ -z "$way" ] && [ "$(id -u)" -ne 0 ] && ! command -v sudo >/dev/null; then
+        way="Neither root nor sudo: run  apt-get install ${packages[*]}  as root, then run this again."
+    fi
+    if [ -n "$way" ]; then
+        [ "${#needed[@]}" -eq 0 ] || setup_refuse "$way"
         echo "Some tests will be skipped."
         return
     fi
-    echo "installing: ${setup_packages[*]}"
-    if ! setup_apt "${setup_packages[@]}"; then
-        if [ "${#setup_needed[@]}" -gt 0 ]; then
-            echo "the packages could not be installed" >&2
-            exit 1
-        fi
-        echo "The packages could not be installed: some tests will be skipped."
+    echo "installing: ${packages[*]}"
+    setup_as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 update ||
+        echo "the package lists could not be renewed; trying with those at hand" >&2
+    if [ "${#needed[@]}" -gt 0 ]; then
+        setup_apt "${setup_needed_packages[@]}" || setup_refuse "the packages could not be installed"
+    fi
+    if [ "${#wanted[@]}" -gt 0 ]; then
+        setup_apt_each "${setup_wanted_packages[@]}"
     fi
 }
 
@@ -99,5 +131,5 @@ setup_build() { # source, build, targets...
         targets+=(--target "$target")
     done
     cmake -S "$source" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSUNDER_WERROR="${SUNDER_WERROR:-OFF}"
-    cmake --build "$build" -j "$(nproc 2>/dev/null || echo 2)" "${targets[@]}"
+    cmake --build "$build" -j "$(nproc 2>/dev/null || echo 2)" ${targets[@]+"${targets[@]}"}
 }

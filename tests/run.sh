@@ -15,7 +15,7 @@ setup_toolchain
 setup_need cmocka libcmocka-dev setup_has_header cmocka.h -include stdarg.h -include setjmp.h -include stddef.h -include stdint.h
 setup_want "GEOS" libgeos-dev setup_has_header geos_c.h
 setup_want "pkg-config" pkg-config pkg-config --version
-setup_want "clang, for the fuzz tests" clang clang --version
+setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
 setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"

@@ -1,7 +1,9 @@
 # shellcheck shell=bash
 # Builds the fuzz targets with clang and the sanitizers, in a build tree inside the one that runs the tests.
 set -eu
-command -v clang >/dev/null || { echo "skipped: clang is not installed"; exit 77; }
+# shellcheck source=../../gis/setup.sh
+. "$SUNDER_SOURCE/gis/setup.sh"
+setup_has_fuzzer >/dev/null 2>&1 || { echo "skipped: clang with libFuzzer and its sanitizers is not installed"; exit 77; }
 cmake -S "$SUNDER_SOURCE" -B "$SUNDER_BUILD/fuzz" -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_C_FLAGS_DEBUG="-O1 -g" -DSUNDER_FUZZ=ON -DSUNDER_PROGRAM=OFF -DSUNDER_TESTS=OFF \
     -DSUNDER_SANITIZE=fuzzer-no-link,address,undefined
