@@ -31,7 +31,8 @@ typedef struct entry {
     uint32_t subsum, runs; /* how many entries of the run list are its */
 } entry;
 
-/* Consecutive sides of one subsum that turn by less than half a turn together. Where operands have many sides, as rounded ones do, most
+/* Consecutive sides of one subsum whose vectors lie in one quadrant: they climb or fall together, so the box of the run is that of its
+ * ends. Where operands have many sides, as rounded ones do, most
  * questions are answered for a whole run at once; it falls apart where a cell becomes as small as it is. */
 typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
 
@@ -73,7 +74,7 @@ typedef struct builder {
     run *runs;
     size_t runs_n, runs_capacity;
     crossing *crossing; /* of the box at hand */
-    size_t crossing_n, crossing_capacity;
+    size_t crossing_n;
     cell *stack;
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
@@ -87,8 +88,6 @@ typedef struct builder {
 /* fmin and fmax without their care for NaN, which cannot come up here. */
 static inline double least(double a, double b) { return a < b ? a : b; }
 static inline double most_of(double a, double b) { return a > b ? a : b; }
-
-static int64_t diff(sunder_i_lattice *l, int64_t b, int64_t a) { return l->narrow ? b - a : sunder_i_lattice_sub(l, b, a); }
 
 static uint32_t run_from(const builder *b, run r) { return r & b->single_most; }
 
@@ -120,6 +119,19 @@ static bool apart(const box *a, const box *b)
     return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
 }
 
+/* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block freed so far, and with
+ * that all memory of a sum for the next one, instead of giving it back and fetching it again page by page. */
+static bool make_room(builder *b)
+{
+    const sunder_i_subsums *s = b->subsums;
+    const size_t bytes = s->sides * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
+    b->side = sunder_i_alloc(bytes + bytes / 2, 1);
+    if (!b->side) return false;
+    b->crossing = (crossing *)(void *)(b->side + s->sides);
+    b->reach = (box *)(void *)(b->crossing + s->sides);
+    return true;
+}
+
 /* Doubles of all sides; false if memory is out. Vectors are taken from exact differences, so that their error is relative to
  * themselves. */
 static bool approximate(builder *b, box *all)
@@ -127,18 +139,20 @@ static bool approximate(builder *b, box *all)
     const sunder_i_subsums *s = b->subsums;
     sunder_i_lattice *l = s->lattice;
     double most = 0;
-    b->side = sunder_i_alloc(s->sides, sizeof *b->side);
-    b->reach = sunder_i_alloc(s->n, sizeof *b->reach);
-    if (!b->side || !b->reach) return false;
     *all = nothing;
+    const bool narrow = l->narrow;
     for (size_t i = 0; i < s->n; i++) {
         const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
         box own = nothing;
         for (uint32_t k = first; k < end; k++) {
             const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
-            const double x = sunder_i_approx(l, from.x), y = sunder_i_approx(l, from.y);
-            b->side[k] = (approx_side){x, y, sunder_i_approx(l, diff(l, to.x, from.x)),
-                                       sunder_i_approx(l, diff(l, to.y, from.y))};
+            const double x = narrow ? (double)from.x : sunder_i_approx(l, from.x);
+            const double y = narrow ? (double)from.y : sunder_i_approx(l, from.y);
+            if (narrow)
+                b->side[k] = (approx_side){x, y, (double)(to.x - from.x), (double)(to.y - from.y)};
+            else
+                b->side[k] = (approx_side){x, y, sunder_i_approx(l, sunder_i_lattice_sub(l, to.x, from.x)),
+                                           sunder_i_approx(l, sunder_i_lattice_sub(l, to.y, from.y))};
             own.low[0] = least(own.low[0], x);
             own.high[0] = most_of(own.high[0], x);
             own.low[1] = least(own.low[1], y);
@@ -190,7 +204,14 @@ static void gather(builder *b, size_t from, size_t to, const box *c)
     for (size_t i = from; i < to; i++) {
         const run r = b->runs[i];
         if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
-        for (uint32_t k = run_from(b, r), end = run_end(b, r); k < end; k++) {
+        const uint32_t first = run_from(b, r), end = run_end(b, r);
+        if (end - first > 1) {
+            const approx_side *s = &b->side[first], *t = &b->side[end - 1];
+            const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};
+            box part;
+            if (!clip(b, &whole, c, &part)) continue;
+        }
+        for (uint32_t k = first; k < end; k++) {
             if (of[k] == SUNDER_I_NO_LINE) continue;
             crossing *x = &b->crossing[b->crossing_n];
             if (!clip(b, &b->side[k], c, &x->part)) continue;
@@ -375,17 +396,16 @@ static passed pass_run(const builder *b, const half *h, run r, double hx, double
     passed p = {false, 0, 0};
     for (uint32_t waiting = 0;;) {
         const approx_side *first = &b->side[at.from], *last = first + at.n - 1, *middle = first + at.n / 2;
-        const int where = side_of_half(b, h, middle, middle, hx, hy);
+        const int where = side_of_half(b, h, first, first, hx, hy);
         if (where == BEYOND) return (passed){true, 0, 0};
-        const bool passes = where == ACROSS || (at.n > 1 && (side_of_half(b, h, first, first, hx, hy) != WITHIN ||
-                                                             side_of_half(b, h, last, first, hx, hy) != WITHIN));
-        if (passes && at.n > 1 && fabs(last->ax - first->ax) + fabs(last->ay - first->ay) > hx + hy) {
-            todo[waiting].from = at.from + at.n / 2;
-            todo[waiting++].n = at.n - at.n / 2;
-            at.n /= 2;
-            continue;
-        }
-        if (passes) {
+        if (where == ACROSS || (at.n > 1 && side_of_half(b, h, last, first, hx, hy) != WITHIN)) {
+            if (at.n > 1 && fabs(last->ax - first->ax) + fabs(last->ay - first->ay) > hx + hy) {
+                todo[waiting].from = at.from + at.n / 2;
+                todo[waiting++].n = at.n - at.n / 2;
+                at.n /= 2;
+                continue;
+            }
+            if (at.n > 1 && side_of_half(b, h, middle, middle, hx, hy) == BEYOND) return (passed){true, 0, 0};
             out[p.n++] = (at.n - 1) << RUN_BITS | at.from;
             p.sides += at.n;
         }
@@ -507,7 +527,6 @@ static bool reserve_halves(builder *b, const cell *c)
     const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
     if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 2 * e, sizeof *b->entries) &&
         sunder_i_reserve(&b->runs, &b->runs_capacity, b->runs_n + 2 * s, sizeof *b->runs) &&
-        sunder_i_reserve(&b->crossing, &b->crossing_capacity, s, sizeof *b->crossing) &&
         sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 2, sizeof *b->stack))
         return true;
     b->no_memory = true;
@@ -560,16 +579,20 @@ static int compare_extents(void *context, uint32_t a, uint32_t b)
     return (extent[a] < extent[b]) - (extent[a] > extent[b]);
 }
 
+static bool one_quadrant(const approx_side *s, const approx_side *t)
+{
+    return (s->dx > 0) == (t->dx > 0) && (s->dy > 0) == (t->dy > 0) && (s->dx < 0) == (t->dx < 0) && (s->dy < 0) == (t->dy < 0);
+}
+
 /* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
 static void add_runs(builder *b, uint32_t subsum)
 {
     const uint32_t first = sunder_i_subsum_first(b->subsums, subsum), end = b->subsums->end[subsum];
     const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
-    const uint32_t *rank = b->subsums->rank;
     const size_t before = b->runs_n;
     for (uint32_t k = first; k < end;) {
         uint32_t n = 1;
-        while (n < longest && k + n < end && rank[k + n] - rank[k] < b->subsums->classes) n++;
+        while (n < longest && k + n < end && one_quadrant(&b->side[k], &b->side[k + n])) n++;
         b->runs[b->runs_n++] = n > 1 ? (n - 1) << RUN_BITS | k : k;
         k += n;
     }
@@ -601,7 +624,7 @@ static sunder_status descend(builder *b, sunder_error *err)
 {
     box all;
     cell root;
-    if (!approximate(b, &all) || !make_root(b, &all, &root)) return sunder_i_no_memory(err);
+    if (!make_room(b) || !approximate(b, &all) || !make_root(b, &all, &root)) return sunder_i_no_memory(err);
     split(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
@@ -653,10 +676,8 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && !settle_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);
-    sunder_i_free(b.reach);
     sunder_i_free(b.entries);
     sunder_i_free(b.runs);
-    sunder_i_free(b.crossing);
     sunder_i_free(b.stack);
     sunder_i_free(b.stamp);
     sunder_i_free(b.single);

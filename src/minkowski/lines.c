@@ -63,8 +63,9 @@ static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
     const uint32_t n = out->n++;
     t->slot[at] = n + 1;
     t->keys[n] = k;
-    const sunder_i_point a = s->corner[side];
-    out->line[n] = (sunder_i_line){a, sunder_i_point_add(s->lattice, a, s->direction[k.class]), k.class};
+    const sunder_i_point a = s->corner[side], d = s->direction[k.class];
+    out->line[n] = (sunder_i_line){
+        a, s->lattice->narrow ? (sunder_i_point){a.x + d.x, a.y + d.y} : sunder_i_point_add(s->lattice, a, d), k.class};
     return n;
 }
 

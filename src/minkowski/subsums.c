@@ -150,6 +150,7 @@ static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *
     const uint32_t pf = piece_first(p, i), pn = p->joined.end[i] - pf;
     const uint32_t qf = piece_first(q, j), qn = q->joined.end[j] - qf;
     const uint32_t start = at, classes = out->classes;
+    const bool narrow = out->lattice->narrow;
     uint32_t a = 0, b = 0;
     while (a < pn || b < qn) {
         const uint32_t pk = pf + (a < pn ? a : 0), qk = qf + (b < qn ? b : 0); /* at the end a piece waits in its first corner */
@@ -157,7 +158,8 @@ static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *
         const uint32_t pv = p->corner[pk], qv = q->corner[qk];
         const bool from_p = b >= qn || (a < pn && p->rank[pk] <= q->rank[qk]);
         const bool from_q = a >= pn || (b < qn && q->rank[qk] <= p->rank[pk]);
-        out->corner[at] = sunder_i_point_add(out->lattice, p->vertex[pv], q->vertex[qv]);
+        const sunder_i_point u = p->vertex[pv], v = q->vertex[qv];
+        out->corner[at] = narrow ? (sunder_i_point){u.x + v.x, u.y + v.y} : sunder_i_point_add(out->lattice, u, v);
         out->rank[at] = from_p ? p->rank[pk] : q->rank[qk];
         if (from_p && from_q)
             out->candidate[at] = sunder_i_is_boundary(p->shape, pv, p->corner[pm]) ||
