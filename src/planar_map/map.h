@@ -40,8 +40,8 @@
 
 /* A point with the nearest doubles to its coordinates (divided by 2^approx_shift of the lattice). */
 typedef struct sunder_i_site {
-    sunder_i_xyw at;
     double ax, ay;
+    sunder_i_xyw at;
 } sunder_i_site;
 
 /* A x + B y + C w, 0 on the line and positive above it (left of it as it goes to the lexicographically greater): B > 0,
@@ -194,6 +194,12 @@ uint32_t sunder_i_history_find(sunder_i_planar_map *map, const sunder_i_site *p)
 
 typedef enum sunder_i_wall { SUNDER_I_WALL_INSIDE, SUNDER_I_WALL_ON_BOTTOM, SUNDER_I_WALL_ON_TOP } sunder_i_wall;
 
+/* a and b, left and right of a wall, are neighbours across its upper (lower) part; one of them may be NOWHERE. */
+void sunder_i_trapezoid_link(sunder_i_planar_map *map, uint32_t a, uint32_t b, bool upper);
+/* The upper (lower) part of a wall stays as it was, but on its left a takes the place of `before`, and on its right b
+ * that of trapezoid `after`, which was *old_after. They may have been neighbours there, or each another's. */
+void sunder_i_trapezoid_pass(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
+                             const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b, bool upper);
 /* Tells the trapezoid's vertices and edges that it is there. */
 void sunder_i_trapezoid_install(sunder_i_planar_map *map, uint32_t t);
 /* Puts up the wall of vertex v in t, which keeps its left part; returns the right part. Room: 1 trapezoid, 2 nodes. */

@@ -18,8 +18,11 @@ static bool collect_rows(sunder_i_planar_map *map, uint32_t e)
         if (!sunder_i_map_push(map, &map->beneath, t)) return false;
         if (map->trapezoid[t].right == w) break;
     }
-    return sunder_i_map_room(map, 0, 0, map->above.n + map->beneath.n,
-                             2 * (map->above.n + map->beneath.n) + 2 * map->above.n + 2 * map->beneath.n);
+    /* A leaf for each new one, and the trees of succeed(): over each wall of the new row at most twice, once for each
+     * old row. */
+    const size_t n = map->above.n + map->beneath.n;
+    if (!sunder_i_reserve(&map->made.item, &map->made.capacity, n, sizeof *map->made.item)) map->failed = true;
+    return sunder_i_map_room(map, 0, 0, n, 3 * n);
 }
 
 static uint32_t begin(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t left, uint32_t covered)
@@ -40,37 +43,11 @@ static uint32_t begin(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t
     return m;
 }
 
-/* A wall between u and its right neighbour above the edge now reaches down to the bottom: m ends there, next begins. */
-static void wall_from_above(sunder_i_planar_map *map, uint32_t u, uint32_t after, uint32_t m, uint32_t next)
+/* The wall between trapezoid t of a row and the next one now runs on across the edge: m ends there, next begins. */
+static void wall_across(sunder_i_planar_map *map, uint32_t t, uint32_t after, uint32_t m, uint32_t next, bool above)
 {
-    sunder_i_trapezoid *z = map->trapezoid;
-    z[m].rl = next;
-    z[next].ll = m;
-    if (z[u].ru == after) {
-        z[m].ru = next;
-        z[next].lu = m;
-        return;
-    }
-    z[m].ru = z[u].ru;
-    if (z[u].ru != NOWHERE) z[z[u].ru].lu = m;
-    z[next].lu = z[after].lu;
-    if (z[after].lu != NOWHERE) z[z[after].lu].ru = next;
-}
-
-static void wall_from_below(sunder_i_planar_map *map, uint32_t d, uint32_t after, uint32_t m, uint32_t next)
-{
-    sunder_i_trapezoid *z = map->trapezoid;
-    z[m].ru = next;
-    z[next].lu = m;
-    if (z[d].rl == after) {
-        z[m].rl = next;
-        z[next].ll = m;
-        return;
-    }
-    z[m].rl = z[d].rl;
-    if (z[d].rl != NOWHERE) z[z[d].rl].ll = m;
-    z[next].ll = z[after].ll;
-    if (z[after].ll != NOWHERE) z[z[after].ll].rl = next;
+    sunder_i_trapezoid_link(map, m, next, !above);
+    sunder_i_trapezoid_pass(map, &map->trapezoid[t], after, &map->trapezoid[after], m, next, above);
 }
 
 /* The old ones of a row lead to those of the new row between the same walls, and go. */
@@ -92,18 +69,12 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     if (!collect_rows(map, e)) return false;
     const uint32_t *u = map->above.item, *d = map->beneath.item;
     const size_t un = map->above.n, dn = map->beneath.n;
-    if (!sunder_i_reserve(&map->made.item, &map->made.capacity, un + dn, sizeof *map->made.item)) {
-        map->failed = true;
-        return false;
-    }
     uint32_t covered = map->trapezoid[u[0]].covered - map->edge[e].sides[0];
     if (map->edge[e].sides[0] > map->trapezoid[u[0]].covered) covered = 0; /* counts not marked yet */
     uint32_t m = begin(map, u[0], d[0], map->edge[e].end[0], covered);
     sunder_i_trapezoid *z = map->trapezoid;
-    z[m].lu = z[u[0]].lu;
-    if (z[m].lu != NOWHERE) z[z[m].lu].ru = m;
-    z[m].ll = z[d[0]].ll;
-    if (z[m].ll != NOWHERE) z[z[m].ll].rl = m;
+    sunder_i_trapezoid_link(map, z[u[0]].lu, m, true);
+    sunder_i_trapezoid_link(map, z[d[0]].ll, m, false);
     size_t i = 0, j = 0;
     while (i + 1 < un || j + 1 < dn) {
         const uint32_t p = z[u[i]].right, q = z[d[j]].right;
@@ -113,19 +84,17 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
         z[m].right = upper ? p : q;
         const uint32_t next = begin(map, upper ? u[i + 1] : u[i], upper ? d[j] : d[j + 1], z[m].right, covered);
         if (upper) {
-            wall_from_above(map, u[i], u[i + 1], m, next);
+            wall_across(map, u[i], u[i + 1], m, next, true);
             i++;
         } else {
-            wall_from_below(map, d[j], d[j + 1], m, next);
+            wall_across(map, d[j], d[j + 1], m, next, false);
             j++;
         }
         m = next;
     }
     z[m].right = map->edge[e].end[1];
-    z[m].ru = z[u[i]].ru;
-    if (z[m].ru != NOWHERE) z[z[m].ru].lu = m;
-    z[m].rl = z[d[j]].rl;
-    if (z[m].rl != NOWHERE) z[z[m].rl].ll = m;
+    sunder_i_trapezoid_link(map, m, z[u[i]].ru, true);
+    sunder_i_trapezoid_link(map, m, z[d[j]].rl, false);
     for (size_t k = 0; k < map->made.n; k++) sunder_i_trapezoid_install(map, map->made.item[k]);
     succeed(map, &map->above);
     succeed(map, &map->beneath);
@@ -136,10 +105,8 @@ void sunder_i_trapezoid_join(sunder_i_planar_map *map, uint32_t t, uint32_t r)
 {
     sunder_i_trapezoid *z = map->trapezoid;
     z[t].right = z[r].right;
-    z[t].ru = z[r].ru;
-    z[t].rl = z[r].rl;
-    if (z[t].ru != NOWHERE) z[z[t].ru].lu = t;
-    if (z[t].rl != NOWHERE) z[z[t].rl].ll = t;
+    sunder_i_trapezoid_link(map, t, z[r].ru, true);
+    sunder_i_trapezoid_link(map, t, z[r].rl, false);
     sunder_i_history_alias(map, z[r].node, z[t].node);
     sunder_i_map_free_trapezoid(map, r);
     if (z[t].right != NOWHERE) map->vertex[z[t].right].left = t;

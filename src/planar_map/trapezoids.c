@@ -12,27 +12,17 @@ void sunder_i_trapezoid_install(sunder_i_planar_map *map, uint32_t t)
     if (z->right != NOWHERE) map->vertex[z->right].left = t;
 }
 
-/* t takes the neighbours across the right wall that are given, and they take it. */
-static void adopt_right(sunder_i_planar_map *map, uint32_t t, uint32_t ru, uint32_t rl)
-{
-    map->trapezoid[t].ru = ru;
-    map->trapezoid[t].rl = rl;
-    if (ru != NOWHERE) map->trapezoid[ru].lu = t;
-    if (rl != NOWHERE) map->trapezoid[rl].ll = t;
-}
-
 uint32_t sunder_i_trapezoid_split(sunder_i_planar_map *map, uint32_t t, uint32_t v, sunder_i_wall wall)
 {
     const uint32_t r = sunder_i_map_new_trapezoid(map), node = map->trapezoid[t].node;
     sunder_i_trapezoid *z = map->trapezoid;
     z[r] = z[t];
     z[r].left = z[t].right = v;
-    adopt_right(map, r, z[t].ru, z[t].rl);
-    const bool upper = wall != SUNDER_I_WALL_ON_TOP, lower = wall != SUNDER_I_WALL_ON_BOTTOM;
-    z[t].ru = upper ? r : NOWHERE;
-    z[r].lu = upper ? t : NOWHERE;
-    z[t].rl = lower ? r : NOWHERE;
-    z[r].ll = lower ? t : NOWHERE;
+    sunder_i_trapezoid_link(map, r, z[t].ru, true);
+    sunder_i_trapezoid_link(map, r, z[t].rl, false);
+    z[t].ru = z[t].rl = z[r].lu = z[r].ll = NOWHERE;
+    if (wall != SUNDER_I_WALL_ON_TOP) sunder_i_trapezoid_link(map, t, r, true);
+    if (wall != SUNDER_I_WALL_ON_BOTTOM) sunder_i_trapezoid_link(map, t, r, false);
     const uint32_t smaller = sunder_i_history_leaf(map, t), greater = sunder_i_history_leaf(map, r);
     sunder_i_history_at(map, node, v, smaller, greater);
     sunder_i_trapezoid_install(map, t);
@@ -40,37 +30,23 @@ uint32_t sunder_i_trapezoid_split(sunder_i_planar_map *map, uint32_t t, uint32_t
     return r;
 }
 
-/* The part of a wall that an edge leaves as it was, on the side of its vertex: `before` and `after` of old stand on its
- * two sides, and `a`, `b` take their places. Across it lie other trapezoids (edges end in the vertex), or each
- * other. */
-static void pass_upper(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
-                       const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b)
+void sunder_i_trapezoid_link(sunder_i_planar_map *map, uint32_t a, uint32_t b, bool upper)
 {
     sunder_i_trapezoid *z = map->trapezoid;
-    if (before->ru == after) {
-        z[a].ru = b;
-        z[b].lu = a;
-        return;
-    }
-    z[a].ru = before->ru;
-    if (before->ru != NOWHERE) z[before->ru].lu = a;
-    z[b].lu = old_after->lu;
-    if (old_after->lu != NOWHERE) z[old_after->lu].ru = b;
+    if (a != NOWHERE) *(upper ? &z[a].ru : &z[a].rl) = b;
+    if (b != NOWHERE) *(upper ? &z[b].lu : &z[b].ll) = a;
 }
 
-static void pass_lower(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
-                       const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b)
+void sunder_i_trapezoid_pass(sunder_i_planar_map *map, const sunder_i_trapezoid *before, uint32_t after,
+                             const sunder_i_trapezoid *old_after, uint32_t a, uint32_t b, bool upper)
 {
-    sunder_i_trapezoid *z = map->trapezoid;
-    if (before->rl == after) {
-        z[a].rl = b;
-        z[b].ll = a;
+    const uint32_t across = upper ? before->ru : before->rl, back = upper ? old_after->lu : old_after->ll;
+    if (across == after) {
+        sunder_i_trapezoid_link(map, a, b, upper);
         return;
     }
-    z[a].rl = before->rl;
-    if (before->rl != NOWHERE) z[before->rl].ll = a;
-    z[b].ll = old_after->ll;
-    if (old_after->ll != NOWHERE) z[old_after->ll].rl = b;
+    sunder_i_trapezoid_link(map, a, across, upper);
+    sunder_i_trapezoid_link(map, back, b, upper);
 }
 
 /* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no
@@ -91,8 +67,8 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
     z[u].bottom = z[d].top = e;
     z[u].left = z[d].left = v;
     z[u].ll = z[d].lu = NOWHERE;
-    if (old.lu != NOWHERE) z[old.lu].ru = u;
-    if (old.ll != NOWHERE) z[old.ll].rl = d;
+    sunder_i_trapezoid_link(map, old.lu, u, true);
+    sunder_i_trapezoid_link(map, old.ll, d, false);
     map->edge[e].up = u;
     map->edge[e].down = d;
     if (old.bottom != NOWHERE && map->edge[old.bottom].end[0] == v) map->edge[old.bottom].up = d;
@@ -114,32 +90,19 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
                                        .ll = NOWHERE,
                                        .ru = NOWHERE,
                                        .rl = NOWHERE};
-        if (p_above) {
-            z[next].top = after.top;
-            z[next].bottom = e;
-            z[u].right = p;
-            z[u].rl = next;
-            z[next].ll = u;
-            pass_upper(map, &old, next, &after, u, next);
-            map->vertex[p].left = u;
-            u = next;
-        } else {
-            z[next].top = e;
-            z[next].bottom = after.bottom;
-            z[d].right = p;
-            z[d].ru = next;
-            z[next].lu = d;
-            pass_lower(map, &old, next, &after, d, next);
-            map->vertex[p].left = d;
-            d = next;
-        }
+        uint32_t *open = p_above ? &u : &d;
+        z[next].top = p_above ? after.top : e;
+        z[next].bottom = p_above ? e : after.bottom;
+        z[*open].right = p;
+        map->vertex[p].left = *open;
+        sunder_i_trapezoid_link(map, *open, next, !p_above); /* between the vertex and e */
+        sunder_i_trapezoid_pass(map, &old, next, &after, *open, next, p_above);
+        *open = next;
         sunder_i_history_leaf(map, next);
         old = after;
     }
     z[u].right = z[d].right = w;
     z[u].rl = z[d].ru = NOWHERE;
-    z[u].ru = old.ru;
-    z[d].rl = old.rl;
-    if (old.ru != NOWHERE) z[old.ru].lu = u;
-    if (old.rl != NOWHERE) z[old.rl].ll = d;
+    sunder_i_trapezoid_link(map, u, old.ru, true);
+    sunder_i_trapezoid_link(map, d, old.rl, false);
 }
