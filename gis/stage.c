@@ -259,21 +259,36 @@ static bool is_plain(const char *path)
     return lstat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-static void supersede_namesakes(gis_stage *stage, char **names)
+static bool is_directory(const char *path)
 {
-    for (char **name = names; name && *name; name++) {
-        char *outside = join(stage->directory, *name);
-        if (strcmp(*name, ".") != 0 && strcmp(*name, "..") != 0 && exists(outside))
+    struct stat status;
+    return lstat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* A directory that has the name of one of the files may hold anything: it stays, and the run fails. */
+static bool supersede_namesakes(gis_stage *stage, char **names, gis_error *error)
+{
+    bool done = true;
+    for (char **name = names; done && name && *name; name++) {
+        char *outside = join(stage->directory, *name), *inside = join(stage->inside, *name);
+        bool in_the_way = strcmp(*name, ".") != 0 && strcmp(*name, "..") != 0 && exists(outside);
+        if (in_the_way && is_directory(outside) && !is_directory(inside))
+            done = gis_fail(error, "%s is a directory; it is not replaced by a file", outside);
+        else if (in_the_way)
             gis_stage_supersede(stage, *name);
         CPLFree(outside);
+        CPLFree(inside);
     }
+    return done;
 }
 
 bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error)
 {
     char **names = VSIReadDir(stage->inside);
-    if (replace)
-        supersede_namesakes(stage, names);
+    if (replace && !supersede_namesakes(stage, names, error)) {
+        CSLDestroy(names);
+        return false;
+    }
     journal log = {CPLCalloc((size_t)(CSLCount(names) + CSLCount(stage->superseded)) + 1, sizeof(renaming)), 0};
     char *main_from = join(stage->inside, stage->main), *main_to = join(stage->directory, stage->main);
     bool superseded = CSLFindString(stage->superseded, stage->main) >= 0;

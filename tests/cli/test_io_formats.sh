@@ -68,5 +68,11 @@ SOURCE_DATE_EPOCH=1700000000 separate squares.gpkg one.gpkg
 sleep 1.1
 SOURCE_DATE_EPOCH=1700000000 separate squares.gpkg two.gpkg
 cmp one.gpkg two.gpkg || fail "SOURCE_DATE_EPOCH does not make the bytes reproducible"
+for each in one two; do
+    cp squares.gpkg "updated_$each.gpkg"
+    SOURCE_DATE_EPOCH=1700000000 separate --update --output-layer apart squares.gpkg "updated_$each.gpkg"
+    sleep 1.1
+done
+cmp updated_one.gpkg updated_two.gpkg || fail "SOURCE_DATE_EPOCH does not make the bytes of an update reproducible"
 separate squares.gpkg three.gpkg
 ! cmp -s one.gpkg three.gpkg || fail "the date is not in the file: the comparison proves nothing"

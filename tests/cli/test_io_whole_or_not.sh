@@ -58,6 +58,11 @@ echo keep >aside.dbf
 refused_squares 1 'aside.dbf.*exists already' squares.gpkg aside.shp
 [ "$(ls aside*)" = aside.dbf ] && [ "$(cat aside.dbf)" = keep ] || fail "undoing left: $(ls aside*)"
 
+mkdir out_displacement.sbn && rm out_displacement.dbf && mkdir out_displacement.dbf && echo keep >out_displacement.dbf/file
+before=$(sum out*.shp out*.shx out.dbf out_displacement.dbf/file)
+refused_squares 1 'out_displacement.dbf is a directory' --overwrite --gap 5 squares.gpkg out.shp
+[ "$(sum out*.shp out*.shx out.dbf out_displacement.dbf/file)" = "$before" ] || fail "a refused run changed the output"
+
 # ---- a file that is no dataset, a directory
 mkdir precious && echo keep >precious/file
 refused_squares 1 'not replaced' --of 'ESRI Shapefile' --overwrite squares.gpkg precious
