@@ -30,8 +30,8 @@ bool gis_layer_field(const gis_layer_input *input, gis_option_id option, int *fi
         const char *other = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
         gis_nearest_offer(&search, other, strlen(other));
     }
-    return gis_fail(error, search.best ? "%s: layer %s has no field %s; did you mean %s?" : "%s: layer %s has no field %s",
-                    gis_option_table[option].names, layer, name, search.best);
+    return gis_fail(error, "%s: layer %s has no field %s%s%s%s", gis_option_table[option].names, layer, name,
+                    search.best ? "; did you mean " : "", search.best ? search.best : "", search.best ? "?" : "");
 }
 
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)

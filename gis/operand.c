@@ -97,10 +97,11 @@ bool gis_shape_from_source(const gis_options *options, const char *path, const c
     gis_source_request request = gis_options_source(options, path, GIS_TAKES_POLYGONS);
     gis_source *opened;
     const char *meant = gis_shape_prefix_meant(path);
-    if (!gis_source_open(&request, &opened, error))
-        return !meant || access(path, F_OK) == 0 ? false
-                                                 : gis_fail(error, "%s (%s): no such file, and no shape; did you mean %s?",
-                                                            who, path, meant);
+    if (!gis_source_open(&request, &opened, error)) {
+        if (meant && access(path, F_OK) != 0)
+            gis_fail(error, "%s (%s): no such file, and no shape; did you mean %s?", who, path, meant);
+        return false;
+    }
     gis_say_warnings(gis_source_warnings(opened));
     if (!shape_of_layer(opened, gis_options_invalid(options), who, out, building, error)) {
         gis_source_close(opened);

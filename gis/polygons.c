@@ -89,7 +89,8 @@ bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, dou
     return true;
 }
 
-sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validity, sunder_shape **out, sunder_error *why)
+sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validity, sunder_shape **out,
+                                 sunder_error *why)
 {
     return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, validity, out, why);
 }

@@ -25,6 +25,7 @@ bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t fir
 bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, double dx, double dy, gis_error *error);
 
 /* sunder_shape_from_rings() of them. */
-sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validity, sunder_shape **out, sunder_error *why);
+sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validity, sunder_shape **out,
+                                 sunder_error *why);
 
 #endif

@@ -97,7 +97,8 @@ setup_install() {
     for each in ${needed[@]+"${needed[@]}"} ${wanted[@]+"${wanted[@]}"}; do
         echo "missing: $each"
     done
-    local packages=(${setup_needed_packages[@]+"${setup_needed_packages[@]}"} ${setup_wanted_packages[@]+"${setup_wanted_packages[@]}"})
+    local packages=(${setup_needed_packages[@]+"${setup_needed_packages[@]}"}
+                    ${setup_wanted_packages[@]+"${setup_wanted_packages[@]}"})
     local way=""
     command -v apt-get >/dev/null ||
         way="There is no apt-get here. Install what is missing (in brackets: Debian's package), then run this again."

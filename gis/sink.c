@@ -186,7 +186,7 @@ static bool check_whole(gis_sink *sink, gis_error *error)
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
     if (!sink->request.overwrite)
         return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
-    if (gis_sink_is_directory(path)) { /* take no directory away that is not a dataset of the kind that will replace it */
+    if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
         GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
         if (!old)
             return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);

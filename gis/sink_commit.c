@@ -168,7 +168,7 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* ---- Finish and publish ----------------------------------------------------------------------------------------------- */
+/* ---- Finish and publish ------------------------------------------------------------------------------------ */
 
 static bool write_styles(gis_sink *sink, gis_error *error)
 {

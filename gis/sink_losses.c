@@ -88,7 +88,8 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
         if (index < 0)
             gis_list_add(&sink->losses, "field %s: not written", OGR_Fld_GetNameRef(sent));
         else
-            compare_field(layer, sent, OGR_FD_GetFieldDefn(as_written, index), layer->changes ? &layer->changes[i] : NULL);
+            compare_field(layer, sent, OGR_FD_GetFieldDefn(as_written, index),
+                          layer->changes ? &layer->changes[i] : NULL);
     }
     for (int i = 1; i < OGR_FD_GetGeomFieldCount(source); i++)
         gis_list_add(&sink->losses, "geometry column %s is not written: only the first one is",
