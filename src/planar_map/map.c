@@ -9,6 +9,7 @@ sunder_status sunder_i_planar_map_new(sunder_i_lattice *lattice, uint64_t seed, 
     map->lattice = lattice;
     map->random = seed;
     map->free_edge = map->free_trapezoid = NOWHERE;
+    map->marked = true;
     sunder_i_arena_alloc(&map->scratch, 1, 1); /* its first chunk stays, however often it is released */
     if (sunder_i_map_room(map, 0, 0, 1, 1)) {
         /* One trapezoid: the plane. */

@@ -101,7 +101,8 @@ int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, co
  * differences dx, dy round once, a and b are off by u, products and the sum round once more. So the error is at most
  *     (|a dx| + |b dy|) 4 u (1 + u)^3  +  u (|a| (|px| + |rx|) + |b| (|py| + |ry|)) (1 + u)^3
  * and twice that is asked for. Subnormal coordinates (of a wide lattice) and subnormal a, b add no more than 2^-1074
- * times the other factor, below 2^502: 2^-500 covers them, and costs a lattice of integers nothing. */
+ * times the other factor, below 2^502 for sites on the lattice or between them: 2^-500 covers them, and costs a lattice
+ * of integers nothing. */
 int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p)
 {
     map->lattice->operations.orientation_tests++;
