@@ -21,7 +21,7 @@
 #   SUNDER_PAPER_SECONDS        limit of one run (60)
 #   SUNDER_PAPER_MEMORY         limit of one run in KiB (4194304)
 #   SUNDER_PAPER_DECOMPOSED     largest size on which all decompositions are compared (50)
-#   SUNDER_PAPER_ALL            largest size on which every order is tried with every decomposition (20)
+#   SUNDER_PAPER_ALL            largest size on which every order is tried with every decomposition (10)
 #   SUNDER_PAPER_COMPARED       largest size on which the exact results of all runs are compared (50)
 #   SUNDER_PAPER_BASE           decomposition of the comparison of roads (angle-bisector)
 #   SUNDER_PAPER_REPEAT         runs of which the median counts, where they are short (3)
@@ -49,7 +49,7 @@ seed=${SUNDER_PAPER_SEED:-1}
 limit=${SUNDER_PAPER_SECONDS:-60}
 memory=${SUNDER_PAPER_MEMORY:-4194304}
 decomposed=${SUNDER_PAPER_DECOMPOSED:-50}
-all=${SUNDER_PAPER_ALL:-20}
+all=${SUNDER_PAPER_ALL:-10}
 compared=${SUNDER_PAPER_COMPARED:-50}
 base=${SUNDER_PAPER_BASE:-angle-bisector}
 repeat=${SUNDER_PAPER_REPEAT:-3}
@@ -73,13 +73,14 @@ columns+=",seconds,seconds_decompose,seconds_subsums,seconds_union,peak_rss_byte
 for count in $counts; do columns+=",$count"; done
 for phase in $phases; do for count in $counts; do columns+=",${phase}_$count"; done; done
 columns+=",result"
+# The runs are kept as lines of JSON, [[family, size, ...], status, summary or null, result], and made a table at the end.
 # shellcheck disable=SC2016 # jq's variables
-row='[.decomposition, .p.vertices, .q.vertices, .result.polygons, .result.holes, .result.vertices, .result.degenerate_segments,
-      .result.degenerate_points, .seconds.compute, .seconds.decompose, .seconds.subsums, .seconds.union, .peak_rss_bytes,
-      (.operations as $o | ("comparisons", "orientation_tests", "segment_intersections", "exact_fallbacks") | $o[.]),
-      (.operations.phases as $f | ("decompose", "subsums", "union") as $p |
-       ("comparisons", "orientation_tests", "segment_intersections", "exact_fallbacks") | $f[$p][.])] | @csv'
-fields=13+4+12
+row='def counts: [.comparisons, .orientation_tests, .segment_intersections, .exact_fallbacks];
+     .[0] as $kind | .[2] as $s | ($s.result // {}) as $r | ($s.seconds // {}) as $t |
+     $kind + [$s.decomposition] + [.[3][0], $s.p.vertices, $s.q.vertices, .[1]] +
+     [$r.polygons, $r.holes, $r.vertices, $r.degenerate_segments, $r.degenerate_points,
+      $t.compute, $t.decompose, $t.subsums, $t.union, $s.peak_rss_bytes] +
+     ($s.operations | counts) + ([$s.operations.phases | .decompose, .subsums, .union | counts] | add) + [.[3][1]] | @csv'
 
 header() {
   local cc
@@ -105,9 +106,15 @@ draw() {
 
 limited() { (ulimit -v "$memory" && exec timeout "$limit" "$sunder" sum "$@" "@$p" "@$q" 2>"$scratch/err"); }
 
+number() { # NAME FILE: the first number of that name in a summary
+  local text
+  text=$(<"$2")
+  [[ $text =~ \"$1\":\ ([0-9.e+-]+) ]] && echo "${BASH_REMATCH[1]}"
+}
+
 # Runs once or, where that is short, several times; the summary of the median in $scratch/stats. Sets status.
 measure() {
-  local i code=0 seconds
+  local i code=0 times=() seconds median
   for ((i = 0; i < repeat; i++)); do
     limited --stats - "$@" >"$scratch/stats.$i" || code=$?
     case $code in
@@ -117,28 +124,24 @@ measure() {
          if grep -qi memory "$scratch/err"; then status=memory; fi
          return ;;
     esac
-    seconds=$(jq .seconds.compute "$scratch/stats.$i")
-    if awk -v s="$seconds" 'BEGIN { exit !(s > 1) }'; then i=$((i + 1)); break; fi
+    seconds=$(number compute "$scratch/stats.$i")
+    times+=("$seconds $i")
+    if awk -v s="$seconds" 'BEGIN { exit !(s > 1) }'; then break; fi
   done
   status=ok
-  local order
-  order=$(for ((j = 0; j < i; j++)); do echo "$(jq .seconds.compute "$scratch/stats.$j") $j"; done | sort -g | sed -n "$(((i + 1) / 2))s/.* //p")
-  cp "$scratch/stats.$order" "$scratch/stats"
+  median=$(printf '%s\n' "${times[@]}" | sort -g | sed -n "$(((${#times[@]} + 1) / 2))s/.* //p")
+  mv "$scratch/stats.$median" "$scratch/stats"
 }
 
-# Hash of the exact result, on sizes where results are compared.
+# Checksum of the exact result, on sizes where results are compared.
 result() {
   if ((size > compared)); then return; fi
-  if limited --exact "$@" >"$scratch/exact"; then
-    jq -c '[.result.area, .polygons, .degenerate_segments, .degenerate_points]' "$scratch/exact" | cksum | tr ' ' '-'
-  else
-    echo failed
-  fi
+  limited --exact "$@" >"$scratch/exact" && sed '1,/"seconds"/d' "$scratch/exact" | cksum | tr ' ' '-' || echo failed
 }
 
 # A run of one kind (algorithm decomposition order) on the current input, unless a smaller size of it was stopped or it has been run.
 one() {
-  local algorithm=$1 decomposition=$2 order=$3 options=(--algorithm "$1") kind="$name $*" line
+  local algorithm=$1 decomposition=$2 order=$3 options=(--algorithm "$1") kind="$name $*" summary=null hash=''
   if [[ -n ${seen["$kind $size"]:-} ]]; then return; fi
   seen["$kind $size"]=1
   [[ -n $decomposition ]] && options+=(--decomposition "$decomposition")
@@ -149,17 +152,14 @@ one() {
     measure "${options[@]}"
   fi
   if [[ $status == ok ]]; then
-    line=$(jq -r "$row" "$scratch/stats" | tr -d '"')
-    local used=${line%%,*} rest=${line#*,}
-    local sizes_=${rest%%,*} more=${rest#*,}
-    echo "$name,$size,$seed,$algorithm,$decomposition,$used,$order,$sizes_,${more%%,*},ok,${more#*,},$(result "${options[@]}")" >>"$out/paper.csv"
-    echo "$name $size $* $(jq -r '"\(.seconds.compute) s, \(.result.vertices) vertices"' "$scratch/stats")"
+    summary=$(tr -d '\n' <"$scratch/stats")
+    hash=$(result "${options[@]}")
+    echo "$name $size $* $(number compute "$scratch/stats") s"
   else
     [[ $status == skipped ]] || stopped[$kind]=$status
-    # Unknown from p_vertices on, but for the status; fields and the hash follow it.
-    echo "$name,$size,$seed,$algorithm,$decomposition,,$order,,,$status$(printf ',%.0s' $(seq $((fields - 3))))," >>"$out/paper.csv"
     echo "$name $size $* $status"
   fi
+  echo "[[\"$name\",$size,$seed,\"$algorithm\",\"$decomposition\"],\"$status\",$summary,[\"$order\",\"$hash\"]]" >>"$scratch/runs"
 }
 
 count_pieces() {
@@ -186,6 +186,7 @@ experiments() {
       done
     done
   done
+  jq -r "$row" "$scratch/runs" | tr -d '"' >>"$out/paper.csv"
 }
 
 # picture NAME TITLE FAMILY OPTIONS... [-- OPTIONS OF sum]: a picture of P, Q and P + Q from what the program prints.
@@ -202,7 +203,7 @@ picture() {
   local map=()
   if [[ $picture_map == yes ]] && command -v ogr2ogr >/dev/null; then
     "$sunder" sum --quiet --planar-map --algorithm arrangement "$@" "@$p" "@$q" "$scratch/map.gpkg" --overwrite >/dev/null &&
-      ogr2ogr -f GeoJSON "$scratch/faces.json" "$scratch/map.gpkg" sum_faces -overwrite && map=("$scratch/faces.json")
+      rm -f "$scratch/faces.json" && ogr2ogr -f GeoJSON "$scratch/faces.json" "$scratch/map.gpkg" sum_faces && map=("$scratch/faces.json")
   fi
   python3 "$source/tests/bench/paper_picture.py" "$title" "$p" "$q" "$scratch/sum.json" "${map[@]}" >"$out/$file.svg"
 }
