@@ -3,6 +3,7 @@
 # of insertion, on the families of datasets-synthetic.
 #
 #   paper.sh [FAMILY ...]     all families unless some are named
+#   paper.sh pictures         figures 1 to 4 and 7 alone
 #
 # Installs what is missing and builds (not if SUNDER_BUILD names a build), runs, and writes to the output folder
 #
@@ -202,7 +203,7 @@ picture() {
   "$sunder" sum "$@" "@$p" "@$q" >"$scratch/sum.json"
   local map=()
   if [[ $picture_map == yes ]] && command -v ogr2ogr >/dev/null; then
-    "$sunder" sum --quiet --planar-map --algorithm arrangement "$@" "@$p" "@$q" "$scratch/map.gpkg" --overwrite >/dev/null &&
+    "$sunder" sum --quiet --planar-map --algorithm arrangement --decomposition "$base" "$@" "@$p" "@$q" "$scratch/map.gpkg" --overwrite >/dev/null &&
       rm -f "$scratch/faces.json" && ogr2ogr -f GeoJSON "$scratch/faces.json" "$scratch/map.gpkg" sum_faces && map=("$scratch/faces.json")
   fi
   python3 "$source/tests/bench/paper_picture.py" "$title" "$p" "$q" "$scratch/sum.json" "${map[@]}" >"$out/$file.svg"
@@ -218,7 +219,7 @@ pictures() {
   picture figure-7-fat-grid "Fat grid" fat-grid --size 28
   if "$sunder" sum --help | grep -q -- --planar-map; then picture_map=yes; fi
   picture figure-7-covered-fork "Covered fork: the arrangement beneath, darker where more subsums lie" covered-fork --size 24
-  picture figure-7-fat-cover "Fat cover: the arrangement beneath" fat-cover --size 40
+  picture figure-7-fat-cover "Fat cover: bars, one over the other, on blocks" fat-cover --size 48
 }
 
 # Different exact results for one input are an error of ours.
@@ -228,6 +229,10 @@ agreement() {
                  print runs + 0 " runs on " inputs + 0 " inputs compared exactly" (wrong ? "" : ", all equal"); exit wrong }' "$out/paper.csv"
 }
 
+if [[ ${names[*]} == pictures ]]; then
+  pictures
+  exit
+fi
 declare -A seen=() stopped=()
 header | tee "$out/run.txt"
 echo "$columns" >"$out/paper.csv"

@@ -57,7 +57,7 @@ class Panel:
 
 
 def faces(panel, file):
-    """Cells by covering: opaque in proportion to the logarithm of the count, so that one and a thousand both show."""
+    """Cells by covering: opaque by the root of the count, so that few and many both show."""
     features = json.load(open(file))["features"]
     most = max((f["properties"]["covered_by"] or 0 for f in features), default=1)
     for feature in features:
@@ -66,7 +66,7 @@ def faces(panel, file):
         if not count or not geometry:
             continue
         parts = geometry["coordinates"] if geometry["type"] == "MultiPolygon" else [geometry["coordinates"]]
-        opacity = 0.12 + 0.8 * (count.bit_length() / max(1, most.bit_length()))
+        opacity = 0.1 + 0.8 * (count / most) ** 0.5
         for rings in parts:
             yield panel.path(rings, "face", f' fill-opacity="{opacity:.2f}"')
 
