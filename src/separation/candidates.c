@@ -6,6 +6,7 @@
  * A vertex where rings touch, or a ring itself, does not see its true cone through its own ring: it is taken with every
  * edge. Diagonals of the decomposition lie inside an operand, so what they would carry is covered. */
 #include "separation/candidates.h"
+#include "separation/held.h"
 
 #include <math.h>
 
@@ -138,7 +139,10 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
         for (uint32_t m = 0; m < n; m++) {
             const uint32_t k = met[m];
             const double square = segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
-            if (square <= reach * reach && !push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side}))
+            if (square > reach * reach ||
+                (g->held && sunder_i_held_segment(g->held, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
+                continue;
+            if (!push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side}))
                 return false;
         }
     }

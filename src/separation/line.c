@@ -1,4 +1,5 @@
 #include "separation/line.h"
+#include "separation/held.h"
 
 #include <math.h>
 
@@ -98,20 +99,50 @@ static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
     return true;
 }
 
+/* Does subsum k cover the point? False too if memory is out. */
+static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                   size_t k)
+{
+    const double e = g->error;
+    sunder_i_subsum *s = g->subsum + k;
+    if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) return false;
+    if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
+    g->placed.lattice.operations.orientation_tests += s->sides;
+    return inside(g, line, t, x, y, s);
+}
+
+/* With a board of squares: the last subsum first, then those near the square. */
+static long cover_on_board(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x,
+                           double y, uint32_t square, size_t first)
+{
+    const sunder_i_held *h = g->held;
+    if (h->holder[square]) return (long)h->holder[square] - 1;
+    if (first < g->subsums && covers(g, line, t, x, y, first)) return (long)first;
+    for (uint32_t i = square ? h->list_end[square - 1] : 0; i < h->list_end[square]; i++) {
+        if (covers(g, line, t, x, y, h->list[i])) return (long)h->list[i];
+        if (g->placed.lattice.arena.failed) return -1;
+    }
+    return -1;
+}
+
 long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
                          size_t *first)
 {
-    const double e = g->error;
+    if (g->held) {
+        const uint32_t square = sunder_i_held_square(g->held, x, y);
+        if (square < g->held->n * g->held->n) {
+            const long k = cover_on_board(g, line, t, x, y, square, first ? *first : g->subsums);
+            if (first && k >= 0) *first = (size_t)k;
+            return k;
+        }
+    }
     size_t k = first && *first < g->subsums ? *first : 0;
     for (size_t n = 0; n < g->subsums; n++, k = k + 1 < g->subsums ? k + 1 : 0) {
-        sunder_i_subsum *s = g->subsum + k;
-        if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) continue;
-        if (!s->sides && !sunder_i_subsum_make(g, s)) return -1;
-        g->placed.lattice.operations.orientation_tests += s->sides;
-        if (inside(g, line, t, x, y, s)) {
+        if (covers(g, line, t, x, y, k)) {
             if (first) *first = k;
             return (long)k;
         }
+        if (g->placed.lattice.arena.failed) return -1;
     }
     return -1;
 }

@@ -3,6 +3,7 @@
  * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/nearest.h"
 #include "separation/candidates.h"
+#include "separation/held.h"
 
 #include <math.h>
 
@@ -121,6 +122,19 @@ static bool origin_covered(sunder_i_pairing *g, const sunder_i_fraction *zero)
     return sunder_i_line_cover(g, &axis, zero, 0, 0, NULL) >= 0;
 }
 
+static bool search_all(search *s)
+{
+    sunder_i_pairing *g = s->g;
+    sunder_i_candidates heap;
+    if (!sunder_i_candidates_find(g, s->limit, &heap)) return false;
+    while (heap.n && sqrt(heap.item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
+        const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
+        const sunder_i_line line = sunder_i_candidate_line(g, &c);
+        try_candidate(s, &line);
+    }
+    return true;
+}
+
 sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -134,14 +148,11 @@ sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_
         *out = s.best;
         return SUNDER_OK;
     }
-    sunder_i_candidates heap;
-    if (!sunder_i_candidates_find(g, s.limit, &heap)) return sunder_i_no_memory(err);
-    while (heap.n && sqrt(heap.item[0].square) - 4 * g->error <= s.limit && !l->arena.failed) {
-        const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
-        const sunder_i_line line = sunder_i_candidate_line(g, &c);
-        try_candidate(&s, &line);
-    }
-    if (l->arena.failed) return sunder_i_no_memory(err);
+    if (g->subsums >= SUNDER_I_HELD_FROM && !sunder_i_held_build(g, s.limit + 16 * g->error))
+        return sunder_i_no_memory(err);
+    const bool ok = search_all(&s);
+    sunder_i_held_free(g);
+    if (!ok || l->arena.failed) return sunder_i_no_memory(err);
     *out = s.best;
     return SUNDER_OK;
 }

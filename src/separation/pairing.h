@@ -43,6 +43,7 @@ typedef struct sunder_i_pairing {
     sunder_i_ring *ring[2];  /* [pieces] */
     sunder_i_subsum *subsum; /* those within reach (sunder_i_pairing_reach); they that may cover the origin first */
     size_t subsums;
+    struct sunder_i_held *held; /* what is known of them all together; NULL: nothing (held.h) */
 } sunder_i_pairing;
 
 typedef struct sunder_i_pairing_options {
