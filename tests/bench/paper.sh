@@ -9,6 +9,7 @@
 #
 #   paper.csv                 a line a run: sizes, seconds by phase, counts by phase, memory, hash of the exact result
 #   pieces.csv                what each convex decomposition makes of each input: pieces, subsums and their sides, seconds
+#   orders.csv                the incremental union in random order, as given and by three measures of fatness
 #   run.txt                   machine, compiler, commit, seed, limits
 #   tables.md                 exponents in n fitted over the sizes; phases; orders; decompositions
 #   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
@@ -17,7 +18,8 @@
 # tried. PAPER.md says what was found.
 #
 #   SUNDER_PAPER_OUT            output folder (build/paper)
-#   SUNDER_PAPER_SIZES          sizes of both operands (10 20 50 100 200)
+#   SUNDER_PAPER_SIZES          sizes of both operands (10 20 50 100)
+#   SUNDER_PAPER_LARGE          further sizes, for the convolution alone (200 500 1000)
 #   SUNDER_PAPER_SEED           seed of the families and of random orders (1)
 #   SUNDER_PAPER_SECONDS        limit of one run (60)
 #   SUNDER_PAPER_MEMORY         limit of one run in KiB (4194304)
@@ -45,7 +47,8 @@ for tool in "$sunder" "$families" jq gnuplot python3; do
 done
 
 out=${SUNDER_PAPER_OUT:-$source/build/paper}
-sizes=${SUNDER_PAPER_SIZES:-10 20 50 100 200}
+sizes=${SUNDER_PAPER_SIZES:-10 20 50 100}
+large=${SUNDER_PAPER_LARGE-200 500 1000}
 seed=${SUNDER_PAPER_SEED:-1}
 limit=${SUNDER_PAPER_SECONDS:-60}
 memory=${SUNDER_PAPER_MEMORY:-4194304}
@@ -89,7 +92,7 @@ header() {
   echo "machine    $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, $(uname -sr), load $(cut -d' ' -f1 /proc/loadavg)"
   echo "compiler   $("$cc" --version | head -n 1), $(sed -n 's/^CMAKE_BUILD_TYPE:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt") $(sed -n 's/^CMAKE_C_FLAGS_RELEASE:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")"
   echo "commit     $(git -C "$source" describe --always --dirty 2>/dev/null || echo unknown)"
-  echo "inputs     sunder-families, sizes $sizes, seed $seed"
+  echo "inputs     sunder-families, sizes $sizes (${large:-none} for the convolution alone), seed $seed"
   echo "limits     $limit s and $memory KiB a run; median of $repeat runs below a second"
   echo "roads      ${algorithms:-none but the default}; decompositions: ${decompositions:-none}; orders: ${orders:-none}"
 }
@@ -163,10 +166,11 @@ one() {
   echo "[[\"$name\",$size,$seed,\"$algorithm\",\"$decomposition\"],\"$status\",$summary,[\"$order\",\"$hash\"]]" >>"$scratch/runs"
 }
 
-count_pieces() {
+# What needs the library's inside, where that program was built: pieces at every size, measures of fatness up to the limit of time.
+count_inside() { # pieces|orders
   if [[ -x $pieces ]]; then
-    SUNDER_BENCH_SECONDS=0.1 timeout "$((10 * limit))" "$pieces" "$out/inputs/${name}_$size.wkt" | sed "s/^/$name,$size,/" >>"$out/pieces.csv" ||
-      echo "$name $size: the pieces could not be counted"
+    SUNDER_BENCH_SECONDS=0.1 timeout "$((2 * limit))" "$pieces" "$out/inputs/${name}_$size.wkt" "$1" | sed "s/^/$name,$size,/" >>"$out/$1.csv" ||
+      echo "$name $size: the $1 could not be counted"
   fi
 }
 
@@ -175,7 +179,8 @@ experiments() {
   for name in "${names[@]}"; do
     for size in $sizes; do
       draw "$name" "$size"
-      count_pieces
+      count_inside pieces
+      count_inside orders
       one convolution '' ''
       for algorithm in $algorithms; do
         case $algorithm in auto | convolution) continue ;; esac
@@ -185,6 +190,10 @@ experiments() {
           if ((size <= all)); then for order in $orders; do one "$algorithm" "$decomposition" "$order"; done; fi
         done
       done
+    done
+    for size in $large; do
+      draw "$name" "$size"
+      one convolution '' ''
     done
   done
   jq -r "$row" "$scratch/runs" | tr -d '"' >>"$out/paper.csv"
@@ -237,6 +246,7 @@ declare -A seen=() stopped=()
 header | tee "$out/run.txt"
 echo "$columns" >"$out/paper.csv"
 echo family,size,decomposition,used,pieces_p,pieces_q,subsums,sides,seconds_decompose,seconds_subsums >"$out/pieces.csv"
+echo family,size,order,subsums,edges,comparisons,orientation_tests,segment_intersections,seconds >"$out/orders.csv"
 pictures
 experiments
 python3 "$source/tests/bench/paper_charts.py" "$out"

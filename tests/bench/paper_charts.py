@@ -186,7 +186,21 @@ def pieces(counted):
         yield [family, size, *cells]
 
 
-def tables(runs, counted, folder):
+MEASURES = ("random", "given", "area", "breadth", "round")
+
+
+def measures(ordering):
+    """Crossings / comparisons and orientation tests of the incremental union, by order of insertion."""
+    for family in ordered(ordering, "family"):
+        for size in ordered(ordering, "size"):
+            of = {r["order"]: r for r in ordering if (r["family"], r["size"]) == (family, size)}
+            if len(of) == len(MEASURES) and int(size) >= 20:
+                cells = (f'{of[m]["segment_intersections"]} / {int(of[m]["comparisons"]) + int(of[m]["orientation_tests"])}'
+                         for m in MEASURES)
+                yield [family, size, of["random"]["subsums"], of["random"]["edges"], *cells]
+
+
+def tables(runs, counted, ordering, folder):
     with open(os.path.join(folder, "tables.md"), "w") as out:
         table(out, "Exponents in n (vertices of P): least squares in logarithms over the sizes from 20 on.",
               ["family", "road", "sizes", "output", "crossings", "orientation tests", "comparisons", "seconds", "memory"], growth(runs))
@@ -195,6 +209,9 @@ def tables(runs, counted, folder):
                "orientation tests", "left open by the filter"], phases(runs))
         table(out, "The order by fatness: its cost in parts of that of the random order.",
               ["family", "road", "n", "crossings", "orientation tests", "seconds"], orders(runs))
+        table(out, "Orders of the incremental union: crossings / comparisons and orientation tests (area, breadth = area by perimeter, "
+              "round = area by its square: measures of fatness, largest first).",
+              ["family", "n", "subsums", "edges out", *MEASURES], measures(ordering))
         table(out, "What the decompositions make: pieces of P x pieces of Q, sides of all subsums, microseconds to decompose both.",
               ["family", "n", *DECOMPOSITIONS], pieces(counted))
         table(out, "Decompositions: seconds to decompose / in all, random order.", ["family", "road", "n", *DECOMPOSITIONS],
@@ -203,9 +220,9 @@ def tables(runs, counted, folder):
 
 def main():
     folder = sys.argv[1]
-    runs, counted = (read(os.path.join(folder, name)) for name in ("paper.csv", "pieces.csv"))
+    runs, counted, ordering = (read(os.path.join(folder, name + ".csv")) for name in ("paper", "pieces", "orders"))
     charts(runs, folder)
-    tables(runs, counted, folder)
+    tables(runs, counted, ordering, folder)
 
 
 main()
