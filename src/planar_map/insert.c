@@ -38,9 +38,11 @@ typedef struct stop {
     bool done; /* it is the target */
 } stop;
 
-/* A crossing worked out in one trapezoid may be needed in the next along the same edge. */
+/* What was found out about an edge and the segment in one trapezoid may be needed in the next along the same edge: the
+ * side of the edge's greater end, and where the two cross. */
 typedef struct crossing_cache {
-    uint32_t edge;
+    uint32_t edge, sided; /* whose crossing, and whose end's side; NOWHERE: none yet */
+    int side;
     sunder_i_site site;
 } crossing_cache;
 
@@ -64,8 +66,11 @@ static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, con
     if (e == NOWHERE) return false;
     const uint32_t end = map->edge[e].end[1], wall = map->trapezoid[t].right;
     if (end == wall) return true; /* the edge ends on the vertex's side of the segment */
-    const int side = sunder_i_site_side(map, line, &map->vertex[end].site);
-    if (side != (above ? 1 : -1)) return false;
+    if (cache->sided != e) {
+        cache->sided = e;
+        cache->side = sunder_i_site_side(map, line, &map->vertex[end].site);
+    }
+    if (cache->side != (above ? 1 : -1)) return false;
     return sunder_i_site_cmp(map, crossing(map, e, line, cache), &map->vertex[wall].site) < 0;
 }
 
@@ -106,7 +111,7 @@ static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_
 static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, const sunder_i_map_line *line,
                    stop *s)
 {
-    crossing_cache low = {.edge = NOWHERE}, high = {.edge = NOWHERE};
+    crossing_cache low = {.edge = NOWHERE, .sided = NOWHERE}, high = low;
     map->crossed.n = 0;
     for (;;) {
         if (!sunder_i_map_push(map, &map->crossed, t) || sunder_i_map_broken(map)) return false;
@@ -136,6 +141,7 @@ static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *ta
 bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_site *target,
                         const sunder_i_map_line *line, sunder_i_list *list)
 {
+    crossing_cache low = {.edge = NOWHERE, .sided = NOWHERE}, high = low;
     for (;;) {
         const sunder_i_trapezoid *z = &map->trapezoid[*t];
         const int c = z->right == NOWHERE ? -1 : sunder_i_site_cmp(map, target, &map->vertex[z->right].site);
@@ -144,11 +150,8 @@ bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_si
                    (z->top == NOWHERE || sunder_i_site_side(map, line_of(map, z->top), target) < 0);
         const int side = c == 0 ? 0 : sunder_i_site_side(map, line, &map->vertex[z->right].site);
         if (side == 0) return false;
-        crossing_cache cache = {.edge = NOWHERE};
-        const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
-        const bool leaves = leaves_by_edge(map, *t, side > 0 ? z->bottom : z->top, line, side > 0, &cache);
-        sunder_i_arena_release(&map->scratch, mark);
-        if (leaves) return false;
+        if (leaves_by_edge(map, *t, side > 0 ? z->bottom : z->top, line, side > 0, side > 0 ? &low : &high))
+            return false;
         *t = side > 0 ? z->rl : z->ru;
         if (!sunder_i_map_push(map, list, *t << 1 | (side > 0))) return false;
     }
