@@ -42,7 +42,7 @@ const gis_option gis_option_table[OPT_N] = {
                        "auto|convolution|arrangement|incremental|divide", "auto",
                        "the road to the sum; all give the same"},
     [OPT_DECOMPOSITION] = {OPT_DECOMPOSITION, "--decomposition", GIS_TYPE_CHOICE, GIS_SUM, OWN,
-                           "angle-bisector|vertical|triangulation|hertel-mehlhorn|optimal|mixed", "hertel-mehlhorn",
+                           "angle-bisector|vertical|triangulation|hertel-mehlhorn|optimal|mixed", "angle-bisector",
                            "convex pieces"},
     [OPT_ORDER] = {OPT_ORDER, "--order", GIS_TYPE_CHOICE, GIS_SUM, OWN, "random|fat|given", "random",
                    "of the subsums; not with convolution"},

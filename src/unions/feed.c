@@ -1,5 +1,5 @@
-/* Subsums are made one at a time, when their turn comes, and forgotten when they are in the map: so memory is the map's. Their
- * time and operations are booked apart from the map's. */
+/* Subsums are made one at a time, when their turn comes, and forgotten when they are in the map: so memory is the
+ * map's. Their time and operations are booked apart from the map's. */
 #include "decomposition/convex_sum.h"
 #include "unions/unions.h"
 
@@ -35,7 +35,7 @@ static bool make(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
 static bool go_on(const sunder_i_uniting *u)
 {
     const sunder_sum_options *o = u->options;
-    return !o->progress || (u->fed & 15) || o->progress((double)u->fed / u->subsums, o->progress_user);
+    return !o->progress || o->progress((double)u->fed / u->subsums, o->progress_user);
 }
 
 sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_t n, sunder_i_add_polygon add,

@@ -1,14 +1,15 @@
 /* Incremental union [AFH00, section 2].
  *
- * Subsums are united one at a time with the union so far. Each is inserted into the map of the union; then whatever of the map lies
- * inside it, and whatever of its own boundary lies inside the union, is redundant and goes.
+ * Subsums are united one at a time with the union so far. Each is inserted into the map of the union; then whatever of
+ * the map lies inside it, and whatever of its own boundary lies inside the union, is redundant and goes.
  *
- * Invariant: the map is that of the union of the subsums fed so far, with its degenerate holes and nothing else. An edge or
- * vertex is redundant only if it lies in the interior of some subsum: one between two covered faces that no subsum covers is
- * a degenerate hole, and stays until some later subsum covers it.
+ * Invariant: the map is that of the union of the subsums fed so far, with its degenerate holes and nothing else. An
+ * edge or vertex is redundant only if it lies in the interior of some subsum: one between two covered faces that no
+ * subsum covers is a degenerate hole, and stays until some later subsum covers it.
  *
- * Cost: what is inserted and what is removed. Good where the union stays small, and better where fat subsums come first (order.c);
- * where no subsum covers much of another's crossings, nothing is gained over the arrangement and removal is paid besides. */
+ * Cost: what is inserted and what is removed. Good where the union stays small, and better where fat subsums come first
+ * (order.c); where no subsum covers much of another's crossings, nothing is gained over the arrangement and removal is
+ * paid besides. */
 #include "unions/unions.h"
 
 static sunder_status unite(sunder_i_uniting *u, uint32_t *subsum, uint32_t first, uint32_t n, sunder_i_planar_map *map,

@@ -1,16 +1,17 @@
 /* In what order subsums go in.
  *
  * Random is what the expected costs of the vertical decomposition stand on. Fat, the largest first, is for unions that
- * drop what is covered: a large subsum that is in early swallows small ones before they cross each other, so that the cost
- * follows the output and not the arrangement beneath it. The paper leaves open what fat means. Three measures stand to reason:
+ * drop what is covered: a large subsum that is in early swallows small ones before they cross each other, so that the
+ * cost follows the output and not the arrangement beneath it. The paper leaves open what fat means. Three measures
+ * stand to reason:
  *
  *     area       what the subsum swallows, in expectation, if what comes later is spread evenly
  *     breadth    area by perimeter, which for a convex set is from a half to one times the radius of its largest disc:
  *                a long thin subsum swallows little whatever its area
  *     round      area by the square of the perimeter, fatness as the literature on fat objects has it, without a size
  *
- * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the same
- * union. */
+ * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
+ * same union. */
 #include "decomposition/convex_sum.h"
 #include "number/sort.h"
 #include "unions/unions.h"

@@ -1,19 +1,21 @@
 /* From a marked map to the canonical sum.
  *
- * The map may be a whole arrangement or a clean union; covered counts say all. An edge *bounds* the sum where one side is covered
- * and the other is not. It is a *slit* where both sides are covered and it is not: a piece of a degenerate segment. All
- * other edges are covered and count for nothing but this: like slits, they connect the faces on their two sides. So the components of
- * the interior of the sum are the classes of covered faces under "an edge with both sides covered lies between".
+ * The map may be a whole arrangement or a clean union; covered counts say all. An edge *bounds* the sum where one side
+ * is covered and the other is not. It is a *slit* where both sides are covered and it is not: a piece of a degenerate
+ * segment. All other edges are covered and count for nothing but this: like slits, they connect the faces on their two
+ * sides. So the components of the interior of the sum are the classes of covered faces under "an edge with both sides
+ * covered lies between".
  *
- * Rings. There is one for each component C of the interior and each component of the plane minus the closure of C. From the end of
- * a bounding half-edge (C on its left), the next one of its ring is the first counter-clockwise that bounds the same
- * C: between the two lies one wedge of the plane without C. Where the boundary touches itself this turns off
+ * Rings. There is one for each component C of the interior and each component of the plane minus the closure of C. From
+ * the end of a bounding half-edge (C on its left), the next one of its ring is the first counter-clockwise that bounds
+ * the same C: between the two lies one wedge of the plane without C. Where the boundary touches itself this turns off
  * early, so rings are simple; where it touches another component, that one's half-edges are passed over.
  *
- * Degenerate holes. Slits on one line that meet are one segment. A point is a vertex that no region covers, where no edge
- * does without cover either.
+ * Degenerate holes. Slits on one line that meet are one segment. A point is a vertex that no region covers, where no
+ * edge does without cover either.
  *
- * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas leave them. */
+ * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas
+ * leave them. */
 #include "number/sort.h"
 #include "unions/unions.h"
 
@@ -312,9 +314,9 @@ static void renumber(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *nex
     }
 }
 
-/* In lowest terms, as sums of the other roads have them. Every vertex of a sum is a corner of the convolution or a crossing of
- * two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where crossings of such
- * lines do, though here it may have come from Steiner points. */
+/* In lowest terms, as sums of the other roads have them. Every vertex of a sum is a corner of the convolution or a
+ * crossing of two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where
+ * crossings of such lines do, though here it may have come from Steiner points. */
 static bool reduced(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
                     sunder_i_hpoint *out)
 {

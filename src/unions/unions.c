@@ -21,8 +21,6 @@ static sunder_operations less(const sunder_operations *a, const sunder_operation
 static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
 {
     switch (asked) {
-    case SUNDER_ANGLE_BISECTOR:
-        return SUNDER_I_ANGLE_BISECTOR;
     case SUNDER_VERTICAL:
         return SUNDER_I_VERTICAL;
     case SUNDER_TRIANGULATION:
@@ -32,17 +30,19 @@ static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
     case SUNDER_MIXED:
         return SUNDER_I_MIXED;
     case SUNDER_HERTEL_MEHLHORN:
+        return SUNDER_I_HERTEL_MEHLHORN;
+    case SUNDER_ANGLE_BISECTOR:
     case SUNDER_DECOMPOSITION_AUTO:
         break;
     }
-    return SUNDER_I_HERTEL_MEHLHORN;
+    return SUNDER_I_ANGLE_BISECTOR;
 }
 
 /* What was used for both, or Hertel and Mehlhorn's if some member had to fall back on it. */
 static sunder_decomposition used_by(const sunder_i_uniting *u, sunder_decomposition asked)
 {
-    if (asked == SUNDER_DECOMPOSITION_AUTO || u->p.fallbacks || u->q.fallbacks) return SUNDER_HERTEL_MEHLHORN;
-    return asked;
+    if (u->p.fallbacks || u->q.fallbacks) return SUNDER_HERTEL_MEHLHORN;
+    return asked == SUNDER_DECOMPOSITION_AUTO ? SUNDER_ANGLE_BISECTOR : asked;
 }
 
 static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
