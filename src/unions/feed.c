@@ -1,6 +1,5 @@
 /* Subsums are made one at a time, when their turn comes, and forgotten when they are in the map: so memory is the
  * map's. Their time and operations are booked apart from the map's. */
-#include "decomposition/convex_sum.h"
 #include "unions/unions.h"
 
 #include <time.h>
@@ -20,7 +19,7 @@ static void book(sunder_operations *to, const sunder_operations *before, const s
     to->exact_fallbacks += after->exact_fallbacks - before->exact_fallbacks;
 }
 
-static bool make(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
+bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
 {
     const sunder_operations before = u->lattice->operations;
     const double start = now();
@@ -46,7 +45,7 @@ sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_
         if (!go_on(u)) return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
         const sunder_i_mark mark = sunder_i_arena_mark(&u->arena);
         sunder_i_convex_sum s;
-        if (!make(u, subsum[i], &s)) return sunder_i_no_memory(err);
+        if (!sunder_i_make_subsum(u, subsum[i], &s)) return sunder_i_no_memory(err);
         status = add(map, (const sunder_i_xyw *)s.xyw, s.along, s.corners, err);
         sunder_i_arena_release(&u->arena, mark);
     }

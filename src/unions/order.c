@@ -12,7 +12,6 @@
  *
  * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
  * same union. */
-#include "decomposition/convex_sum.h"
 #include "number/sort.h"
 #include "unions/unions.h"
 
@@ -50,8 +49,7 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     const sunder_i_mark mark = sunder_i_arena_mark(&u->arena);
     sunder_i_convex_sum s;
     double area = 0, perimeter = 0, from[2] = {0, 0};
-    if (!sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces, &u->arena, &s))
-        return 0;
+    if (!sunder_i_make_subsum(u, subsum, &s)) return 0;
     for (uint32_t k = 1; k <= s.corners && !u->arena.failed; k++) {
         double to[2];
         offset(u, &s, k < s.corners ? k : 0, to);
@@ -79,17 +77,19 @@ static int descending(void *context, uint32_t a, uint32_t b)
     return (key[a] < key[b]) - (key[a] > key[b]);
 }
 
-/* Equals stay as they come: the sort is stable. */
+/* Equals, of which translates of pieces make many, stay in random order: the sort is stable. */
 static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
-    uint32_t least = UINT32_MAX;
-    for (uint32_t i = 0; i < n; i++) least = subsum[i] < least ? subsum[i] : least;
+    const uint32_t first = n ? subsum[0] : 0;
     double *key = sunder_i_alloc(n, sizeof *key);
     if (!key) return false;
-    for (uint32_t i = 0; i < n; i++) key[subsum[i] - least] = fatness_of(u, subsum[i]);
-    for (uint32_t i = 0; i < n; i++) subsum[i] -= least;
+    for (uint32_t i = 0; i < n; i++) {
+        key[i] = fatness_of(u, first + i);
+        subsum[i] = i;
+    }
+    shuffle(u, subsum, n);
     const bool ok = sunder_i_sort_indices(subsum, n, descending, key);
-    for (uint32_t i = 0; i < n; i++) subsum[i] += least;
+    for (uint32_t i = 0; i < n; i++) subsum[i] += first;
     sunder_i_free(key);
     return ok && !u->arena.failed && !u->lattice->arena.failed;
 }

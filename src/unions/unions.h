@@ -12,7 +12,7 @@
 #ifndef SUNDER_I_UNIONS_H
 #define SUNDER_I_UNIONS_H
 
-#include "decomposition/decomposition.h"
+#include "decomposition/convex_sum.h"
 #include "minkowski/sum.h"
 #include "planar_map/planar_map.h"
 
@@ -43,10 +43,14 @@ typedef struct sunder_i_uniting {
     sunder_operations operations; /* and done there */
 } sunder_i_uniting;
 
-/* Puts n subsums in the order that the options ask for. False if memory is out. */
+/* Puts n subsums in the order that the options ask for; they are consecutive numbers, ascending. False if memory is
+ * out. */
 bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n);
 /* The next number drawn, splitmix64 [Steele, Lea, Flood 2014]. */
 uint64_t sunder_i_draw(uint64_t *state);
+
+/* One subsum, in u->arena, its time and operations booked. False if memory is out. */
+bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out);
 
 /* Makes each of n subsums in turn and puts it into the map: inserted as it is, or united with what is there. */
 typedef sunder_status (*sunder_i_add_polygon)(sunder_i_planar_map *map, const sunder_i_xyw *corner,
