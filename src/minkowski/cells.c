@@ -1,274 +1,22 @@
-#include "minkowski/cells.h"
+#include "minkowski/cells_inner.h"
 
-#include "number/sort.h"
-#include "predicate/predicate.h"
-
-#include <math.h>
 #include <string.h>
 
-/* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than sorting it
- * out. Measured on stars, combs, forks and random polygons. */
+/* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than
+ * sorting it out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
 #define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
-/* After so many splits in a row that thin out less than a tenth a cell is left as it is: a few lines are then bundles of coincident
- * sides, which no split will part and every split doubles; many lines may be a cluster in a corner of the cell (or truly
- * concurrent, and then only one half keeps them). */
+/* After so many splits in a row that thin out less than a tenth a cell is left as it is: a few lines are then
+ * bundles of coincident sides, which no split will part and every split doubles; many lines may be a cluster in a
+ * corner of the cell (or truly concurrent, and then only one half keeps them). */
 #define STUBBORN_SPLITS_FEW 3
 #define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
 #define MANY_SIDES 250
 
-/* A side as doubles, in the units of sunder_i_approx(): where it starts and its vector. */
-typedef struct approx_side {
-    double ax, ay, dx, dy;
-} approx_side;
-
-typedef struct box {
-    double low[2], high[2];
-} box;
-
-typedef struct entry {
-    uint32_t subsum, runs; /* how many entries of the run list are its */
-} entry;
-
-/* Consecutive sides of one subsum whose vectors lie in one quadrant: they climb or fall together, so the box of the run is that of its
- * ends. Where operands have many sides, as rounded ones do, most
- * questions are answered for a whole run at once; it falls apart where a cell becomes as small as it is. */
-typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
-
-#define LONGEST_RUN 32
-#define RUN_BITS 27   /* where there are more sides than these bits can number, every run is a single side */
-#define FEW_SIDES 16  /* subsums with fewer are listed side by side */
-
-typedef struct cell {
-    box b;
-    size_t entry_from, entry_to, run_from, run_to;
-    size_t sides; /* of all its runs */
-    uint32_t stubborn;
-    int axis;     /* to split across */
-    double share; /* of the whole work, taking each half as half of its parent's */
-} cell;
-
-/* A candidate and the part of the box at hand that it may pass through. */
-typedef struct crossing {
-    uint32_t side, line;
-    box part;
-} crossing;
-
-/* Marks of a candidate while the cells are made: it passes through a leaf of several subsums; through one of its own subsum alone; it is, in
- * some cell, not all of its line's story. */
-enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
-
-typedef struct builder {
-    run single_most;  /* the greatest number of a single side */
-    uint32_t run_shift; /* RUN_BITS, or past the number */
-    const sunder_i_subsums *subsums;
-    const sunder_i_lines *lines;
-    const sunder_sum_options *options;
-    sunder_i_cell_pairs *out;
-    approx_side *side;
-    box *reach;       /* [subsums] bounding boxes, widened by the error */
-    double error;     /* bound on the distance error of a start point, see filter_subsum() */
-    entry *entries;   /* lists of all cells on the stack, one after the other */
-    size_t entries_n, entries_capacity;
-    run *runs;
-    size_t runs_n, runs_capacity;
-    crossing *crossing; /* of the box at hand */
-    size_t crossing_n;
-    cell *stack;
-    size_t stack_n, stack_capacity;
-    uint32_t *stamp;  /* [lines] the last cell that counted the line */
-    uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
-    bool *shared;     /* [lines] somewhere one subsum stands for several along the line */
-    uint32_t cells;   /* stamps given out */
-    double done;      /* share of the work, for progress */
-    bool no_memory;
-} builder;
-
-/* fmin and fmax without their care for NaN, which cannot come up here. */
-static inline double least(double a, double b) { return a < b ? a : b; }
-static inline double most_of(double a, double b) { return a > b ? a : b; }
-
-static uint32_t run_from(const builder *b, run r) { return r & b->single_most; }
-
-static uint32_t run_end(const builder *b, run r)
-{
-    return (r & b->single_most) + (uint32_t)((uint64_t)r >> b->run_shift) + 1;
-}
-
-static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-
-static void grow(box *all, const box *part)
-{
-    for (int k = 0; k < 2; k++) {
-        all->low[k] = least(all->low[k], part->low[k]);
-        all->high[k] = most_of(all->high[k], part->high[k]);
-    }
-}
-
-static void widen(box *b, double by)
-{
-    for (int k = 0; k < 2; k++) {
-        b->low[k] -= by;
-        b->high[k] += by;
-    }
-}
-
-static bool apart(const box *a, const box *b)
-{
-    return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
-}
-
-/* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block freed so far, and with
- * that all memory of a sum for the next one, instead of giving it back and fetching it again page by page. */
-static bool make_room(builder *b)
-{
-    const sunder_i_subsums *s = b->subsums;
-    const size_t bytes = s->sides * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
-    b->side = sunder_i_alloc(bytes + bytes / 2, 1);
-    if (!b->side) return false;
-    b->crossing = (crossing *)(void *)(b->side + s->sides);
-    b->reach = (box *)(void *)(b->crossing + s->sides);
-    return true;
-}
-
-/* Doubles of all sides; false if memory is out. Vectors are taken from exact differences, so that their error is relative to
- * themselves. */
-static bool approximate(builder *b, box *all)
-{
-    const sunder_i_subsums *s = b->subsums;
-    sunder_i_lattice *l = s->lattice;
-    double most = 0;
-    *all = nothing;
-    const bool narrow = l->narrow;
-    for (size_t i = 0; i < s->n; i++) {
-        const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
-        box own = nothing;
-        for (uint32_t k = first; k < end; k++) {
-            const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
-            const double x = narrow ? (double)from.x : sunder_i_approx(l, from.x);
-            const double y = narrow ? (double)from.y : sunder_i_approx(l, from.y);
-            if (narrow)
-                b->side[k] = (approx_side){x, y, (double)(to.x - from.x), (double)(to.y - from.y)};
-            else
-                b->side[k] = (approx_side){x, y, sunder_i_approx(l, sunder_i_lattice_sub(l, to.x, from.x)),
-                                           sunder_i_approx(l, sunder_i_lattice_sub(l, to.y, from.y))};
-            own.low[0] = least(own.low[0], x);
-            own.high[0] = most_of(own.high[0], x);
-            own.low[1] = least(own.low[1], y);
-            own.high[1] = most_of(own.high[1], y);
-            most = most_of(most, most_of(fabs(x), fabs(y)));
-        }
-        b->reach[i] = own;
-        grow(all, &own);
-    }
-    /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start point is off by
-     * 2u * most (conversion), differences of coordinates by as much again, products and their difference by 3u of products up to
-     * 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is used. Subnormals: approx_shift keeps the
-     * largest coordinates near 2^500, and the 2^-900 covers what underflows. */
-    b->error = 0x1p-48 * most + 0x1p-900;
-    b->out->most = most;
-    /* A candidate on the very border must not be missed. */
-    widen(all, b->error);
-    for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);
-    return !l->arena.failed;
-}
-
-/* The part of a box that the segment's own box covers; false if there is none. */
-static bool clip(const builder *b, const approx_side *s, const box *c, box *part)
-{
-    const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
-    part->low[0] = most_of(c->low[0], least(s->ax, x2) - e);
-    part->high[0] = least(c->high[0], most_of(s->ax, x2) + e);
-    part->low[1] = most_of(c->low[1], least(s->ay, y2) - e);
-    part->high[1] = least(c->high[1], most_of(s->ay, y2) + e);
-    return part->low[0] <= part->high[0] && part->low[1] <= part->high[1];
-}
-
-static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
-{
-    sunder_i_cell_pairs *p = b->out;
-    if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
-        b->no_memory = true;
-        return false;
-    }
-    p->pair[p->n++] = (uint64_t)line << 32 | subsum;
-    return true;
-}
-
-/* Lists the candidates of some runs that pass through a box. */
-static void gather(builder *b, size_t from, size_t to, const box *c)
-{
-    const uint32_t *of = b->lines->of;
-    b->crossing_n = 0;
-    for (size_t i = from; i < to; i++) {
-        const run r = b->runs[i];
-        if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
-        const uint32_t first = run_from(b, r), end = run_end(b, r);
-        if (end - first > 1) {
-            const approx_side *s = &b->side[first], *t = &b->side[end - 1];
-            const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};
-            box part;
-            if (!clip(b, &whole, c, &part)) continue;
-        }
-        for (uint32_t k = first; k < end; k++) {
-            if (of[k] == SUNDER_I_NO_LINE) continue;
-            crossing *x = &b->crossing[b->crossing_n];
-            if (!clip(b, &b->side[k], c, &x->part)) continue;
-            x->side = k;
-            x->line = of[k];
-            b->crossing_n++;
-        }
-    }
-}
-
-/* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes through it is
- * covered there. */
-static void close_cell(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
-{
-    b->cells++;
-    gather(b, parent->run_from, parent->run_to, c);
-    for (size_t i = 0; i < b->crossing_n; i++) {
-        const uint32_t line = b->crossing[i].line;
-        b->out->fate[b->crossing[i].side] |= CONTESTED;
-        if (b->stamp[line] == b->cells) continue;
-        b->stamp[line] = b->cells;
-        if (!push_pair(b, line, one) || (other != one && !push_pair(b, line, other))) return;
-    }
-}
-
-/* A leaf that one subsum alone reaches into. */
-static void lone_leaf(builder *b, const cell *c)
-{
-    gather(b, c->run_from, c->run_to, &c->b);
-    for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
-}
-
-/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. The candidates are gathered. */
-static void open_leaf(builder *b, const cell *c)
-{
-    const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
-    for (size_t i = 0; i < b->crossing_n; i++) {
-        const uint32_t line = b->crossing[i].line;
-        b->out->fate[b->crossing[i].side] |= PASSES;
-        b->stamp[line] = b->stamp[line] == once || b->stamp[line] == again ? again : once;
-    }
-    const uint32_t pushed = ++b->cells;
-    for (size_t i = 0; i < b->crossing_n; i++) {
-        const uint32_t line = b->crossing[i].line;
-        if (b->stamp[line] == pushed) continue;
-        const bool alone = b->stamp[line] == once;
-        b->stamp[line] = pushed;
-        for (size_t e = c->entry_from; e < c->entry_to; e++) {
-            const uint32_t subsum = b->entries[e].subsum;
-            if (alone && apart(&b->reach[subsum], &b->crossing[i].part)) continue;
-            if (!push_pair(b, line, subsum)) return;
-        }
-    }
-}
-
-/* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g > 0 all over the box
- * for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the sides run against each other is tried. */
+/* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
+ * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
+ * sides run against each other is tried. */
 static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
 {
     if (f->dx * g->dx + f->dy * g->dy >= 0) return false;
@@ -304,8 +52,8 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
     return false;
 }
 
-/* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same set, with the
- * same candidate along its border. */
+/* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same
+ * set, with the same candidate along its border. */
 static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
 {
     const uint32_t line = b->lines->of[side];
@@ -319,15 +67,15 @@ static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
     return true;
 }
 
-/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many lines they
- * are on. */
+/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many
+ * lines they are on. */
 static size_t shrink(builder *b, cell *c, const box *whole)
 {
     size_t lines = 0;
     double span[2] = {0, 0}; /* of all candidates together, along each axis */
     box need = nothing;
     b->cells++;
-    gather(b, c->run_from, c->run_to, whole);
+    sunder_i_cells_gather(b, c->run_from, c->run_to, whole);
     for (size_t i = 0; i < b->crossing_n; i++) {
         const crossing *x = &b->crossing[i];
         grow(&need, &x->part);
@@ -345,16 +93,17 @@ static size_t shrink(builder *b, cell *c, const box *whole)
 /* One half of a cell while its lists are made. */
 typedef struct half {
     box b;
-    double cx, cy;     /* centre */
+    double cx, cy; /* centre */
     entry *entries;
     run *runs;
     size_t entries_n, runs_n, sides;
     bool held;
-    uint32_t holder;   /* the subsum that holds it */
-    uint32_t stamp;    /* of known_half_plane() */
+    uint32_t holder; /* the subsum that holds it */
+    uint32_t stamp;  /* of known_half_plane() */
 } half;
 
-/* Takes note of what one subsum is in one half: its runs that pass are behind the half's list, n of them with so many sides. */
+/* Takes note of what one subsum is in one half: its runs that pass are behind the half's list, n of them with so
+ * many sides. */
 static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t n, uint32_t sides)
 {
     if (n == 0) {
@@ -370,7 +119,8 @@ static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t n, uint3
 enum { BEYOND, WITHIN, ACROSS }; /* of a box: outside a line for certain, inside for certain, or neither */
 
 /* The half and the line along s through the start of `at`; hx, hy: half the extent of the half. */
-static int side_of_half(const builder *b, const half *h, const approx_side *s, const approx_side *at, double hx, double hy)
+static int side_of_half(const builder *b, const half *h, const approx_side *s, const approx_side *at, double hx,
+                        double hy)
 {
     const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
     const double error = b->error * (adx + ady) + 0x1p-900;
@@ -386,13 +136,13 @@ typedef struct passed {
 
 /* Writes what of a run of several sides passes to `out`.
  *
- * The start of the run is inside all its sides, and their directions lie between those of the first and the last: so what
- * is inside the two lines along these through the start is inside all sides. */
+ * The start of the run is inside all its sides, and their directions lie between those of the first and the last:
+ * so what is inside the two lines along these through the start is inside all sides. */
 static passed pass_run(const builder *b, const half *h, run r, double hx, double hy, run *out)
 {
     struct {
         uint32_t from, n;
-    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most LONGEST_RUN = 2^5 sides, halved again and again */
+    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most 2^5 sides, halved again and again */
     passed p = {false, 0, 0};
     for (uint32_t waiting = 0;;) {
         const approx_side *first = &b->side[at.from], *last = first + at.n - 1, *middle = first + at.n / 2;
@@ -415,8 +165,8 @@ static passed pass_run(const builder *b, const half *h, run r, double hx, double
 }
 
 /* One subsum against one half, from its run i on; of the runs before, n with so many sides pass. */
-static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more, double hx,
-                       double hy)
+static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more,
+                       double hx, double hy)
 {
     if (h->held) return;
     run *out = h->runs + h->runs_n;
@@ -441,7 +191,8 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
     settle_entry(b, h, source->subsum, n, n + more);
 }
 
-/* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each half. */
+/* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
+ * half. */
 static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
 {
     run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
@@ -487,41 +238,42 @@ static size_t halve(cell *c, const half *h)
 static void settle_half(builder *b, const cell *parent, const half *h)
 {
     if (h->held) {
-        close_cell(b, parent, &h->b, h->holder, h->holder);
+        sunder_i_cells_close(b, parent, &h->b, h->holder, h->holder);
         b->done += parent->share / 2;
         return;
     }
-    cell c = {h->b, b->entries_n, b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0, 0,
-              parent->share / 2};
+    cell c = {h->b, b->entries_n,     b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0,
+              0,    parent->share / 2};
     memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
     memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
     if (h->entries_n == 1) {
-        lone_leaf(b, &c);
+        sunder_i_cells_lone_leaf(b, &c);
         b->done += c.share;
         return;
     }
     uint32_t two[2];
     if (find_two(b, &c, &h->b, two)) {
-        close_cell(b, parent, &h->b, two[0], two[1]);
+        sunder_i_cells_close(b, parent, &h->b, two[0], two[1]);
         b->done += c.share;
         return;
     }
     c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
     const size_t lines = h->sides > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
-    const bool leaf = lines * (h->entries_n - 1) <= (h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS) || c.stubborn >= patience;
+    const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
+    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience;
     if (lines > 0 && !leaf) {
         b->entries_n = c.entry_to;
         b->runs_n = c.run_to;
         b->stack[b->stack_n++] = c;
         return;
     }
-    if (lines > 0) open_leaf(b, &c);
+    if (lines > 0) sunder_i_cells_open_leaf(b, &c);
     b->done += c.share;
 }
 
-/* Room on the stack for the lists of both halves, the second behind the longest that the first can be; one more side is written
- * than kept. */
+/* Room on the stack for the lists of both halves, the second behind the longest that the first can be; one more
+ * side is written than kept. */
 static bool reserve_halves(builder *b, const cell *c)
 {
     const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
@@ -560,71 +312,10 @@ static void split(builder *b, const cell *c)
     if (!b->no_memory) settle_half(b, c, &h[1]);
 }
 
-/* Twice the area of a subsum, nearly. */
-static double extent_of(const builder *b, size_t subsum)
-{
-    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum);
-    const approx_side *o = &b->side[first];
-    double area = 0;
-    for (uint32_t k = first; k < b->subsums->end[subsum]; k++) {
-        const approx_side *s = &b->side[k];
-        area += (s->ax - o->ax) * s->dy - (s->ay - o->ay) * s->dx;
-    }
-    return area;
-}
-
-static int compare_extents(void *context, uint32_t a, uint32_t b)
-{
-    const double *extent = context;
-    return (extent[a] < extent[b]) - (extent[a] > extent[b]);
-}
-
-static bool one_quadrant(const approx_side *s, const approx_side *t)
-{
-    return (s->dx > 0) == (t->dx > 0) && (s->dy > 0) == (t->dy > 0) && (s->dx < 0) == (t->dx < 0) && (s->dy < 0) == (t->dy < 0);
-}
-
-/* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
-static void add_runs(builder *b, uint32_t subsum)
-{
-    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum), end = b->subsums->end[subsum];
-    const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
-    const size_t before = b->runs_n;
-    for (uint32_t k = first; k < end;) {
-        uint32_t n = 1;
-        while (n < longest && k + n < end && one_quadrant(&b->side[k], &b->side[k + n])) n++;
-        b->runs[b->runs_n++] = n > 1 ? (n - 1) << RUN_BITS | k : k;
-        k += n;
-    }
-    b->entries[b->entries_n++] = (entry){subsum, (uint32_t)(b->runs_n - before)};
-}
-
-/* The root holds every side of every subsum, the largest subsums first: those are the ones that close cells. */
-static bool make_root(builder *b, const box *all, cell *root)
-{
-    const sunder_i_subsums *s = b->subsums;
-    double *extent = sunder_i_alloc(s->n, sizeof *extent);
-    uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
-    bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&
-              sunder_i_reserve(&b->runs, &b->runs_capacity, s->sides, sizeof *b->runs);
-    for (uint32_t i = 0; ok && i < s->n; i++) {
-        order[i] = i;
-        extent[i] = extent_of(b, i);
-    }
-    ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
-    for (size_t i = 0; ok && i < s->n; i++) add_runs(b, order[i]);
-    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1};
-    root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
-    sunder_i_free(extent);
-    sunder_i_free(order);
-    return ok;
-}
-
 static sunder_status descend(builder *b, sunder_error *err)
 {
-    box all;
     cell root;
-    if (!make_room(b) || !approximate(b, &all) || !make_root(b, &all, &root)) return sunder_i_no_memory(err);
+    if (!sunder_i_cells_root(b, &root)) return sunder_i_no_memory(err);
     split(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
@@ -639,34 +330,18 @@ static sunder_status descend(builder *b, sunder_error *err)
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-/* Of the marks the fates. An open candidate is paired with its own subsum, where leaves that it has to itself did not do so. */
-static bool settle_fates(builder *b)
-{
-    const sunder_i_subsums *s = b->subsums;
-    for (uint32_t i = 0; i < s->n; i++)
-        for (uint32_t k = sunder_i_subsum_first(s, i); k < s->end[i]; k++) {
-            uint8_t *fate = &b->out->fate[k];
-            if ((*fate & (PASSES | ALONE)) == 0)
-                *fate = SUNDER_I_COVERED;
-            else if (*fate == ALONE && !b->shared[b->lines->of[k]]) {
-                *fate = SUNDER_I_WHOLE;
-                b->out->whole++;
-            } else {
-                if ((*fate & ALONE) && !push_pair(b, b->lines->of[k], i)) return false;
-                *fate = SUNDER_I_OPEN;
-                b->out->live_line[b->lines->of[k]] = true;
-            }
-        }
-    return true;
-}
-
 sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
                                   const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     if (subsums->sides == 0) return SUNDER_OK;
     const bool runs = subsums->sides < (size_t)1 << RUN_BITS;
-    builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX, .run_shift = runs ? RUN_BITS : 32, .subsums = subsums, .lines = lines, .options = options, .out = out};
+    builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX,
+                 .run_shift = runs ? RUN_BITS : 32,
+                 .subsums = subsums,
+                 .lines = lines,
+                 .options = options,
+                 .out = out};
     out->fate = sunder_i_calloc(subsums->sides, sizeof *out->fate);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
@@ -674,7 +349,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
     const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared;
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
-    if (status == SUNDER_OK && !settle_fates(&b)) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);
     sunder_i_free(b.entries);
     sunder_i_free(b.runs);

@@ -54,8 +54,8 @@ static sunder_i_point corner(const polygon *p, uint32_t i)
     return p->s->corner[p->first + (i < p->n ? i : i - p->n)];
 }
 
-/* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is past a full
- * turn. Corners there are extreme in the direction normal to r. */
+/* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is
+ * past a full turn. Corners there are extreme in the direction normal to r. */
 static uint32_t first_above(const polygon *p, uint32_t r)
 {
     const uint32_t *rank = p->s->rank + p->first;
@@ -79,7 +79,8 @@ static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
         sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
 }
 
-/* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes through. */
+/* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes
+ * through. */
 static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line, uint32_t from, uint32_t to, int sign)
 {
     uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
@@ -110,8 +111,8 @@ static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, ui
     }
 }
 
-/* The subsum rests on the line: sides of the wanted rank end in corner i (several where a piece has straight corners); or it
- * touches the line there. */
+/* The subsum rests on the line: sides of the wanted rank end in corner i (several where a piece has straight
+ * corners); or it touches the line there. */
 static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
 {
     const uint32_t end = p->first + (i < p->n ? i : 0);
@@ -120,7 +121,8 @@ static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint
         add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end);
         return;
     }
-    for (; p->s->rank[side] == rank; side = side > p->first ? side - 1 : p->first + p->n - 1) rest_side(f, p, line, side, left);
+    for (; p->s->rank[side] == rank; side = side > p->first ? side - 1 : p->first + p->n - 1)
+        rest_side(f, p, line, side, left);
 }
 
 static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
@@ -273,7 +275,8 @@ static void drop_dead_lines(sunder_i_cell_pairs *pairing)
     pairing->n = n;
 }
 
-/* Room for what most lines yield, a piece and one new place: growing step by step would touch several times the memory. */
+/* Room for what most lines yield, a piece and one new place: growing step by step would touch several times the
+ * memory. */
 static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
 {
     sunder_i_coverage *o = f->out;

@@ -1,15 +1,16 @@
 /* What of the candidate sides is not covered by any open subsum, found line by line.
  *
- * All candidates on one supporting line are treated together. Each subsum paired with the line (cells.h) either crosses it, and
- * then covers an open interval of it; or rests on it with a side, and then covers one bank of the line along that side (closed
- * interval); or touches it in a corner, or not at all. Sorting the ends along the line and counting gives, exactly:
+ * All candidates on one supporting line are treated together. Each subsum paired with the line (cells.h) either
+ * crosses it, and then covers an open interval of it; or rests on it with a side, and then covers one bank of the
+ * line along that side (closed interval); or touches it in a corner, or not at all. Sorting the ends along the line
+ * and counting gives, exactly:
  *
  *   uncovered, one bank covered    a piece of the boundary of the sum
  *   uncovered, both banks covered  a piece of a degenerate segment
  *   an uncovered point alone       a degenerate point, unless some piece on another line ends or passes there
  *
- * Pieces are cut at every point where anything happens on the line, so that pieces of different lines meet in ends only.
- * No face is classified and no winding number counted; holes of the operands, touching members and exact fits
+ * Pieces are cut at every point where anything happens on the line, so that pieces of different lines meet in ends
+ * only. No face is classified and no winding number counted; holes of the operands, touching members and exact fits
  * need no special case. */
 #ifndef SUNDER_I_COVERAGE_H
 #define SUNDER_I_COVERAGE_H

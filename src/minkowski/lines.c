@@ -5,8 +5,8 @@
 
 #include <string.h>
 
-/* A line is its class and the cross product of the class's direction with any of its points: equal exactly for points of one
- * line. */
+/* A line is its class and the cross product of the class's direction with any of its points: equal exactly for
+ * points of one line. */
 typedef struct key {
     sunder_i_i128 offset; /* the number itself, or on a wide lattice a handle */
     uint32_t class, hash;

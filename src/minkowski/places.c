@@ -1,6 +1,6 @@
-/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less than a
- * grid step, so they fall in one grid square, or both close to the border between two: looking into every square
- * that the error reaches finds the point. Equality itself is decided exactly. */
+/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less
+ * than a grid step, so they fall in one grid square, or both close to the border between two: looking into every
+ * square that the error reaches finds the point. Equality itself is decided exactly. */
 #include "minkowski/places.h"
 
 #include <string.h>

@@ -17,8 +17,8 @@ typedef struct sunder_i_places {
 
 #define SUNDER_I_NO_PLACE UINT32_MAX
 
-/* most: a bound on the approximate coordinates; expected: a guess at how many places; appended: and how many of those that are
- * appended. False if memory is out. */
+/* most: a bound on the approximate coordinates; expected: a guess at how many places; appended: and how many of
+ * those that are appended. False if memory is out. */
 bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected,
                           size_t appended);
 /* The number of the place of p, made if it is new; SUNDER_I_NO_PLACE if memory is out. */

@@ -1,16 +1,17 @@
 /* The convex subsums P_i + Q_j of all pairs of convex pieces, as lists of corners and sides.
  *
- * A point is in int P + int Q exactly when it is in the interior of some subsum, so the union of the open subsums is the
- * whole open sum: diagonals of the decompositions and members that touch need no care.
+ * A point is in int P + int Q exactly when it is in the interior of some subsum, so the union of the open subsums
+ * is the whole open sum: diagonals of the decompositions and members that touch need no care.
  *
- * Directions are ranked once for all: every side of every piece has a class (its direction modulo 180 degrees, counted
- * counter-clockwise from the positive x axis) and a rank in [0, 2 * classes): the class itself for directions in [0, pi),
- * classes + class for the opposite ones. From there on, merging convex pieces, the angular intervals of the convolution and the
- * order of edges around a vertex are questions about small integers.
+ * Directions are ranked once for all: every side of every piece has a class (its direction modulo 180 degrees,
+ * counted counter-clockwise from the positive x axis) and a rank in [0, 2 * classes): the class itself for
+ * directions in [0, pi), classes + class for the opposite ones. From there on, merging convex pieces, the angular
+ * intervals of the convolution and the order of edges around a vertex are questions about small integers.
  *
- * A side is a *candidate* where it can carry boundary of the sum: it comes from a boundary edge of one operand and a vertex of
- * the other whose exterior angle holds the edge's direction (the reduced convolution [BL11]; closed intervals, so that
- * parallel edges are in twice rather than not at all). Every boundary point and every degenerate hole lies on a candidate. */
+ * A side is a *candidate* where it can carry boundary of the sum: it comes from a boundary edge of one operand and
+ * a vertex of the other whose exterior angle holds the edge's direction (the reduced convolution [BL11]; closed
+ * intervals, so that parallel edges are in twice rather than not at all). Every boundary point and every degenerate
+ * hole lies on a candidate. */
 #ifndef SUNDER_I_SUBSUMS_H
 #define SUNDER_I_SUBSUMS_H
 

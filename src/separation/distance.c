@@ -64,30 +64,116 @@ static double box_square(const double *a, const double *b, const double *c, cons
 {
     double square = 0;
     for (int k = 0; k < 2; k++) {
-        const double low = fmin(a[k], b[k]), high = fmax(a[k], b[k]), from = fmin(c[k], d[k]), to = fmax(c[k], d[k]);
+        const double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
+        const double from = c[k] < d[k] ? c[k] : d[k], to = c[k] < d[k] ? d[k] : c[k];
         const double off = from > high ? from - high : low > to ? low - to : 0;
         square += off * off;
     }
     return square;
 }
 
-static link nearest_edges(sunder_i_pairing *g)
+/* Of two edges as near as each other the one that comes first counts: so the answer does not depend on the order of
+ * the search. */
+static void offer(sunder_i_pairing *g, uint32_t i, uint32_t j, link *best)
+{
+    int which;
+    double t;
+    const double square = edge_square(g, i, j, &which, &t);
+    if (square < best->square || (square == best->square && (i < best->i || (i == best->i && j < best->j))))
+        *best = (link){square, i, j};
+}
+
+/* Edges from .. to - 1 of P against edges first .. last - 1 of Q; all within `box` of Q. */
+static void compare_edges(sunder_i_pairing *g, uint32_t from, uint32_t to, uint32_t first, uint32_t last,
+                          const double box[4], link *best)
 {
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
-    link best = {INFINITY, 0, 0};
-    for (uint32_t i = 0; i < p->vertices; i++) {
+    for (uint32_t i = from; i < to; i++) {
         const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * p->next[i];
-        const double reach = sqrt(best.square) + 4 * g->error;
-        if (box_square(a, b, g->box[1], g->box[1] + 2) > reach * reach) continue;
-        for (uint32_t j = 0; j < q->vertices; j++) {
-            const double now = sqrt(best.square) + 4 * g->error;
-            if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->next[j]) > now * now) continue;
-            int which;
-            double t;
-            const double square = edge_square(g, i, j, &which, &t);
-            if (square < best.square) best = (link){square, i, j};
+        const double reach = sqrt(best->square) + 4 * g->error;
+        if (box_square(a, b, box, box + 2) > reach * reach) continue;
+        for (uint32_t j = first; j < last; j++) {
+            const double now = sqrt(best->square) + 4 * g->error;
+            if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->next[j]) <= now * now) offer(g, i, j, best);
         }
     }
+}
+
+#define BLOCK 16         /* consecutive edges under one box */
+#define BLOCKS_FROM 4096 /* with fewer pairs of edges blocks do not pay */
+
+/* The boxes of the blocks of one operand; NULL if memory is out. */
+static double (*block_boxes(sunder_i_pairing *g, int side, uint32_t blocks))[4]
+{
+    const sunder_shape *s = g->shape[side];
+    double(*box)[4] = sunder_i_arena_alloc(&g->placed.lattice.arena, blocks, sizeof *box);
+    for (uint32_t k = 0; box && k < blocks; k++) {
+        double *b = box[k];
+        b[0] = b[1] = INFINITY;
+        b[2] = b[3] = -INFINITY;
+        for (uint32_t e = k * BLOCK; e < (k + 1) * BLOCK && e < s->vertices; e++)
+            for (int end = 0; end < 2; end++) {
+                const double *v = g->xy[side] + 2 * (end ? s->next[e] : e);
+                for (int c = 0; c < 2; c++) {
+                    if (v[c] < b[c]) b[c] = v[c];
+                    if (v[c] > b[c + 2]) b[c + 2] = v[c];
+                }
+            }
+    }
+    return box;
+}
+
+typedef struct blocks {
+    double (*box)[4];
+    uint32_t n, edges;
+} blocks;
+
+static uint32_t block_end(const blocks *b, uint32_t k) { return k + 1 < b->n ? (k + 1) * BLOCK : b->edges; }
+
+static void compare_two(sunder_i_pairing *g, const blocks *p, uint32_t i, const blocks *q, uint32_t j, link *best)
+{
+    compare_edges(g, i * BLOCK, block_end(p, i), j * BLOCK, block_end(q, j), q->box[j], best);
+}
+
+/* The two blocks whose boxes are nearest come first: then most of the others need no second look. */
+static void compare_blocks(sunder_i_pairing *g, link *best)
+{
+    blocks p = {.edges = g->shape[0]->vertices}, q = {.edges = g->shape[1]->vertices};
+    p.n = (p.edges + BLOCK - 1) / BLOCK;
+    q.n = (q.edges + BLOCK - 1) / BLOCK;
+    p.box = block_boxes(g, 0, p.n);
+    q.box = block_boxes(g, 1, q.n);
+    if (!p.box || !q.box) return;
+    uint32_t near_i = 0, near_j = 0;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < p.n; i++)
+        for (uint32_t j = 0; j < q.n; j++) {
+            const double square = box_square(p.box[i], p.box[i] + 2, q.box[j], q.box[j] + 2);
+            if (square >= least) continue;
+            least = square;
+            near_i = i;
+            near_j = j;
+        }
+    compare_two(g, &p, near_i, &q, near_j, best);
+    for (uint32_t i = 0; i < p.n; i++) {
+        const double reach = sqrt(best->square) + 4 * g->error;
+        if (box_square(p.box[i], p.box[i] + 2, g->box[1], g->box[1] + 2) > reach * reach) continue;
+        for (uint32_t j = 0; j < q.n; j++) {
+            const double now = sqrt(best->square) + 4 * g->error;
+            if (box_square(p.box[i], p.box[i] + 2, q.box[j], q.box[j] + 2) <= now * now)
+                compare_two(g, &p, i, &q, j, best);
+        }
+    }
+}
+
+static link nearest_edges(sunder_i_pairing *g)
+{
+    const uint32_t m = g->shape[0]->vertices, n = g->shape[1]->vertices;
+    link best = {INFINITY, 0, 0};
+    if ((uint64_t)m * n < BLOCKS_FROM)
+        compare_edges(g, 0, m, 0, n, g->box[1], &best);
+    else
+        compare_blocks(g, &best);
     return best;
 }
 
@@ -154,7 +240,10 @@ static vector common_point(sunder_i_pairing *g, uint32_t i, uint32_t j, vector *
 
 static bool common(sunder_i_pairing *g, double on[2])
 {
-    for (uint32_t i = 0; i < g->shape[0]->pieces; i++)
+    const double *all = g->box[1], e = g->error;
+    for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
+        const double *own = g->piece_box[0] + 4 * (size_t)i;
+        if (own[0] > all[2] + e || own[2] < all[0] - e || own[1] > all[3] + e || own[3] < all[1] - e) continue;
         for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
             if (!sunder_i_pieces_overlap(g, i, j)) continue;
             const size_t most = (size_t)g->shape[0]->vertices + g->shape[1]->vertices + 2;
@@ -165,6 +254,7 @@ static bool common(sunder_i_pairing *g, double on[2])
             on[1] = v.y;
             return true;
         }
+    }
     return false;
 }
 

@@ -1,9 +1,10 @@
-/* Least translations of larger operands, where whole squares of the plane are dismissed at once: equal, as rationals,
- * to the least distance of the origin from the boundary and the degenerate holes of P + (-Q), which the sum finds by
- * other means. */
+/* Least translations (and distances) of larger operands, where whole squares of the plane are dismissed at once:
+ * equal, as rationals, to the least distance of the origin from the boundary and the degenerate holes of P + (-Q),
+ * which the sum finds by other means. */
 #include "generate.h"
 #include "sunder.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -167,13 +168,67 @@ static void test_family(void **state)
     assert_int_equal(bad, 0);
 }
 
+static long double point_to_edge(const double *p, const double *a, const double *b)
+{
+    const long double ux = (long double)b[0] - a[0], uy = (long double)b[1] - a[1];
+    const long double vx = (long double)p[0] - a[0], vy = (long double)p[1] - a[1];
+    long double t = (vx * ux + vy * uy) / (ux * ux + uy * uy);
+    t = t > 0 ? t < 1 ? t : 1 : 0;
+    return hypotl(vx - t * ux, vy - t * uy);
+}
+
+/* The vertices of one set against the edges of the other. */
+static long double vertices_to_edges(const polyset *v, const polyset *e)
+{
+    long double least = INFINITY;
+    for (size_t r = 0, first = 0; r < e->rings; first = e->ring_end[r++])
+        for (size_t i = first; i < e->ring_end[r]; i++) {
+            const size_t next = i + 1 < e->ring_end[r] ? i + 1 : first;
+            for (size_t k = 0; k < v->vertices; k++)
+                least = fminl(least, point_to_edge(v->xy + 2 * k, e->xy + 2 * i, e->xy + 2 * next));
+        }
+    return least;
+}
+
+/* Distances of stars that are apart, against every vertex and edge. The library's is promised to about an ulp, ours
+ * in long double is better than that; 1e-12 leaves room for both. */
+static void test_distance(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
+    for (size_t i = 0; i < test_count(40); i++) {
+        rng r = rng_start(seed * 31, i);
+        polyset p, q;
+        polyset_init(&p);
+        polyset_init(&q);
+        random_star(&p, &r, (int)rng_int(&r, 50, 400), 1000);
+        random_star(&q, &r, (int)rng_int(&r, 50, 400), 1000);
+        const bool across = rng_once_in(&r, 2);
+        const double beside = (double)rng_int(&r, -900, 900);
+        polyset_move(&q, across ? 2010 : beside, across ? beside : 2010);
+        sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
+        double d, on_p[2], on_q[2];
+        assert_int_equal(sunder_pair_distance(a, b, &d, on_p, on_q, NULL), SUNDER_OK);
+        const long double want = fminl(vertices_to_edges(&p, &q), vertices_to_edges(&q, &p));
+        assert_true(fabsl(d - want) <= 1e-12L * want);
+        /* The ends are rounded to 1e-13. */
+        assert_true(fabs(hypot(on_p[0] - on_q[0], on_p[1] - on_q[1]) - d) <= 1e-9 * d);
+        sunder_shape_free(a);
+        sunder_shape_free(b);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+}
+
 int main(void)
 {
     family_kind kinds[FAMILY_KINDS];
-    struct CMUnitTest tests[FAMILY_KINDS];
+    struct CMUnitTest tests[FAMILY_KINDS + 1];
     for (int k = 0; k < FAMILY_KINDS; k++) {
         kinds[k] = (family_kind)k;
         tests[k] = (struct CMUnitTest){family_kind_string(kinds[k]), test_family, NULL, NULL, &kinds[k]};
     }
+    tests[FAMILY_KINDS] = (struct CMUnitTest){"distances", test_distance, NULL, NULL, NULL};
     return cmocka_run_group_tests_name("least translations of larger operands", tests, NULL, NULL);
 }
