@@ -21,9 +21,15 @@ def pick(runs, **wanted):
     return [r for r in runs if r["status"] == "ok" and all(r[k] == v for k, v in wanted.items())]
 
 
+def counted_in(run, column):
+    """A figure of a run; operations are those of the union where the road has phases, else all."""
+    text = run.get("union_" + column) or run[column]
+    return float(text) if text else None
+
+
 def value(runs, column, **wanted):
     found = pick(runs, **wanted)
-    return float(found[0][column]) if found and found[0][column] else None
+    return counted_in(found[0], column) if found else None
 
 
 def ordered(runs, column):
@@ -130,7 +136,7 @@ def growth(runs):
         for road in all_roads():
             found = [r for r in pick(runs, family=family, **kind(*road)) if int(r["size"]) >= 20]
             if len(found) > 1:
-                slopes = [exponent([(float(r["p_vertices"]), float(r[c] or 0)) for r in found]) for c in columns]
+                slopes = [exponent([(float(r["p_vertices"]), counted_in(r, c) or 0) for r in found]) for c in columns]
                 cells = ["-" if s is None else f"{s:.1f}" for s in slopes]
                 yield [family, " ".join(road).strip(), f'{found[0]["size"]}-{found[-1]["size"]}', *cells]
 
@@ -147,8 +153,8 @@ def phases(runs):
             if r:
                 yield [family, " ".join(road).strip(), r["size"], r["vertices"], r["holes"],
                        *(number(r["seconds" + s]) for s in ("", "_decompose", "_subsums", "_union")),
-                       number(float(r["peak_rss_bytes"]) / 2**20), r["segment_intersections"], r["orientation_tests"],
-                       r["exact_fallbacks"]]
+                       number(float(r["peak_rss_bytes"]) / 2**20),
+                       *(f"{counted_in(r, c):.0f}" for c in ("segment_intersections", "comparisons", "orientation_tests", "exact_fallbacks"))]
 
 
 def orders(runs):
@@ -158,7 +164,7 @@ def orders(runs):
             for size in ordered(runs, "size"):
                 pair = [pick(runs, family=family, size=size, **kind(road, o)) for o in ("random", "fat")]
                 if all(pair) and int(size) >= 20:
-                    ratios = [float(pair[1][0][c]) / (float(pair[0][0][c]) or 1)
+                    ratios = [counted_in(pair[1][0], c) / (counted_in(pair[0][0], c) or 1)
                               for c in ("segment_intersections", "orientation_tests", "seconds")]
                     yield [family, road, size, *(f"{r:.2f}" for r in ratios)]
 
@@ -202,11 +208,12 @@ def measures(ordering):
 
 def tables(runs, counted, ordering, folder):
     with open(os.path.join(folder, "tables.md"), "w") as out:
-        table(out, "Exponents in n (vertices of P): least squares in logarithms over the sizes from 20 on.",
+        table(out, "Exponents in n (vertices of P): least squares in logarithms over the sizes from 20 on. Operations are those of the "
+              "union.",
               ["family", "road", "sizes", "output", "crossings", "orientation tests", "comparisons", "seconds", "memory"], growth(runs))
         table(out, f"The largest input that each road finished, decomposition {BASE}.",
               ["family", "road", "n", "vertices", "holes", "seconds", "decompose", "subsums", "union", "MiB", "crossings",
-               "orientation tests", "left open by the filter"], phases(runs))
+               "comparisons", "orientation tests", "left open by the filter"], phases(runs))
         table(out, "The order by fatness: its cost in parts of that of the random order.",
               ["family", "road", "n", "crossings", "orientation tests", "seconds"], orders(runs))
         table(out, "Orders of the incremental union: crossings / comparisons and orientation tests (area, breadth = area by perimeter, "
