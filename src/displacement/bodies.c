@@ -102,7 +102,6 @@ sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
     town->outline = sunder_i_calloc(town->features, sizeof *town->outline);
     town->whole = sunder_i_calloc(town->bodies, sizeof *town->whole);
     if (!town->piece || !town->corner || !town->outline || !town->whole) return sunder_i_no_memory(err);
-    size_t corner = 0;
     for (size_t b = 0; b < town->bodies; b++) {
         sunder_i_body *body = &town->body[b];
         body->piece = (uint32_t)town->pieces;
@@ -114,12 +113,12 @@ sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
         for (uint32_t k = 0; k < body->members; k++) {
             const uint32_t f = town->member[body->member + k];
             if (!town->present[f]) continue;
-            cut_feature(town, body, f, &corner);
-            const sunder_status status = outline_feature(town, body, f, &corner, err);
+            cut_feature(town, body, f, &town->corners);
+            const sunder_status status = outline_feature(town, body, f, &town->corners, err);
             if (status) return status;
         }
     }
-    return SUNDER_OK;
+    return sunder_i_keep_walls(town, err);
 }
 
 /* ---- Whole blocks ------------------------------------------------------------------------------------------------ */

@@ -3,6 +3,7 @@
 #include "displacement/search.h"
 
 #include <math.h>
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,24 +20,8 @@ static sunder_status finish(sunder_i_search *s, double *move, sunder_status stat
     return status;
 }
 
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
-                                     bool *solved, sunder_error *err)
-{
-    sunder_i_search s;
-    if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
-    bool done = !s.failed && sunder_i_search_descend(&s);
-    for (int k = 0; k < 3 && !done && !s.failed; k++) {
-        if (!sunder_i_search_jump(&s) && cluster->limited) break;
-        done = sunder_i_search_descend(&s);
-    }
-    if (!done && !s.failed) sunder_i_search_relax(&s);
-    const sunder_status status = finish(&s, move, SUNDER_OK, err);
-    sunder_i_search_free(&s);
-    if (!status) *solved = done;
-    return status;
-}
-
-/* ---- Better sides ---------------------------------------------------------------------------------------------- */
+/* ---- Neighbours that stay ------------------------------------------------------------------------------------------
+ */
 
 typedef struct rank {
     double cost;
@@ -50,6 +35,165 @@ static int by_cost(const void *a, const void *b)
     if (p->index != q->index) return p->index < q->index ? -1 : 1;
     return p->other < q->other ? -1 : p->other > q->other;
 }
+
+/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. */
+static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move,
+                          size_t *n, const double *own)
+{
+    sunder_i_list hits = {0};
+    bool ok = true;
+    double longest = 0;
+    for (size_t k = 0; k < 2 * cluster->n; k++) longest = fmax(longest, fabs(own[k]));
+    const double reach = town->rules.gap + cluster->margin + 2 * longest + town->far;
+    for (size_t k = 0; k < cluster->n && ok; k++) {
+        const sunder_i_body *b = &town->body[cluster->body[k]];
+        if (b->fixed || b->pieces == 0) continue;
+        double box[4];
+        for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
+        ok = sunder_i_index_query(&town->tree, box, &hits);
+    }
+    for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
+    /* Sorted and without repetition, and without the cluster's own, which are sorted too. */
+    rank *order = sunder_i_alloc(hits.n, sizeof *order);
+    ok = ok && order;
+    size_t strangers = 0;
+    if (ok) {
+        for (size_t k = 0; k < hits.n; k++) order[k] = (rank){0, hits.item[k], 0};
+        qsort(order, hits.n, sizeof *order, by_cost);
+        size_t own_at = 0;
+        for (size_t k = 0; k < hits.n; k++) {
+            const uint32_t b = order[k].index;
+            if (k && b == order[k - 1].index) continue;
+            while (own_at < cluster->n && cluster->body[own_at] < b) own_at++;
+            if (own_at < cluster->n && cluster->body[own_at] == b) continue;
+            hits.item[strangers++] = b;
+        }
+        *body = sunder_i_alloc(cluster->n + strangers, sizeof **body);
+        *move = sunder_i_alloc(2 * (cluster->n + strangers), sizeof **move);
+        ok = *body && *move;
+    }
+    if (ok) {
+        memcpy(*body, cluster->body, cluster->n * sizeof **body);
+        memcpy(*move, own, 2 * cluster->n * sizeof **move);
+        for (size_t k = 0; k < strangers; k++) {
+            (*body)[cluster->n + k] = hits.item[k];
+            memcpy(*move + 2 * (cluster->n + k), town->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
+        }
+        *n = cluster->n + strangers;
+    }
+    sunder_i_free(order);
+    sunder_i_free(hits.item);
+    return ok;
+}
+
+sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                     sunder_error *err)
+{
+    uint32_t *body = NULL;
+    double *all = NULL;
+    size_t n = 0;
+    sunder_i_search s;
+    memset(&s, 0, sizeof s);
+    bool ok = add_strangers(town, cluster, &body, &all, &n, move);
+    if (ok) ok = sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+    if (ok) {
+        s.own = cluster->n;
+        for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
+        s.heeds_all = true;
+        sunder_i_search_relax(&s);
+        ok = !s.failed;
+    }
+    if (ok) {
+        s.n = cluster->n;
+        finish(&s, move, SUNDER_OK, err);
+    }
+    sunder_i_search_free(&s);
+    sunder_i_free(body);
+    sunder_i_free(all);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* ---- From start to moves --------------------------------------------------------------------------------------- */
+
+static int by_pair(const void *a, const void *b)
+{
+    const sunder_i_clash *p = a, *q = b;
+    if (p->i != q->i) return p->i < q->i ? -1 : 1;
+    return p->j < q->j ? -1 : p->j > q->j;
+}
+
+static bool send_home(sunder_i_search *s, uint32_t i)
+{
+    if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
+    s->t[2 * i] = s->t[2 * i + 1] = 0;
+    return true;
+}
+
+/* From where bodies stand to where only those clash that did at home: what came into a clash goes home, until there is
+ * no such thing. In the end all are at home. */
+static void undo_harm(sunder_i_search *s)
+{
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) {
+        s->failed = true;
+        return;
+    }
+    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
+    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
+    sunder_i_search_look(s, s->t);
+    const size_t n = s->clashes;
+    sunder_i_clash *at_home = sunder_i_alloc(n, sizeof *at_home);
+    s->failed = s->failed || !at_home;
+    if (!s->failed && n) memcpy(at_home, s->clash, n * sizeof *at_home);
+    if (!s->failed && n) qsort(at_home, n, sizeof *at_home, by_pair);
+    memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    for (bool any = true; any && !s->failed;) {
+        any = false;
+        sunder_i_search_look(s, s->t);
+        for (size_t k = 0; k < s->clashes; k++) {
+            if (n && bsearch(&s->clash[k], at_home, n, sizeof *at_home, by_pair)) continue;
+            const bool i = send_home(s, s->clash[k].i), j = send_home(s, s->clash[k].j);
+            any = any || i || j;
+        }
+    }
+    sunder_i_free(stand);
+    sunder_i_free(at_home);
+}
+
+/* The pairs that clash are given up; what is left is free, and descends from there. */
+static void give_up(sunder_i_search *s, sunder_i_cluster *cluster)
+{
+    sunder_i_search_clip(s);
+    undo_harm(s);
+    s->given = sunder_i_alloc(s->clashes, sizeof *s->given);
+    cluster->given = sunder_i_alloc(s->clashes, sizeof *cluster->given);
+    s->failed = s->failed || !s->given || !cluster->given;
+    for (size_t k = 0; k < s->clashes && !s->failed; k++) {
+        const uint32_t i = s->clash[k].i, j = s->clash[k].j;
+        s->given[s->given_n++] = (sunder_i_couple){i, j};
+        cluster->given[cluster->given_n++] = (sunder_i_couple){s->body[i], s->body[j]};
+    }
+    s->program.n = 0;
+    if (!s->failed) sunder_i_search_descend(s);
+}
+
+sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
+                                     sunder_error *err)
+{
+    sunder_i_search s;
+    if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
+    bool done = !s.failed && sunder_i_search_descend(&s);
+    for (int k = 0; k < 3 && !done && !s.failed; k++) {
+        if (!sunder_i_search_jump(&s) && cluster->limited) break;
+        done = sunder_i_search_descend(&s);
+    }
+    if (!done && !s.failed && cluster->limited) give_up(&s, cluster);
+    const sunder_status status = finish(&s, move, SUNDER_OK, err);
+    sunder_i_search_free(&s);
+    return status;
+}
+
+/* ---- Better sides ---------------------------------------------------------------------------------------------- */
 
 static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
 
@@ -124,56 +268,6 @@ static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best
     }
 }
 
-/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. */
-static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move,
-                          size_t *n, const double *own)
-{
-    sunder_i_list hits = {0};
-    bool ok = true;
-    double longest = 0;
-    for (size_t k = 0; k < 2 * cluster->n; k++) longest = fmax(longest, fabs(own[k]));
-    const double reach = town->rules.gap + cluster->margin + 2 * longest + town->far;
-    for (size_t k = 0; k < cluster->n && ok; k++) {
-        const sunder_i_body *b = &town->body[cluster->body[k]];
-        if (b->fixed || b->pieces == 0) continue;
-        double box[4];
-        for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
-        ok = sunder_i_index_query(&town->tree, box, &hits);
-    }
-    for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
-    /* Sorted and without repetition, and without the cluster's own, which are sorted too. */
-    rank *order = sunder_i_alloc(hits.n, sizeof *order);
-    ok = ok && order;
-    size_t strangers = 0;
-    if (ok) {
-        for (size_t k = 0; k < hits.n; k++) order[k] = (rank){0, hits.item[k], 0};
-        qsort(order, hits.n, sizeof *order, by_cost);
-        size_t own_at = 0;
-        for (size_t k = 0; k < hits.n; k++) {
-            const uint32_t b = order[k].index;
-            if (k && b == order[k - 1].index) continue;
-            while (own_at < cluster->n && cluster->body[own_at] < b) own_at++;
-            if (own_at < cluster->n && cluster->body[own_at] == b) continue;
-            hits.item[strangers++] = b;
-        }
-        *body = sunder_i_alloc(cluster->n + strangers, sizeof **body);
-        *move = sunder_i_alloc(2 * (cluster->n + strangers), sizeof **move);
-        ok = *body && *move;
-    }
-    if (ok) {
-        memcpy(*body, cluster->body, cluster->n * sizeof **body);
-        memcpy(*move, own, 2 * cluster->n * sizeof **move);
-        for (size_t k = 0; k < strangers; k++) {
-            (*body)[cluster->n + k] = hits.item[k];
-            memcpy(*move + 2 * (cluster->n + k), town->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
-        }
-        *n = cluster->n + strangers;
-    }
-    sunder_i_free(order);
-    sunder_i_free(hits.item);
-    return ok;
-}
-
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
@@ -193,6 +287,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     if (ok) {
         s.settled = 1e-5;
         s.effort = EFFORT * (uint64_t)cluster->n;
+        s.own = cluster->n;
         /* Strangers stay. */
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
         if (sunder_i_search_look(&s, s.t) <= s.tolerance) {

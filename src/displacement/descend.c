@@ -69,64 +69,50 @@ typedef struct sighting {
     size_t known_n;
 } sighting;
 
-static void constrain_pieces(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at, uint32_t k, uint32_t l,
-                             size_t first)
+typedef struct sighted {
+    const sighting *at;
+    uint32_t i, j;
+    size_t first; /* of the pair's constraints */
+} sighted;
+
+static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *context)
 {
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
-    const sunder_i_piece *a = &town->piece[k], *b = &town->piece[l];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    const uint64_t key = (uint64_t)k << 32 | l;
-    if (look_up(at->known, at->known_n, key)) return;
-    const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
-                                         town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
-    if (n == 0) {
-        s->failed = true;
-        return;
-    }
-    s->steps++;
+    const sighted *pair = context;
+    const sighting *at = pair->at;
+    if (look_up(at->known, at->known_n, part->key)) return;
+    double gap;
+    const size_t n = sunder_i_search_obstacle(s, part, &gap);
+    if (n == 0) return;
     sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, at->near);
     if (h.distance > s->gap + at->reach) return;
     if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
-    const sunder_i_constraint *before = look_up(s->old, s->old_n, key);
-    double d = h.support + s->gap - sunder_i_search_allowed(s, i, j);
+    const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
+    double d = h.support + gap - sunder_i_search_allowed(s, pair->i, pair->j);
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
      * sides, would be a contradiction. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (now < d && now >= d - s->tolerance) d = now;
     /* What does not move counts where it stands. */
-    uint32_t ends[2] = {i, j};
+    uint32_t ends[2] = {pair->i, pair->j};
     for (int e = 0; e < 2; e++) {
         const double *t = s->t + 2 * ends[e];
         if (s->mass[ends[e]] > 0) continue;
         d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
         ends[e] = SUNDER_I_NOBODY;
     }
-    add_constraint(s, first,
+    add_constraint(s, pair->first,
                    &(sunder_i_constraint){.i = ends[0],
                                           .j = ends[1],
                                           .n = {h.n[0], h.n[1]},
                                           .d = d,
                                           .force = before ? before->force : 0,
-                                          .key = key});
+                                          .key = part->key});
 }
 
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
 {
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
-    const double v[2] = {q->origin[0] - p->origin[0] + at->near[0], q->origin[1] - p->origin[1] + at->near[1]};
-    const double r = at->reach + s->gap;
-    const size_t first = s->program.n;
-    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_piece *a = &town->piece[k];
-        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
-        if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = q->piece; l < q->piece + q->pieces && !s->failed; l++)
-            if (sunder_i_box_meet(box, town->piece[l].box) &&
-                !sunder_i_is_exempt(town, a->feature, town->piece[l].feature))
-                constrain_pieces(s, i, j, at, k, l, first);
-    }
+    sighted pair = {at, i, j, s->program.n};
+    sunder_i_search_parts(s, i, j, at->near, at->reach + s->gap, constrain_part, &pair);
 }
 
 typedef struct around {
@@ -221,7 +207,7 @@ static double solve(sunder_i_search *s, double softness)
     sunder_i_quadratic *p = &s->program;
     /* A compromise need not be found to the last digit. */
     const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
-    double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent, s->place);
+    double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent);
     if (v < 0) s->failed = true;
     keep_still(s);
     if (softness > 0 || v <= s->tolerance) return v;
@@ -230,7 +216,7 @@ static double solve(sunder_i_search *s, double softness)
         const double more = 1.5 * v;
         asked += more;
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
-        v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent, s->place);
+        v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent);
         if (v < 0) s->failed = true;
         keep_still(s);
         v = fmax(0, v - asked);
@@ -381,45 +367,43 @@ bool sunder_i_search_round(sunder_i_search *s)
  * -------------------------------------------------------------------------------------------------------------------------
  */
 
-static double cost_of(const sunder_i_search *s, uint32_t i, const double t[2])
+/* Where the smaller of the two that clash finds room, or else the other: its number, or SUNDER_I_NOBODY. Bodies that
+ * found none are marked, and not asked again. */
+static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool *stuck, double place[2])
 {
-    return (t[0] * t[0] + t[1] * t[1]) / (2 * s->mass[i]);
+    const sunder_i_body *p = &s->town->body[s->body[clash->i]], *q = &s->town->body[s->body[clash->j]];
+    const bool swap = p->pieces > q->pieces;
+    const uint32_t pair[2] = {swap ? clash->j : clash->i, swap ? clash->i : clash->j};
+    for (int e = 0; e < 2 && !s->failed; e++) {
+        const uint32_t i = pair[e];
+        if (!(s->mass[i] > 0) || stuck[i]) continue;
+        if (sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place)) return i;
+        stuck[i] = true;
+    }
+    return SUNDER_I_NOBODY;
 }
 
 bool sunder_i_search_jump(sunder_i_search *s)
 {
     s->program.n = 0; /* the forces belong to places that are left */
     sunder_i_search_clip(s);
+    bool *stuck = sunder_i_calloc(s->n, sizeof *stuck);
+    if (!stuck) s->failed = true;
+    if (!s->failed) sunder_i_search_look(s, s->t);
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
-    size_t stuck = 0;
-    for (size_t k = 0; k <= 2 * s->n && !s->failed; k++) {
-        sunder_i_search_look(s, s->t);
-        if (s->clashes <= stuck) break;
-        double best_cost = INFINITY, best[2] = {0, 0};
-        uint32_t who = 0;
-        stuck = 0;
-        for (size_t c = 0; c < s->clashes && !(best_cost < INFINITY); c++) {
-            /* The smaller of the two; the other only if there is no place for it. */
-            const uint32_t ci = s->clash[c].i, cj = s->clash[c].j;
-            const bool swap = s->town->body[s->body[ci]].pieces > s->town->body[s->body[cj]].pieces;
-            const uint32_t pair[2] = {swap ? cj : ci, swap ? ci : cj};
-            for (int e = 0; e < 2 && !(best_cost < INFINITY); e++) {
-                double place[2];
-                const uint32_t i = pair[e];
-                if (!(s->mass[i] > 0) || !sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place))
-                    continue;
-                const double more = cost_of(s, i, place) - cost_of(s, i, s->t + 2 * i);
-                if (more < best_cost) {
-                    best_cost = more;
-                    memcpy(best, place, sizeof best);
-                    who = i;
-                }
-            }
-            if (!(best_cost < INFINITY)) stuck++;
+    size_t at = 0;
+    for (size_t k = 0; k <= 2 * s->n && at < s->clashes && !s->failed; k++) {
+        double place[2];
+        const uint32_t who = find_room(s, &s->clash[at], stuck, place);
+        if (who == SUNDER_I_NOBODY) {
+            at++;
+            continue;
         }
-        if (!(best_cost < INFINITY)) break;
-        memcpy(s->t + 2 * who, best, sizeof best);
+        memcpy(s->t + 2 * who, place, sizeof place);
+        sunder_i_search_look_again(s, s->t, who);
+        at = 0;
     }
+    sunder_i_free(stuck);
     if (s->failed) return false;
     return sunder_i_search_look(s, s->t) <= s->tolerance;
 }

@@ -107,6 +107,7 @@ typedef struct sunder_i_relations {
 typedef struct sunder_i_body {
     uint32_t member, members; /* its features: members of them in sunder_i_town.member from there */
     uint32_t piece, pieces;   /* its convex pieces in sunder_i_town.piece */
+    uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_town.wall */
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
@@ -114,7 +115,7 @@ typedef struct sunder_i_body {
     double box[4];            /* of its pieces, relative to the origin */
 } sunder_i_body;
 
-/* One convex piece of a body, counter-clockwise. */
+/* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
 typedef struct sunder_i_piece {
     uint32_t corner, corners; /* in sunder_i_town.corner */
     uint32_t feature;
@@ -137,17 +138,25 @@ typedef struct sunder_i_town {
     sunder_i_piece *piece;
     sunder_i_piece *outline; /* [features] the convex hull of each: stands in for its pieces where they are too many */
     double *corner;          /* [2 * corners] relative to the body's origin */
+    size_t corners;
     sunder_shape *
         *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;   /* [4 * features] as they stood at the start */
     bool *present; /* [features] */
     sunder_i_index tree;
-    sunder_i_couple *kept; /* pairs that may overlap, because one lies in the other */
-    bool *lapsed;          /* [kept_n] it no longer does, so the two have to part */
+    sunder_i_piece *wall; /* edges of features that hold others; see keep.c */
+    size_t walls;
+    sunder_i_couple *kept;  /* pairs that may overlap, because one lies in the other; sorted */
+    bool *a_in_b;           /* [kept_n] which of the two lies in the other */
+    unsigned char *keeping; /* [kept_n] a sunder_i_keeping */
+    sunder_i_couple *held;  /* bodies: a holds b, which therefore goes where a goes; sorted */
+    size_t held_n;
     size_t kept_n;
     sunder_i_couple
         *hopeless; /* pairs that the limits cannot part, in clusters too large to make the best of it; sorted */
     size_t hopeless_n;
+    sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is apart; sorted */
+    size_t given_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     double far;    /* no body stands farther than this from where it was, in x or in y */
     bool *inexact; /* [features] the translate was rounded */
@@ -185,12 +194,36 @@ sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, siz
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
 const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
 void sunder_i_town_free(sunder_i_town *town);
-bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
 bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g);
-/* Either: the search lets such pairs alone. */
+bool sunder_i_is_given_up(const sunder_i_town *town, uint32_t body, uint32_t other);
+/* Kept or hopeless: the search lets such pairs alone. */
 bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g);
-/* From now on the pair is like any other. */
-void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g);
+
+/* ---- What stays inside ---------------------------------------------------------------------------------------------
+ */
+
+/* A pair of which one lies in the other, where the rules let that overlap: how the search treats it. */
+typedef enum sunder_i_keeping {
+    SUNDER_I_LENIENT, /* the one stays inside; it may touch or overstep walls as far as it did at the start */
+    SUNDER_I_STRICT,  /* it stays clear of the walls: rounding ate up what leniency left */
+    SUNDER_I_LAPSED   /* there is no keeping it inside: the two have to part like any others */
+} sunder_i_keeping;
+
+sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
+/* The walls, for the search; after the pieces are cut. */
+sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err);
+/* Where the pair is in town->kept; kept_n if it never was. */
+size_t sunder_i_kept_at(const sunder_i_town *town, uint32_t f, uint32_t g);
+/* Is it, and has it not lapsed? */
+bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
+/* What lies in two that have to part cannot stay in both: lets it go from the one whose edge is nearer. conflict[k]:
+ * the relation of pair k keeps two bodies from standing as they do. */
+sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations *relations, const bool *conflict,
+                                   sunder_error *err);
+/* The bodies that body b holds: *n of them, side b of each couple. */
+const sunder_i_couple *sunder_i_held_by(const sunder_i_town *town, uint32_t b, size_t *n);
+/* Does `holder` keep `inner` inside? Then *keeping tells how. */
+bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping);
 
 /* ---- Conflicts as they are reported
  * ------------------------------------------------------------------------------------- */
@@ -283,10 +316,8 @@ typedef struct sunder_i_quadratic {
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in
  * proportion to its force (relative to what the force moves), so that contradictions end in a compromise. Returns the
- * worst violation; negative if memory is out. scale: a length such as bodies move by; where: the bodies' places, two
- * doubles each. */
-double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale,
-                                const double *where);
+ * worst violation; negative if memory is out. scale: a length such as bodies move by. */
+double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 /* ---- Clusters
  * ----------------------------------------------------------------------------------------------------------------------
@@ -295,13 +326,20 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, do
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double margin; /* what is demanded beyond the gap, to cover rounding */
-    bool limited;  /* a limit or a fixed body is in it: it may have no solution */
+    double margin;          /* what is demanded beyond the gap, to cover rounding */
+    bool limited;           /* a limit or a fixed body is in it: it may have no solution */
+    sunder_i_couple *given; /* [given_n] pairs of bodies that its solution gave up; owned */
+    size_t given_n;
 } sunder_i_cluster;
 
-/* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. *solved: no clash is left. */
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
-                                     bool *solved, sunder_error *err);
+/* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
+ * pairs are given up, and the rest is solved. */
+sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
+                                     sunder_error *err);
+/* What the pairs given up miss at worst made least, then the next, then the cost; the rest stays apart, and neighbours
+ * outside the cluster stay where they are. */
+sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                     sunder_error *err);
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);

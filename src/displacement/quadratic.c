@@ -75,14 +75,13 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
     return true;
 }
 
-double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale,
-                                const double *where)
+double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     if (p->n <= MOST_QUICK) {
         if (!solve_quickly(p, softness, tolerance)) return -1;
         if (sunder_i_quadratic_worst(p, softness) <= tolerance) return fmax(0, sunder_i_quadratic_worst(p, 0));
     }
     sunder_i_quadratic_place(p);
-    if (!sunder_i_quadratic_interior(p, softness, tolerance, scale, where)) return -1;
+    if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
     return fmax(0, sunder_i_quadratic_worst(p, 0));
 }

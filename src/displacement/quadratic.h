@@ -38,10 +38,9 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
  * not. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
-/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by; where: a place
- * for each body, two doubles, to order them by. False if memory is out. */
-bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale,
-                                 const double *where);
+/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by. False if
+ * memory is out. */
+bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 /* t from the forces; what is missed at worst, softness allowed for; a pass of Hildreth's method. */
 void sunder_i_quadratic_place(sunder_i_quadratic *program);

@@ -1,6 +1,6 @@
 /* Clusters without a solution: limits, fixed bodies, or no room between them.
  *
- * What remains must be as small as can be, worst first. The pairs that clash at the best position known are the
+ * What remains must be as small as can be, worst first. The pairs that clash, which the search gave up, are the
  * suspects. All of them are granted the same shortfall, and the least at which the program has a solution is found by
  * halving; then each in turn is asked for its full gap again, and keeps only the shortfall that it cannot do without.
  * Every other pair keeps its full gap throughout, so an insoluble pair leaves the rest of its cluster solved. A
@@ -49,35 +49,9 @@ static void halve(sunder_i_search *s, size_t first, size_t end, double high)
     for (size_t p = first; p < end; p++) s->allowed[p].violation = high;
 }
 
-/* Where to start from: the compromise that the search ended with, within the limits, or where everything came from if
- * less is missed there (a house in a yard too narrow for its gap had better stay in it than be caught half-way through
- * the wall). Returns the worst violation. */
-static double choose_start(sunder_i_search *s)
-{
-    sunder_i_search_clip(s);
-    double worst = sunder_i_search_look(s, s->t);
-    double *compromise = sunder_i_alloc(2 * s->n, sizeof *compromise);
-    if (!compromise) {
-        s->failed = true;
-        return worst;
-    }
-    memcpy(compromise, s->t, 2 * s->n * sizeof *compromise);
-    for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
-    const double at_home = sunder_i_search_look(s, s->t);
-    if (at_home <= worst)
-        worst = at_home;
-    else {
-        memcpy(s->t, compromise, 2 * s->n * sizeof *compromise);
-        worst = sunder_i_search_look(s, s->t);
-    }
-    sunder_i_free(compromise);
-    return worst;
-}
-
 void sunder_i_search_relax(sunder_i_search *s)
 {
-    const double worst = choose_start(s);
+    const double worst = sunder_i_search_look(s, s->t);
     if (s->clashes == 0 || s->failed) return;
     s->allowed = sunder_i_alloc(s->clashes, sizeof *s->allowed);
     if (!s->allowed) {

@@ -11,7 +11,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     memset(s, 0, sizeof *s);
     s->town = town;
     s->body = body;
-    s->n = n;
+    s->n = s->own = n;
     s->gap = town->rules.gap + margin;
     s->tolerance = margin / 4;
     s->settled = 1e-3;
@@ -20,13 +20,10 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->next = sunder_i_alloc(2 * n, sizeof *s->next);
     s->box = sunder_i_alloc(4 * n, sizeof *s->box);
     s->order = sunder_i_alloc(n, sizeof *s->order);
-    s->place = sunder_i_calloc(2 * n, sizeof *s->place);
-    if (!s->mass || !s->t || !s->next || !s->box || !s->order || !s->place) return false;
+    if (!s->mass || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &town->body[body[k]];
         s->mass[k] = b->fixed ? 0 : 0.5 / b->weight;
-        for (size_t c = 0; c < 2 && b->pieces; c++)
-            s->place[2 * k + c] = b->origin[c] - town->body[body[0]].origin[c] + (b->box[c] + b->box[c + 2]) / 2;
         if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
     memcpy(s->t, move, 2 * n * sizeof *s->t);
@@ -43,11 +40,11 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->next);
     sunder_i_free(s->box);
     sunder_i_free(s->order);
-    sunder_i_free(s->place);
     sunder_i_free(s->program.constraint);
     sunder_i_free(s->old);
     sunder_i_free(s->clash);
     sunder_i_free(s->allowed);
+    sunder_i_free(s->given);
     sunder_i_free(s->scratch.xy);
     memset(s, 0, sizeof *s);
 }
@@ -111,32 +108,93 @@ void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sun
 /* ---- Who clashes --------------------------------------------------------------------------------------------------
  */
 
-double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+bool sunder_i_search_gave_up(const sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    if (s->heeds_all) return false;
+    for (size_t k = 0; k < s->given_n; k++)
+        if ((s->given[k].a == i && s->given[k].b == j) || (s->given[k].a == j && s->given[k].b == i)) return true;
+    return s->town->given_n && sunder_i_is_given_up(s->town, s->body[i], s->body[j]);
+}
+
+/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
+void sunder_i_search_visit(sunder_i_search *s, const sunder_i_piece *from, uint32_t n, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_part *part, bool swapped, bool walls,
+                           sunder_i_visit_part visit, void *context)
 {
     const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
-    double worst = 0;
-    for (uint32_t k = 0; k < p->pieces; k++) {
-        const sunder_i_piece *a = &town->piece[p->piece + k];
-        const double box[4] = {a->box[0] - v[0] - s->gap, a->box[1] - v[1] - s->gap, a->box[2] - v[0] + s->gap,
-                               a->box[3] - v[1] + s->gap};
-        if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) {
-            const sunder_i_piece *b = &town->piece[q->piece + l];
-            if (!sunder_i_box_meet(box, b->box) || sunder_i_is_exempt(town, a->feature, b->feature)) continue;
-            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
-                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
-            if (n == 0) {
-                s->failed = true;
-                return worst;
-            }
-            s->steps++;
-            worst = fmax(worst, s->gap - sunder_i_support_at(s->scratch.xy, n, u).distance);
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_piece *a = &from[k];
+        const double box[4] = {a->box[0] - v[0] - reach, a->box[1] - v[1] - reach, a->box[2] - v[0] + reach,
+                               a->box[3] - v[1] + reach};
+        if (!sunder_i_box_meet(box, other->box)) continue;
+        for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
+            const sunder_i_piece *b = &town->piece[l];
+            if (!sunder_i_box_meet(box, b->box)) continue;
+            part->keeping = SUNDER_I_LAPSED;
+            if (walls ? !sunder_i_holds(town, a->feature, b->feature, &part->keeping)
+                      : sunder_i_is_exempt(town, a->feature, b->feature))
+                continue;
+            const uint64_t key = walls ? UINT64_C(1) << 62 | (uint64_t)(a - town->wall) << 32 | l
+                                       : (uint64_t)(a - town->piece) << 32 | l;
+            part->a = swapped ? b : a;
+            part->b = swapped ? a : b;
+            part->key = key;
+            visit(s, part, context);
         }
     }
-    return worst;
+}
+
+void sunder_i_search_parts(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                           sunder_i_visit_part visit, void *context)
+{
+    const sunder_i_town *town = s->town;
+    if (sunder_i_search_gave_up(s, i, j)) return;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    sunder_i_part part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
+    const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
+    sunder_i_search_visit(s, town->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    if (p->walls)
+        sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
+    if (q->walls)
+        sunder_i_search_visit(s, town->wall + q->wall, q->walls, p, back, reach, &part, true, true, visit, context);
+}
+
+size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_part *part, double *gap)
+{
+    const double *corner = s->town->corner, home[2] = {0, 0};
+    const size_t n =
+        sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
+                            corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
+    if (n == 0) s->failed = true;
+    s->steps++;
+    const double margin = s->gap - s->town->rules.gap;
+    if (part->keeping == SUNDER_I_LAPSED)
+        *gap = s->gap;
+    else if (part->keeping == SUNDER_I_STRICT)
+        *gap = margin;
+    else
+        *gap = n ? fmin(margin, sunder_i_support_at(s->scratch.xy, n, home).distance) : margin;
+    return n;
+}
+
+typedef struct missing {
+    const double *u;
+    double worst;
+} missing;
+
+static void measure_part(sunder_i_search *s, const sunder_i_part *part, void *context)
+{
+    missing *m = context;
+    double gap;
+    const size_t n = sunder_i_search_obstacle(s, part, &gap);
+    if (n) m->worst = fmax(m->worst, gap - sunder_i_support_at(s->scratch.xy, n, m->u).distance);
+}
+
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+{
+    missing m = {u, 0};
+    sunder_i_search_parts(s, i, j, u, s->gap, measure_part, &m);
+    return m.worst;
 }
 
 typedef struct look {
@@ -168,210 +226,22 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     return l.worst;
 }
 
-/* More pairs of pieces than this are too many to make an obstacle of each. */
-#define MANY_PAIRS 1500
-/* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
-#define MANY_AROUND 5000
-
-/* ---- Where there is room -------------------------------------------------------------------------------------------
- */
-
-/* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
-static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
-
-static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_body *body, bool coarse, uint32_t k)
+void sunder_i_search_look_again(sunder_i_search *s, const double *t, uint32_t i)
 {
-    return coarse ? &town->outline[town->member[body->member + k]] : &town->piece[body->piece + k];
-}
-
-/* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
-static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
-                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
-                          double reach)
-{
-    const sunder_i_town *town = s->town;
-    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
-    const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
-    for (uint32_t k = 0; k < np; k++) {
-        const sunder_i_piece *a = part_of(town, p, coarse_p, k);
-        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
-        if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < nq; l++) {
-            const sunder_i_piece *b = part_of(town, q, coarse_q, l);
-            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_exempt(town, a->feature, b->feature))
-                continue;
-            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
-                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
-            if (n == 0) {
-                s->failed = true;
-                return;
-            }
-            s->steps += 4;
-            /* A little more room than is asked, so that no rounding makes a clash of it. */
-            sunder_i_obstacles_add(o, s->scratch.xy, n, s->gap + 2 * s->tolerance);
-        }
-    }
-}
-
-static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
-
-/* Beyond everything, in the four directions: always free, for when all else is full. */
-static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
-{
-    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, best = INFINITY;
-    for (size_t k = 0; k < o->n; k++)
-        for (int c = 0; c < 2; c++) {
-            all[c] = fmin(all[c], o->obstacle[k].box[c]);
-            all[c + 2] = fmax(all[c + 2], o->obstacle[k].box[c + 2]);
-        }
-    for (int c = 0; c < 4; c++) {
-        const double d = fabs(all[c] - target[c & 1]);
-        if (!(d < best) || d > limit) continue;
-        best = d;
-        place[c & 1] = all[c];
-        place[1 - (c & 1)] = target[1 - (c & 1)];
-    }
-    return best < INFINITY;
-}
-
-/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts
- * from is cut to few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
-static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
-                              double limit, double place[2])
-{
-    const double none[2] = {0, 0};
-    double from[2];
-    for (int c = 0; c < 2; c++) {
-        int exponent;
-        frexp(fmax(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
-        const double unit = ldexp(1, exponent - 44);
-        from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
-    }
-    sunder_separation least;
-    bool beyond;
-    const sunder_status status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
-    if (status == SUNDER_ENOMEM) s->failed = true;
-    if (status) return false;
-    place[0] = from[0] + least.dx;
-    place[1] = from[1] + least.dy;
-    sunder_separation_clear(&least);
-    return !beyond && isfinite(place[0]) && isfinite(place[1]);
-}
-
-size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
-                                 size_t most, double (*places)[2])
-{
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
-    const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
-    /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
-    const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && town->kept_n + town->hopeless_n == 0 && ps && qs &&
-        free_pair_exactly(s, ps, qs, target, shallow, places[0]))
-        return 1;
-    const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
-    for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
-        sunder_i_obstacles o;
-        memset(&o, 0, sizeof o);
-        add_obstacles(s, &o, p, many, q, many, offset, target, reach);
-        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->failed);
-        if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
-        s->failed = s->failed || o.failed;
-        sunder_i_obstacles_free(&o);
-        if (n || s->failed) return n;
-        if (reach > all) return 0;
-    }
-}
-
-/* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to
- * hits once each. */
-static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
-{
-    const sunder_i_town *town = s->town;
-    double where[4];
-    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1] + (c < 2 ? -s->town->far : s->town->far);
-    if (!sunder_i_index_query(&town->tree, where, hits)) return false;
-    for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
     size_t out = 0;
-    for (size_t k = 0; k < hits->n; k++) {
-        bool known = false;
-        for (size_t m = 0; m < s->n && !known; m++) known = s->body[m] == hits->item[k];
-        for (size_t m = 0; m < out && !known; m++) known = hits->item[m] == hits->item[k];
-        if (!known) hits->item[out++] = hits->item[k];
-    }
-    hits->n = out;
-    return true;
-}
-
-/* How many pieces of others lie within reach of body i, by their boxes. */
-static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach,
-                             const sunder_i_list *foreign)
-{
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]];
-    uint64_t n = 0;
-    for (size_t k = 0; k < s->n + foreign->n; k++) {
-        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &town->body[body];
-        if (k == i || q->pieces == 0) continue;
-        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
-        double box[4];
-        for (int c = 0; c < 4; c++)
-            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
-                     (c < 2 ? -1 : 1) * (reach + s->gap);
-        if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, town->piece[q->piece + l].box);
-    }
-    return n;
-}
-
-/* Obstacles for body i from all the others, within reach of place `at`. */
-static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
-                     const sunder_i_list *foreign)
-{
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]];
-    const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
-    for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
-        if (k == i) continue;
-        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &town->body[body];
-        if (q->pieces == 0) continue;
-        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
-        /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
-        const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
-        add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
-    }
-}
-
-bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
-{
+    for (size_t k = 0; k < s->clashes; k++)
+        if (s->clash[k].i != i && s->clash[k].j != i) s->clash[out++] = s->clash[k];
+    s->clashes = out;
+    look l = {t, 0};
     const sunder_i_body *p = &s->town->body[s->body[i]];
-    const double home[2] = {0, 0};
-    const double *town_box = s->town->tree.box + 4 * (s->town->tree.level[s->town->tree.levels] - 1);
-    const double all = 4 * (extent(town_box) + extent(p->box) + s->town->far + s->gap);
-    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
-    for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
-        if (reach > limit) reach = limit;
-        sunder_i_list foreign = {0};
-        sunder_i_obstacles o;
-        memset(&o, 0, sizeof o);
-        const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
-        if (!strangers(s, p, box, &foreign)) s->failed = true;
-        surround(s, &o, i, home, reach, &foreign);
-        double best[1][2];
-        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->failed);
-        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
-        s->failed = s->failed || o.failed;
-        sunder_i_obstacles_free(&o);
-        sunder_i_free(foreign.item);
-        if (n) {
-            place[0] = best[0][0];
-            place[1] = best[0][1];
-        }
-        if (n || s->failed) return n != 0 && !s->failed;
-        if (reach >= limit || reach > all) return false;
+    if (p->pieces == 0) return;
+    for (uint32_t j = 0; j < s->n && !s->failed; j++) {
+        const sunder_i_body *q = &s->town->body[s->body[j]];
+        if (j == i || q->pieces == 0) continue;
+        double box[4];
+        for (size_t c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
+                     (c < 2 ? -s->gap : s->gap);
+        if (sunder_i_box_meet(box, q->box)) look_at(s, i < j ? i : j, i < j ? j : i, &l);
     }
 }

@@ -12,8 +12,8 @@ typedef struct sunder_i_clash {
 
 typedef struct sunder_i_search {
     const sunder_i_town *town;
-    const uint32_t *body; /* [n] the bodies; the first `own` may move, unless fixed */
-    size_t n;
+    const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
+    size_t n, own;              /* ascending up to `own`, and from there on */
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
@@ -26,10 +26,13 @@ typedef struct sunder_i_search {
     size_t old_n, old_capacity;
     sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
+    sunder_i_couple
+        *given; /* places in the cluster of the pairs that this search has given up, besides those of the town */
+    size_t given_n;
+    bool heeds_all;          /* nothing is given up */
     sunder_i_clash *allowed; /* pairs that are granted a shortfall: `violation` of it */
     size_t allowed_n;
     sunder_i_scratch scratch;
-    double *place;          /* [2 n] where each is, relative to the first's origin; to order them by */
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
@@ -41,13 +44,37 @@ bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, co
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
 
+bool sunder_i_search_gave_up(const sunder_i_search *search, uint32_t i, uint32_t j);
+
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
 
+/* Two convex pieces, of bodies i and j, or a wall of one and a piece of the other that it keeps inside. */
+typedef struct sunder_i_part {
+    const sunder_i_piece *a, *b; /* of i, of j */
+    double offset[2];            /* of j's origin from i's */
+    uint64_t key;                /* tells it from all others */
+    sunder_i_keeping keeping;    /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
+} sunder_i_part;
+
+typedef void (*sunder_i_visit_part)(sunder_i_search *search, const sunder_i_part *part, void *context);
+/* All parts of the pair whose boxes are within reach of each other at relative position u. */
+void sunder_i_search_parts(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
+                           sunder_i_visit_part visit, void *context);
+/* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
+ * from it. part->offset is the caller's; swapped: `from` is of j. */
+void sunder_i_search_visit(sunder_i_search *search, const sunder_i_piece *from, uint32_t n, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_part *part, bool swapped, bool walls,
+                           sunder_i_visit_part visit, void *context);
+/* The part's obstacle A + (-B), in search->scratch: how many corners (0: memory is out), and the gap that it owes. */
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_part *part, double *gap);
+
 /* Fills search->clash with the pairs that violate the gap at t, beyond what they are allowed; returns the worst
  * violation, of a limit of moves too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
+/* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
+void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);
 /* What pair (i, j) misses at relative position u. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
 /* sum w |t|^2 */

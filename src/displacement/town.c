@@ -18,8 +18,12 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->box);
     sunder_i_free(town->present);
     sunder_i_free(town->kept);
-    sunder_i_free(town->lapsed);
+    sunder_i_free(town->a_in_b);
+    sunder_i_free(town->keeping);
+    sunder_i_free(town->held);
+    sunder_i_free(town->wall);
     sunder_i_free(town->hopeless);
+    sunder_i_free(town->given);
     sunder_i_free(town->move);
     sunder_i_free(town->inexact);
     sunder_i_index_free(&town->tree);
@@ -137,63 +141,13 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
     uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
     if (!parent) return sunder_i_no_memory(err);
     for (size_t f = 0; f < n; f++) parent[f] = (uint32_t)f;
-    size_t kept = 0;
-    for (size_t k = 0; k < relations->n; k++) {
+    for (size_t k = 0; k < relations->n && town->rules.joins; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (r->kept) kept++;
-        if (!town->rules.joins) continue;
         if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINED_BLOCK)) unite(parent, r->a, r->b);
     }
-    town->kept = sunder_i_alloc(kept, sizeof *town->kept);
-    town->lapsed = sunder_i_calloc(kept, sizeof *town->lapsed);
-    if (!town->kept || !town->lapsed || !unite_labelled(town->layer, parent)) {
-        sunder_i_free(parent);
-        return sunder_i_no_memory(err);
-    }
-    for (size_t k = 0; k < relations->n; k++)
-        if (relations->pair[k].kept) {
-            town->kept[town->kept_n].a = relations->pair[k].a;
-            town->kept[town->kept_n++].b = relations->pair[k].b;
-        }
-    number_bodies(town, parent);
+    const sunder_status status =
+        unite_labelled(town->layer, parent) ? sunder_i_keep_init(town, relations, err) : sunder_i_no_memory(err);
+    if (!status) number_bodies(town, parent);
     sunder_i_free(parent);
-    return SUNDER_OK;
-}
-
-/* Where the pair is in a sorted list; n if it is not. */
-static size_t find_couple(const sunder_i_couple *list, size_t n, uint32_t f, uint32_t g)
-{
-    const uint32_t a = f < g ? f : g, b = f < g ? g : f;
-    size_t low = 0, high = n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const sunder_i_couple *c = &list[middle];
-        if (c->a < a || (c->a == a && c->b < b))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < n && list[low].a == a && list[low].b == b ? low : n;
-}
-
-bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    const size_t at = find_couple(town->kept, town->kept_n, f, g);
-    return at < town->kept_n && !town->lapsed[at];
-}
-
-bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    return find_couple(town->hopeless, town->hopeless_n, f, g) < town->hopeless_n;
-}
-
-bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    return sunder_i_is_kept(town, f, g) || sunder_i_is_hopeless(town, f, g);
-}
-
-void sunder_i_lapse(sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    const size_t at = find_couple(town->kept, town->kept_n, f, g);
-    if (at < town->kept_n) town->lapsed[at] = true;
+    return status;
 }

@@ -324,6 +324,65 @@ static void check_inside_blocks(void **state)
     end(&s);
 }
 
+/* Two outlines have to part; the house in the one stands by the edge that is pushed in, and stays inside. */
+static void check_kept_inside(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 100, 100);
+    add_box(&s, 97, 0, 100, 100);
+    add_box(&s, 90, 40, 6, 6);
+    s.feature[0].weight = s.feature[2].weight = 1;
+    s.feature[1].weight = 1000;
+    run(&s, false);
+    assert_int_equal(s.summary.before.overlap, 1);
+    assert_int_equal(left(&s.summary), 0);
+    /* The outline gives way by nearly 3, and would leave the house 1 of the 4 that it had; it need not move. */
+    assert_near(length(&s, 0), 3, 0.01);
+    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_UNMOVED);
+    /* Nearer the edge it is pushed in, by what the edge comes too far. */
+    end(&s);
+    begin(&s, 0);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 100, 100);
+    add_box(&s, 97, 0, 100, 100)->weight = 1000;
+    add_box(&s, 0.5, 40, 6, 6);
+    add_box(&s, 90.5, 40, 6, 6);
+    add_box(&s, 0, 60, 6, 6)->weight = 1e-3; /* touches the edge that moves away from it, and may stay */
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    assert_near(length(&s, 0), 3, 0.02);
+    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_UNMOVED);
+    assert_int_equal(sunder_report_status(s.report, 4), SUNDER_UNMOVED);
+    double dx, dy;
+    sunder_report_move(s.report, 3, &dx, &dy);
+    assert_near(dx, 0, HAIR);
+    end(&s);
+    /* The edge is pushed across the whole house: kept inside, the house goes along. */
+    begin(&s, 0);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 100, 100);
+    add_box(&s, 80, 0, 100, 100)->weight = 1000;
+    add_box(&s, 79, 40, 6, 6)->weight = 1e-3;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    sunder_report_move(s.report, 2, &dx, &dy);
+    assert_near(dx, -5, 0.1);
+    end(&s);
+    /* In both of two that part: it stays in the one whose edge is farther. */
+    begin(&s, 0);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 100, 100);
+    add_box(&s, 80, 0, 100, 100);
+    add_box(&s, 81, 40, 4, 4)->weight = 1e-3;
+    run(&s, false);
+    assert_int_equal(s.summary.before.overlap, 1);
+    assert_int_equal(left(&s.summary), 0);
+    assert_true(s.summary.max < 11);
+    end(&s);
+}
+
 static void check_contained(void **state)
 {
     scene s;
@@ -465,6 +524,7 @@ int main(void)
         cmocka_unit_test(check_courtyard),     cmocka_unit_test(check_narrow_yard),
         cmocka_unit_test(check_blocks),
         cmocka_unit_test(check_inside_blocks), cmocka_unit_test(check_contained),
+        cmocka_unit_test(check_kept_inside),
         cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
         cmocka_unit_test(check_within),

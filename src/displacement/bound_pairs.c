@@ -1,0 +1,123 @@
+/* Which pairs the lower bound stands on, and how far apart each has to go. */
+#include "displacement/job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct measuring {
+    const sunder_i_town *town;
+    sunder_bound_pair *pair;
+} measuring;
+
+static sunder_status measure_pairs(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const measuring *m = context;
+    const double none[2] = {0, 0};
+    for (size_t k = begin; k < end; k++) {
+        sunder_separation least;
+        bool beyond;
+        const sunder_status status = sunder_i_separate(m->town->layer->feature[m->pair[k].a].shape, none,
+                                                       m->town->layer->feature[m->pair[k].b].shape, none,
+                                                       m->town->rules.gap, INFINITY, &least, &beyond, err);
+        if (status) return status;
+        m->pair[k].least = fmax(0, least.lower_bound);
+        sunder_separation_clear(&least);
+    }
+    return SUNDER_OK;
+}
+
+typedef struct key_pair {
+    uint64_t bodies;
+    size_t at;
+} key_pair;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const key_pair *p = a, *q = b;
+    if (p->bodies != q->bodies) return p->bodies < q->bodies ? -1 : 1;
+    return p->at < q->at ? -1 : p->at > q->at;
+}
+
+static uint64_t bodies_of(const sunder_i_town *town, size_t a, size_t b)
+{
+    const uint32_t i = town->body_of[a], j = town->body_of[b];
+    return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
+}
+
+static bool is_left(uint64_t bodies, const key_pair *left, size_t n)
+{
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (left[middle].bodies < bodies)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < n && left[low].bodies == bodies;
+}
+
+/* Where contained features may overlap what they lie in, a pair can also be resolved by moving one into the other, and
+ * its least separation proves nothing; unless the boxes show that neither fits. */
+static bool may_fit(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    if (town->rules.contained != SUNDER_CONTAINED_IGNORE) return false;
+    const double *a = town->box + 4 * (size_t)r->a, *b = town->box + 4 * (size_t)r->b;
+    const double slack = 2 * town->rules.tolerance + 0x1p-48 * (fabs(a[0]) + fabs(a[1]) + fabs(b[2]) + fabs(b[3]));
+    const double wide = (a[2] - a[0]) - (b[2] - b[0]), high = (a[3] - a[1]) - (b[3] - b[1]);
+    return (wide <= slack && high <= slack) || (wide >= -slack && high >= -slack);
+}
+
+/* Of each pair of blocks the pair of members that is hardest to part; none of blocks that are still in conflict. */
+sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    sunder_report *report = w->report;
+    size_t n = 0, left = 0;
+    key_pair *key = sunder_i_alloc(w->start.n + w->now.n, sizeof *key),
+             *remain = sunder_i_alloc(w->now.n, sizeof *remain);
+    report->bound_pair = sunder_i_calloc(w->start.n, sizeof *report->bound_pair);
+    sunder_status status = key && remain && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        for (size_t k = 0; k < w->now.n; k++)
+            if (sunder_i_job_is_between(town, &w->now.pair[k]))
+                remain[left++] = (key_pair){bodies_of(town, w->now.pair[k].a, w->now.pair[k].b), k};
+        qsort(remain, left, sizeof *remain, by_bodies);
+        for (size_t k = 0; k < w->start.n; k++) {
+            const sunder_i_relation *r = &w->start.pair[k];
+            if (!sunder_i_job_is_between(town, r) || may_fit(town, r) ||
+                is_left(bodies_of(town, r->a, r->b), remain, left))
+                continue;
+            report->bound_pair[n].a = r->a;
+            report->bound_pair[n++].b = r->b;
+        }
+        measuring m = {town, report->bound_pair};
+        status = sunder_i_parallel(town->rules.threads, n, 8, measure_pairs, &m, err);
+    }
+    if (!status) {
+        for (size_t k = 0; k < n; k++)
+            key[k] = (key_pair){bodies_of(town, report->bound_pair[k].a, report->bound_pair[k].b), k};
+        qsort(key, n, sizeof *key, by_bodies);
+        /* Keep the hardest of each run; a pair that is dropped gets least < 0. */
+        for (size_t k = 1; k < n; k++) {
+            if (key[k].bodies != key[k - 1].bodies) continue;
+            sunder_bound_pair *p = &report->bound_pair[key[k - 1].at], *q = &report->bound_pair[key[k].at];
+            if (p->least > q->least) {
+                const size_t swap = key[k].at;
+                key[k].at = key[k - 1].at;
+                key[k - 1].at = swap;
+                p = q;
+            }
+            p->least = -1;
+        }
+        size_t out = 0;
+        for (size_t k = 0; k < n; k++)
+            if (report->bound_pair[k].least > 0) report->bound_pair[out++] = report->bound_pair[k];
+        report->bound_pairs = out;
+        status = sunder_i_bound(town, report->bound_pair, out, &report->summary.lower_bound, err);
+    }
+    sunder_i_free(key);
+    sunder_i_free(remain);
+    return status;
+}

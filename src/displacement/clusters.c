@@ -1,0 +1,133 @@
+/* Bodies in conflict make edges, edges make clusters. */
+#include "displacement/job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void free_clusters(sunder_i_job *w)
+{
+    for (size_t k = 0; k < w->clusters; k++) sunder_i_free(w->cluster[k].given);
+    sunder_i_free(w->cluster);
+    w->cluster = NULL;
+    w->clusters = 0;
+}
+
+void sunder_i_job_free(sunder_i_job *w)
+{
+    sunder_i_scene_free(&w->town, &w->scene);
+    sunder_i_town_free(&w->town);
+    sunder_i_free(w->start.pair);
+    sunder_i_free(w->now.pair);
+    sunder_i_free(w->edge);
+    sunder_i_free(w->parent);
+    sunder_i_free(w->dirty);
+    sunder_i_free(w->widened);
+    sunder_i_free(w->changed);
+    sunder_i_free(w->carrier);
+    sunder_i_free(w->member);
+    sunder_i_free(w->body);
+    sunder_i_free(w->move);
+    free_clusters(w);
+    sunder_report_free(w->report);
+}
+
+sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)
+{
+    const size_t n = w->town.bodies;
+    w->parent = sunder_i_alloc(n, sizeof *w->parent);
+    w->dirty = sunder_i_calloc(n, sizeof *w->dirty);
+    w->widened = sunder_i_calloc(n, sizeof *w->widened);
+    w->changed = sunder_i_calloc(w->town.features, sizeof *w->changed);
+    w->carrier = sunder_i_alloc(n, sizeof *w->carrier);
+    if (!w->parent || !w->dirty || !w->widened || !w->changed || !w->carrier) return sunder_i_no_memory(err);
+    for (size_t b = 0; b < n; b++) {
+        w->parent[b] = (uint32_t)b;
+        w->carrier[b] = SUNDER_I_NOBODY;
+    }
+    return SUNDER_OK;
+}
+
+/* ---- Clusters -------------------------------------------------------------------------------------------------- */
+
+uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x)
+{
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j)
+{
+    if (!sunder_i_reserve(&w->edge, &w->edge_capacity, w->edges + 1, sizeof *w->edge)) return false;
+    w->edge[w->edges++] = (sunder_i_couple){i, j};
+    const bool fi = w->town.body[i].fixed, fj = w->town.body[j].fixed;
+    if (!fi) w->dirty[i] = true;
+    if (!fj) w->dirty[j] = true;
+    if (fi || fj) return true;
+    const uint32_t a = sunder_i_union_find(w->parent, i), b = sunder_i_union_find(w->parent, j);
+    if (a != b) w->parent[a < b ? b : a] = a < b ? a : b;
+    return true;
+}
+
+static int by_member(const void *a, const void *b)
+{
+    const sunder_i_member *p = a, *q = b;
+    if (p->root != q->root) return p->root < q->root ? -1 : 1;
+    return p->body < q->body ? -1 : p->body > q->body;
+}
+
+/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some
+ * units in the last place of the coordinates; four times as much for each failed check. */
+static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t n)
+{
+    double largest = 0;
+    unsigned widened = 0;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *body = &w->town.body[m[k].body];
+        if (body->pieces == 0) continue;
+        for (int c = 0; c < 4; c++) largest = fmax(largest, fabs(body->origin[c & 1]) + fabs(body->box[c]));
+        if (w->widened[m[k].body] > widened) widened = w->widened[m[k].body];
+    }
+    return ldexp(largest + w->town.rules.gap, -50 + 2 * (int)widened);
+}
+
+/* Clusters from the edges, afresh. */
+sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err)
+{
+    sunder_i_free(w->member);
+    sunder_i_free(w->body);
+    sunder_i_free(w->move);
+    free_clusters(w);
+    w->member = sunder_i_alloc(2 * w->edges, sizeof *w->member);
+    w->body = sunder_i_alloc(2 * w->edges, sizeof *w->body);
+    w->move = sunder_i_alloc(4 * w->edges, sizeof *w->move);
+    w->cluster = sunder_i_calloc(w->edges, sizeof *w->cluster);
+    w->members = 0;
+    if (!w->member || !w->body || !w->move || !w->cluster) return sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t e = 0; e < w->edges; e++) {
+        const uint32_t i = w->edge[e].a, j = w->edge[e].b;
+        const uint32_t root = sunder_i_union_find(w->parent, w->town.body[i].fixed ? j : i);
+        w->member[n++] = (sunder_i_member){root, i};
+        w->member[n++] = (sunder_i_member){root, j};
+    }
+    if (n) qsort(w->member, n, sizeof *w->member, by_member);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || by_member(&w->member[k - 1], &w->member[k])) {
+            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or an equal.
+             */
+            w->member[w->members] = w->member[k];
+            w->body[w->members++] = w->member[k].body;
+        }
+    for (size_t first = 0, end; first < w->members; first = end) {
+        sunder_i_cluster *c = &w->cluster[w->clusters++];
+        for (end = first; end < w->members && w->member[end].root == w->member[first].root; end++) {
+            const sunder_i_body *body = &w->town.body[w->member[end].body];
+            c->limited = c->limited || body->fixed || body->limit < INFINITY;
+        }
+        c->body = w->body + first;
+        c->n = end - first;
+        c->margin = margin_of(w, w->member + first, c->n);
+    }
+    return SUNDER_OK;
+}

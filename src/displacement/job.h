@@ -1,0 +1,75 @@
+/* The work on one layer, from its relations to its report: what the stages of separate.c share. */
+#ifndef SUNDER_I_JOB_H
+#define SUNDER_I_JOB_H
+
+#include "displacement/displacement.h"
+
+typedef struct sunder_i_member {
+    uint32_t root, body;
+} sunder_i_member;
+
+typedef struct sunder_i_job {
+    sunder_i_town town;
+    sunder_i_scene scene;
+    sunder_i_relations start, now;
+    sunder_i_couple *edge;
+    size_t edges, edge_capacity;
+    uint32_t *parent;        /* [bodies] union-find over edges */
+    bool *dirty;             /* [bodies] to be solved (again) */
+    unsigned char *widened;  /* [bodies] how often the margin grew */
+    bool *changed;           /* [features] moved in this round */
+    uint32_t *carrier;       /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
+    sunder_i_member *member; /* cluster after cluster, bodies ascending */
+    size_t members;
+    uint32_t *body; /* the bodies of member[] */
+    double *move;   /* [2 * members] */
+    sunder_i_cluster *cluster;
+    size_t clusters;
+    sunder_report *report;
+} sunder_i_job;
+
+/* From w->town, which has its bodies. Failure leaves what sunder_i_job_free() takes. */
+sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err);
+void sunder_i_job_free(sunder_i_job *w);
+
+/* ---- clusters.c ---- */
+
+/* The least member of x's set; halves the paths on its way. */
+uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x);
+/* An edge between bodies, which makes them dirty. False if memory is out. */
+bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j);
+/* Clusters from the edges, afresh. */
+sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err);
+
+/* ---- settle.c ---- */
+
+/* Do the two stand in conflict, in different bodies? */
+bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation *r);
+/* ... and is it one that the search is to resolve? */
+bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r);
+/* The moves that a cluster starts from. */
+void sunder_i_job_load_moves(const sunder_i_job *w, const sunder_i_cluster *c, double *move);
+/* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
+void sunder_i_job_commit(sunder_i_job *w);
+/* Exact relations of what changed. */
+sunder_status sunder_i_job_check(sunder_i_job *w, sunder_error *err);
+/* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
+sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunder_error *err);
+/* Better sides, for every cluster. */
+sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err);
+
+/* ---- insoluble.c ---- */
+
+/* What lies in two that are in conflict is kept in one of them. */
+sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err);
+/* Finds the pairs of large clusters that cannot be parted within their limits; exact. */
+sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err);
+/* Once nothing joins clusters any more: makes the best of the pairs given up. */
+sunder_status sunder_i_job_relax(sunder_i_job *w, sunder_error *err);
+
+/* ---- bound_pairs.c ---- */
+
+/* Fills the report's pairs for the lower bound, and the bound. */
+sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err);
+
+#endif

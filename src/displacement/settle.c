@@ -1,0 +1,224 @@
+/* The loop: clusters are solved, their moves checked exactly, and what is found makes work for the next round. */
+#include "displacement/job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_MARGINS 14
+
+static bool is_dirty(const sunder_i_job *w, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++)
+        if (w->dirty[c->body[k]]) return true;
+    return false;
+}
+
+void sunder_i_job_load_moves(const sunder_i_job *w, const sunder_i_cluster *c, double *move)
+{
+    for (size_t k = 0; k < c->n; k++) {
+        const uint32_t b = c->body[k], from = w->carrier[b] == SUNDER_I_NOBODY ? b : w->carrier[b];
+        memcpy(move + 2 * k, w->town.move + 2 * (size_t)from, 2 * sizeof *move);
+    }
+}
+
+static sunder_status solve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_job *w = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &w->cluster[k];
+        double *move = w->move + 2 * (size_t)(c->body - w->body);
+        sunder_i_job_load_moves(w, c, move);
+        if (!is_dirty(w, c)) continue;
+        const sunder_status status = sunder_i_cluster_solve(&w->town, c, move, err);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_job *w = context;
+    for (size_t k = begin; k < end; k++) {
+        const sunder_i_cluster *c = &w->cluster[k];
+        double *move = w->move + 2 * (size_t)(c->body - w->body);
+        sunder_i_job_load_moves(w, c, move);
+        const sunder_status status = sunder_i_cluster_improve(&w->town, c, move, err);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+/* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
+void sunder_i_job_commit(sunder_i_job *w)
+{
+    sunder_i_town *town = &w->town;
+    memset(w->changed, 0, town->features * sizeof *w->changed);
+    for (size_t k = 0; k < w->members; k++) {
+        const uint32_t b = w->body[k];
+        const sunder_i_body *body = &town->body[b];
+        double *move = town->move + 2 * (size_t)b, exact_move[2];
+        if (body->fixed || memcmp(move, w->move + 2 * k, 2 * sizeof *move) == 0) continue;
+        memcpy(move, w->move + 2 * k, 2 * sizeof *move);
+        town->far = fmax(town->far, fmax(fabs(move[0]), fabs(move[1])));
+        const bool exact = sunder_i_round_move(town, b, move, exact_move, NULL);
+        for (uint32_t m = 0; m < body->members; m++) {
+            const uint32_t f = town->member[body->member + m];
+            w->changed[f] = true;
+            town->inexact[f] = !exact;
+        }
+    }
+}
+
+/* Exact relations of what changed. */
+sunder_status sunder_i_job_check(sunder_i_job *w, sunder_error *err)
+{
+    sunder_status status = sunder_i_scene_move(&w->town, &w->scene, w->changed, err);
+    if (status) return status;
+    sunder_i_relations now;
+    status = sunder_i_scene_relate(&w->town, &w->scene, w->changed, &w->now, &now, err);
+    if (status) return status;
+    sunder_i_free(w->now.pair);
+    w->now = now;
+    return SUNDER_OK;
+}
+
+bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    return r->near && !r->kept && town->body_of[r->a] != town->body_of[r->b];
+}
+
+bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    return sunder_i_job_is_conflict(town, r) && !sunder_i_is_exempt(town, r->a, r->b) &&
+           !sunder_i_is_given_up(town, town->body_of[r->a], town->body_of[r->b]);
+}
+
+/* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
+ * it, so that the cluster begins from a position without conflicts. */
+static void carry(sunder_i_job *w, uint32_t f, uint32_t g)
+{
+    const sunder_i_town *town = &w->town;
+    sunder_i_keeping keeping;
+    for (int e = 0; e < 2; e++) {
+        const uint32_t holder = town->body_of[e ? g : f], inner = town->body_of[e ? f : g];
+        const double *t = town->move + 2 * (size_t)holder, *own = town->move + 2 * (size_t)inner;
+        if (sunder_i_holds(town, e ? g : f, e ? f : g, &keeping) && own[0] == 0 && own[1] == 0 &&
+            !town->body[inner].fixed && sunder_i_within(t, town->body[inner].limit))
+            w->carrier[inner] = holder;
+    }
+}
+
+/* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
+ * Returns whether there is anything to do. */
+static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
+{
+    sunder_i_town *town = &w->town;
+    memset(w->dirty, 0, town->bodies * sizeof *w->dirty);
+    *any = false;
+    for (size_t k = 0; k < w->now.n; k++) {
+        const sunder_i_relation *r = &w->now.pair[k];
+        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+        const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
+        if (!r->near || r->kept || i == j || sunder_i_is_hopeless(town, r->a, r->b) || (fi && fj)) continue;
+        if (sunder_i_is_given_up(town, i, j)) continue;
+        bool known = false;
+        if (!fi && !fj)
+            known = sunder_i_union_find(w->parent, i) == sunder_i_union_find(w->parent, j);
+        else
+            for (size_t e = 0; e < w->edges && !known; e++)
+                known = (w->edge[e].a == i && w->edge[e].b == j) || (w->edge[e].a == j && w->edge[e].b == i);
+        if (!known) {
+            if (!sunder_i_job_add_edge(w, i, j)) return sunder_i_no_memory(err);
+            carry(w, r->a, r->b);
+            *any = true;
+            continue;
+        }
+        const uint32_t b = fi ? j : i;
+        /* What lay in another, and was not kept inside. */
+        const size_t kept = sunder_i_kept_at(town, r->a, r->b);
+        if (kept < town->kept_n && town->keeping[kept] != SUNDER_I_LAPSED) {
+            town->keeping[kept]++;
+            w->dirty[b] = *any = true;
+            continue;
+        }
+        if (w->widened[b] >= MOST_MARGINS) continue;
+        if (w->dirty[b] && w->widened[b]) continue; /* once a round */
+        w->widened[b]++;
+        w->dirty[b] = *any = true;
+    }
+    return SUNDER_OK;
+}
+
+static int by_couple(const void *a, const void *b)
+{
+    const sunder_i_couple *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/* Takes over the pairs that clusters gave up. */
+static sunder_status note_given(sunder_i_job *w, sunder_error *err)
+{
+    sunder_i_town *town = &w->town;
+    size_t more = 0;
+    for (size_t k = 0; k < w->clusters; k++) more += w->cluster[k].given_n;
+    if (more == 0) return SUNDER_OK;
+    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + more, sizeof *given);
+    if (!given) return sunder_i_no_memory(err);
+    town->given = given;
+    for (size_t k = 0; k < w->clusters; k++)
+        for (size_t g = 0; g < w->cluster[k].given_n; g++) {
+            const sunder_i_couple c = w->cluster[k].given[g];
+            given[town->given_n++] = c.a < c.b ? c : (sunder_i_couple){c.b, c.a};
+        }
+    qsort(given, town->given_n, sizeof *given, by_couple);
+    return SUNDER_OK;
+}
+
+/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
+ * no two threads do the same. */
+static sunder_status unite_blocks(sunder_i_job *w, sunder_error *err)
+{
+    bool *seen = sunder_i_calloc(w->town.bodies, sizeof *seen);
+    uint32_t *body = sunder_i_alloc(w->members, sizeof *body);
+    sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t k = 0; !status && k < w->members; k++) {
+        if (!seen[w->body[k]]) body[n++] = w->body[k];
+        seen[w->body[k]] = true;
+    }
+    if (!status) status = sunder_i_town_unite(&w->town, body, n, err);
+    sunder_i_free(seen);
+    sunder_i_free(body);
+    return status;
+}
+
+sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunder_error *err)
+{
+    bool any;
+    sunder_status status = find_work(w, &any, err);
+    for (size_t round = 0; !status && any; round++) {
+        if (!sunder_i_progress(&w->town.rules, from + (to - from) * (1 - 1 / (1 + 0.25 * (double)round))))
+            return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+        status = sunder_i_job_gather(w, err);
+        if (!status) status = unite_blocks(w, err);
+        if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, solve_clusters, w, err);
+        if (status) return status;
+        sunder_i_job_commit(w);
+        for (size_t k = 0; k < w->members; k++) w->carrier[w->body[k]] = SUNDER_I_NOBODY;
+        status = note_given(w, err);
+        if (!status) status = sunder_i_job_check(w, err);
+        if (!status) status = find_work(w, &any, err);
+    }
+    return status;
+}
+
+sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err)
+{
+    sunder_status status = sunder_i_job_gather(w, err);
+    if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, improve_clusters, w, err);
+    if (status) return status;
+    sunder_i_job_commit(w);
+    return sunder_i_job_check(w, err);
+}
