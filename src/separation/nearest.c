@@ -135,24 +135,46 @@ static bool search_all(search *s)
     return true;
 }
 
+/* The nearest free point within s->limit, if there is one; false if memory is out. */
+static bool nearest_within(search *s)
+{
+    sunder_i_pairing *g = s->g;
+    if (!sunder_i_pairing_reach(g, s->limit)) return false;
+    if (!origin_covered(g, &s->zero)) {
+        s->best.found = s->best.origin = true;
+        return true;
+    }
+    if (g->subsums >= SUNDER_I_HELD_FROM && !sunder_i_held_build(g, s->limit + 16 * g->error)) return false;
+    const bool ok = search_all(s);
+    sunder_i_held_free(g);
+    return ok;
+}
+
+/* Large operands often overlap by little, as neighbouring countries do, and all their pairs of pieces would fill
+ * the memory: so the search begins in a small disc, and in a larger one where that holds no free point. */
+#define WIDEN_FROM 65536 /* pairs of pieces */
+#define WIDEN_BY 8
+#define WIDEN_TIMES 4
+
 sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    search s = {.g = g, .limit = fmin(way_out(g), limit + 8 * g->error)};
+    const double whole = fmin(way_out(g), limit + 8 * g->error);
+    const bool many = (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_FROM;
+    search s = {.g = g};
     s.zero = sunder_i_fraction_int(l, 0);
     s.one = sunder_i_fraction_int(l, 1);
-    if (!sunder_i_pairing_reach(g, s.limit)) return sunder_i_no_memory(err);
-    if (!origin_covered(g, &s.zero)) {
-        s.best.found = s.best.origin = true;
-        if (l->arena.failed) return sunder_i_no_memory(err);
-        *out = s.best;
-        return SUNDER_OK;
+    for (int times = many ? WIDEN_TIMES : 0; times >= 0 && !s.best.found; times--) {
+        double disc = whole;
+        for (int k = 0; k < times; k++) disc /= WIDEN_BY;
+        s.limit = disc;
+        s.first = 0;
+        if (!nearest_within(&s) || l->arena.failed) return sunder_i_no_memory(err);
+        /* So close to the rim, a nearer point may have been taken for one outside. */
+        if (times && !s.best.origin && s.best.distance + 16 * g->error > disc)
+            s.best = (sunder_i_nearest){.found = false};
+        s.best_point_known = s.best_point_known && s.best.found;
     }
-    if (g->subsums >= SUNDER_I_HELD_FROM && !sunder_i_held_build(g, s.limit + 16 * g->error))
-        return sunder_i_no_memory(err);
-    const bool ok = search_all(&s);
-    sunder_i_held_free(g);
-    if (!ok || l->arena.failed) return sunder_i_no_memory(err);
     *out = s.best;
     return SUNDER_OK;
 }
