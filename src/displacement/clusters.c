@@ -24,6 +24,7 @@ void sunder_i_job_free(sunder_i_job *w)
     sunder_i_free(w->dirty);
     sunder_i_free(w->widened);
     sunder_i_free(w->changed);
+    sunder_i_free(w->standing);
     sunder_i_free(w->carrier);
     sunder_i_free(w->member);
     sunder_i_free(w->body);
@@ -39,8 +40,10 @@ sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)
     w->dirty = sunder_i_calloc(n, sizeof *w->dirty);
     w->widened = sunder_i_calloc(n, sizeof *w->widened);
     w->changed = sunder_i_calloc(w->town.features, sizeof *w->changed);
+    w->standing = sunder_i_calloc(n, sizeof *w->standing);
     w->carrier = sunder_i_alloc(n, sizeof *w->carrier);
-    if (!w->parent || !w->dirty || !w->widened || !w->changed || !w->carrier) return sunder_i_no_memory(err);
+    if (!w->parent || !w->dirty || !w->widened || !w->changed || !w->standing || !w->carrier)
+        return sunder_i_no_memory(err);
     for (size_t b = 0; b < n; b++) {
         w->parent[b] = (uint32_t)b;
         w->carrier[b] = SUNDER_I_NOBODY;

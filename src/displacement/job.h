@@ -8,6 +8,13 @@ typedef struct sunder_i_member {
     uint32_t root, body;
 } sunder_i_member;
 
+/* What is known of a component of the layer's conflicts. */
+typedef enum sunder_i_standing {
+    SUNDER_I_UNASKED,
+    SUNDER_I_LEFT_OPEN, /* neither proof nor solution was found with the effort allowed */
+    SUNDER_I_NO_SOLUTION
+} sunder_i_standing;
+
 typedef struct sunder_i_job {
     sunder_i_town town;
     sunder_i_scene scene;
@@ -18,6 +25,7 @@ typedef struct sunder_i_job {
     bool *dirty;             /* [bodies] to be solved (again) */
     unsigned char *widened;  /* [bodies] how often the margin grew */
     bool *changed;           /* [features] moved in this round */
+    unsigned char *standing; /* [bodies] a sunder_i_standing, by the least of a component of conflicts */
     uint32_t *carrier;       /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_member *member; /* cluster after cluster, bodies ascending */
     size_t members;
@@ -49,6 +57,8 @@ bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation
 bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r);
 /* The moves that a cluster starts from. */
 void sunder_i_job_load_moves(const sunder_i_job *w, const sunder_i_cluster *c, double *move);
+/* Moves body b, unless it is fixed; marks what changed. */
+void sunder_i_job_place(sunder_i_job *w, uint32_t b, const double *move);
 /* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
 void sunder_i_job_commit(sunder_i_job *w);
 /* Exact relations of what changed. */
@@ -71,5 +81,12 @@ sunder_status sunder_i_job_relax(sunder_i_job *w, sunder_error *err);
 
 /* Fills the report's pairs for the lower bound, and the bound. */
 sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err);
+
+/* ---- infeasible.c ---- */
+
+/* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
+sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_error *err);
+/* Tells what cannot be resolved from what was not: the report's reasons "no_room" and "unresolved". */
+sunder_status sunder_i_job_name_reasons(sunder_i_job *w, sunder_error *err);
 
 #endif

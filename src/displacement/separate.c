@@ -16,6 +16,9 @@
 #include <string.h>
 #include <time.h>
 
+/* What was given up is looked at again, each time with what the search ran into since. */
+#define RECONSIDERED 4
+
 static double seconds(void)
 {
     struct timespec t;
@@ -56,23 +59,6 @@ static void fill_moves(const sunder_i_job *w)
     for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_BLOCKED;
 }
 
-static void name_unresolved(const sunder_i_job *w)
-{
-    /* Where nothing limits a cluster there is always room: what is left there the search failed to resolve. */
-    for (size_t k = 0; k < w->report->conflicts; k++) {
-        sunder_conflict *c = &w->report->conflict[k];
-        if (c->reason != SUNDER_REASON_NO_ROOM) continue;
-        const uint32_t bodies[2] = {w->town.body_of[c->a], w->town.body_of[c->b]};
-        for (int e = 0; e < 2; e++) {
-            if (w->town.body[bodies[e]].fixed) continue;
-            const uint32_t root = sunder_i_union_find(w->parent, bodies[e]);
-            for (size_t m = 0; m < w->clusters; m++)
-                if (w->member[w->cluster[m].body - w->body].root == root && !w->cluster[m].limited)
-                    c->reason = SUNDER_REASON_UNRESOLVED;
-        }
-    }
-}
-
 static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
                            sunder_error *err)
 {
@@ -93,6 +79,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
                               sunder_error *err)
 {
     const double began = seconds();
+    bool again = true;
     sunder_status status = start(w, layer, options, err);
     if (!status) status = sunder_i_town_cut(&w->town, err);
     if (!status) status = sunder_i_job_init(w, err);
@@ -104,7 +91,11 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
     status = sunder_i_job_find_hopeless(w, err);
     if (!status) status = sunder_i_job_choose_holders(w, err);
-    if (!status) status = sunder_i_job_settle(w, 0.1, 0.5, err);
+    if (!status) status = sunder_i_job_settle(w, 0.1, 0.4, err);
+    for (int round = 0; round < RECONSIDERED && again && !status; round++) {
+        status = sunder_i_job_reconsider(w, &again, err);
+        if (!status && again) status = sunder_i_job_settle(w, 0.4, 0.5, err);
+    }
     if (!status) status = sunder_i_job_improve(w, err);
     if (!status) status = sunder_i_job_settle(w, 0.6, 0.8, err);
     if (!status) status = sunder_i_job_relax(w, err);
@@ -125,8 +116,8 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     sunder_i_count_relations(&w->town, &w->now, &report->summary.after);
     status = sunder_i_report_conflicts(report, &w->town, &w->scene, &w->now, true, err);
     if (!status) status = sunder_i_job_bound(w, err);
+    if (!status) status = sunder_i_job_name_reasons(w, err);
     if (status) return status;
-    name_unresolved(w);
     fill_moves(w);
     report->summary.clusters = w->clusters;
     report->summary.verified = true;

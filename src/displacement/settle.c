@@ -49,25 +49,26 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
     return SUNDER_OK;
 }
 
-/* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
-void sunder_i_job_commit(sunder_i_job *w)
+void sunder_i_job_place(sunder_i_job *w, uint32_t b, const double *to)
 {
     sunder_i_town *town = &w->town;
-    memset(w->changed, 0, town->features * sizeof *w->changed);
-    for (size_t k = 0; k < w->members; k++) {
-        const uint32_t b = w->body[k];
-        const sunder_i_body *body = &town->body[b];
-        double *move = town->move + 2 * (size_t)b, exact_move[2];
-        if (body->fixed || memcmp(move, w->move + 2 * k, 2 * sizeof *move) == 0) continue;
-        memcpy(move, w->move + 2 * k, 2 * sizeof *move);
-        town->far = fmax(town->far, fmax(fabs(move[0]), fabs(move[1])));
-        const bool exact = sunder_i_round_move(town, b, move, exact_move, NULL);
-        for (uint32_t m = 0; m < body->members; m++) {
-            const uint32_t f = town->member[body->member + m];
-            w->changed[f] = true;
-            town->inexact[f] = !exact;
-        }
+    const sunder_i_body *body = &town->body[b];
+    double *move = town->move + 2 * (size_t)b, exact_move[2];
+    if (body->fixed || memcmp(move, to, 2 * sizeof *move) == 0) return;
+    memcpy(move, to, 2 * sizeof *move);
+    town->far = fmax(town->far, fmax(fabs(move[0]), fabs(move[1])));
+    const bool exact = sunder_i_round_move(town, b, move, exact_move, NULL);
+    for (uint32_t m = 0; m < body->members; m++) {
+        const uint32_t f = town->member[body->member + m];
+        w->changed[f] = true;
+        town->inexact[f] = !exact;
     }
+}
+
+void sunder_i_job_commit(sunder_i_job *w)
+{
+    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    for (size_t k = 0; k < w->members; k++) sunder_i_job_place(w, w->body[k], w->move + 2 * k);
 }
 
 /* Exact relations of what changed. */

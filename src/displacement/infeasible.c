@@ -1,0 +1,277 @@
+/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of the
+ * layer's conflicts (certify.c): either it is proved that limits and fixed features leave no room, or there is a
+ * solution to go on from, or the question stays open.
+ *
+ * A conflict in a component in which one pair cannot be parted by itself, or which is proved insoluble, has the reason
+ * "no_room"; any other that remains is "unresolved". */
+#include "displacement/certify.h"
+#include "displacement/job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
+typedef struct component {
+    uint32_t root;
+    const sunder_i_couple *pair;
+    size_t pairs;
+    const uint32_t *body;
+    size_t bodies;
+} component;
+
+/* The layer's conflicts at the start, by components; a fixed body joins none. */
+typedef struct components {
+    uint32_t *parent; /* [bodies] */
+    component *component;
+    size_t n;
+    sunder_i_couple *pair;
+    uint32_t *body;
+} components;
+
+typedef struct rooted {
+    uint32_t root;
+    sunder_i_couple pair;
+} rooted;
+
+static int by_root(const void *a, const void *b)
+{
+    const rooted *p = a, *q = b;
+    if (p->root != q->root) return p->root < q->root ? -1 : 1;
+    if (p->pair.a != q->pair.a) return p->pair.a < q->pair.a ? -1 : 1;
+    return p->pair.b < q->pair.b ? -1 : p->pair.b > q->pair.b;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+    return *p < *q ? -1 : *p > *q;
+}
+
+static size_t unique(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))
+{
+    char *p = list;
+    size_t out = 0;
+    if (n) qsort(p, n, size, compare);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || compare(p + (out - 1) * size, p + k * size)) memmove(p + out++ * size, p + k * size, size);
+    return out;
+}
+
+static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
+{
+    const sunder_i_town *town = &w->town;
+    size_t n = 0;
+    for (uint32_t b = 0; b < town->bodies; b++) parent[b] = b;
+    for (size_t k = 0; k < w->start.n; k++) {
+        const sunder_i_relation *r = &w->start.pair[k];
+        if (!sunder_i_job_is_conflict(town, r)) continue;
+        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+        if (town->body[i].fixed && town->body[j].fixed) continue;
+        list[n++].pair = i < j ? (sunder_i_couple){i, j} : (sunder_i_couple){j, i};
+        if (town->body[i].fixed || town->body[j].fixed) continue;
+        const uint32_t a = sunder_i_union_find(parent, i), b = sunder_i_union_find(parent, j);
+        if (a != b) parent[a < b ? b : a] = a < b ? a : b;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_couple c = list[k].pair;
+        list[k].root = sunder_i_union_find(parent, town->body[c.a].fixed ? c.b : c.a);
+    }
+    return unique(list, n, sizeof *list, by_root);
+}
+
+static void free_components(components *c)
+{
+    sunder_i_free(c->parent);
+    sunder_i_free(c->component);
+    sunder_i_free(c->pair);
+    sunder_i_free(c->body);
+}
+
+static sunder_status find_components(const sunder_i_job *w, components *out, sunder_error *err)
+{
+    const size_t most = w->start.n;
+    *out = (components){.parent = sunder_i_alloc(w->town.bodies, sizeof *out->parent),
+                        .component = sunder_i_alloc(most, sizeof *out->component),
+                        .pair = sunder_i_alloc(most, sizeof *out->pair),
+                        .body = sunder_i_alloc(2 * most, sizeof *out->body)};
+    rooted *list = sunder_i_alloc(most, sizeof *list);
+    if (!out->parent || !out->component || !out->pair || !out->body || !list) {
+        sunder_i_free(list);
+        return sunder_i_no_memory(err);
+    }
+    const size_t n = list_pairs(w, out->parent, list);
+    for (size_t first = 0, end; first < n; first = end) {
+        uint32_t *body = out->body + 2 * first;
+        for (end = first; end < n && list[end].root == list[first].root; end++) {
+            out->pair[end] = list[end].pair;
+            memcpy(body + 2 * (end - first), &list[end].pair, 2 * sizeof *body);
+        }
+        const size_t bodies = unique(body, 2 * (end - first), sizeof *body, by_number);
+        out->component[out->n++] = (component){list[first].root, out->pair + first, end - first, body, bodies};
+    }
+    sunder_i_free(list);
+    return SUNDER_OK;
+}
+
+/* ---- Looking again --------------------------------------------------------------------------------------------------
+ */
+
+typedef struct asking {
+    const sunder_i_job *job;
+    const component *component;
+    const bool *asked; /* [components] */
+    sunder_i_verdict *verdict;
+    sunder_i_solution *solution;
+} asking;
+
+static int by_first_root(const void *key, const void *cluster_root)
+{
+    const uint32_t *p = key;
+    const sunder_i_member *q = cluster_root;
+    return *p < q->root ? -1 : *p > q->root;
+}
+
+/* The component's bodies and those that the search found it to hang together with, ascending. */
+static sunder_status gather_bodies(const sunder_i_job *w, const component *c, uint32_t **body, size_t *n,
+                                   sunder_error *err)
+{
+    const uint32_t root = sunder_i_union_find(w->parent, c->root);
+    const sunder_i_member *first =
+        w->members ? bsearch(&root, w->member, w->members, sizeof *w->member, by_first_root) : NULL;
+    const sunder_i_member *end = first;
+    while (first && first > w->member && first[-1].root == root) first--;
+    while (end && end < w->member + w->members && end->root == root) end++;
+    const size_t more = first ? (size_t)(end - first) : 0;
+    *body = sunder_i_alloc(c->bodies + more, sizeof **body);
+    if (!*body) return sunder_i_no_memory(err);
+    memcpy(*body, c->body, c->bodies * sizeof **body);
+    for (size_t k = 0; k < more; k++) (*body)[c->bodies + k] = first[k].body;
+    *n = unique(*body, c->bodies + more, sizeof **body, by_number);
+    return SUNDER_OK;
+}
+
+static sunder_status certify_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const asking *g = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        const component *c = &g->component[k];
+        uint32_t *body = NULL;
+        size_t n = 0;
+        if (!g->asked[k]) continue;
+        status = gather_bodies(g->job, c, &body, &n, err);
+        if (!status)
+            status = sunder_i_certify(&g->job->town, body, n, c->pair, c->pairs, &g->verdict[k], &g->solution[k], err);
+        sunder_i_free(body);
+    }
+    return status;
+}
+
+static void mark(const components *all, const sunder_i_town *town, uint32_t body, bool *by_root_of)
+{
+    if (!town->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
+}
+
+/* Components in which a pair was given up. */
+static sunder_status ask(const sunder_i_job *w, const components *all, bool *asked, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    bool *root = sunder_i_calloc(town->bodies, sizeof *root);
+    if (!root) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < town->given_n; k++) {
+        mark(all, town, town->given[k].a, root);
+        mark(all, town, town->given[k].b, root);
+    }
+    for (size_t k = 0; k < all->n; k++)
+        asked[k] = root[all->component[k].root] && w->standing[all->component[k].root] == SUNDER_I_UNASKED;
+    sunder_i_free(root);
+    return SUNDER_OK;
+}
+
+/* Lets no pair of these bodies be given up any longer. */
+static void take_back(sunder_i_town *town, const sunder_i_solution *s)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < town->given_n; k++)
+        if (!bsearch(&town->given[k].a, s->body, s->bodies, sizeof *s->body, by_number) &&
+            !bsearch(&town->given[k].b, s->body, s->bodies, sizeof *s->body, by_number))
+            town->given[out++] = town->given[k];
+    town->given_n = out;
+}
+
+/* Puts the bodies where the solution has them; what it moved becomes one cluster. */
+static bool go_on_from(sunder_i_job *w, const component *c, const sunder_i_solution *s)
+{
+    bool ok = true;
+    take_back(&w->town, s);
+    for (size_t k = 0; k < s->bodies; k++) {
+        const double *move = s->move + 2 * k;
+        const uint32_t b = s->body[k];
+        if (w->town.body[b].fixed) continue;
+        sunder_i_job_place(w, b, move);
+        if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_job_add_edge(w, c->root, b);
+    }
+    return ok;
+}
+
+sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_error *err)
+{
+    *changed = false;
+    if (w->town.given_n == 0) return SUNDER_OK;
+    components all;
+    sunder_status status = find_components(w, &all, err);
+    if (!status) status = sunder_i_job_gather(w, err);
+    bool *asked = sunder_i_calloc(all.n, sizeof *asked);
+    sunder_i_verdict *verdict = sunder_i_calloc(all.n, sizeof *verdict);
+    sunder_i_solution *solution = sunder_i_calloc(all.n, sizeof *solution);
+    if (!status && (!asked || !verdict || !solution)) status = sunder_i_no_memory(err);
+    if (!status) status = ask(w, &all, asked, err);
+    if (!status) {
+        asking g = {w, all.component, asked, verdict, solution};
+        status = sunder_i_parallel(w->town.rules.threads, all.n, 1, certify_some, &g, err);
+    }
+    if (!status) memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    for (size_t k = 0; k < all.n && !status; k++) {
+        unsigned char *standing = &w->standing[all.component[k].root];
+        if (verdict[k] == SUNDER_I_INSOLUBLE) *standing = SUNDER_I_NO_SOLUTION;
+        if (verdict[k] == SUNDER_I_UNKNOWN && asked[k]) *standing = SUNDER_I_LEFT_OPEN;
+        if (verdict[k] != SUNDER_I_SOLVED) continue;
+        *changed = true;
+        if (!go_on_from(w, &all.component[k], &solution[k])) status = sunder_i_no_memory(err);
+    }
+    for (size_t k = 0; k < all.n && solution; k++) sunder_i_solution_clear(&solution[k]);
+    sunder_i_free(asked);
+    sunder_i_free(verdict);
+    sunder_i_free(solution);
+    free_components(&all);
+    return !status && *changed ? sunder_i_job_check(w, err) : status;
+}
+
+/* ---- What is said of it ---------------------------------------------------------------------------------------------
+ */
+
+sunder_status sunder_i_job_name_reasons(sunder_i_job *w, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    components all;
+    sunder_status status = find_components(w, &all, err);
+    bool *shown = sunder_i_calloc(town->bodies, sizeof *shown);
+    if (!shown) status = sunder_i_no_memory(err);
+    for (size_t b = 0; b < town->bodies && !status; b++) shown[b] = w->standing[b] == SUNDER_I_NO_SOLUTION;
+    for (size_t k = 0; k < w->report->conflicts && !status; k++) {
+        const sunder_conflict *c = &w->report->conflict[k];
+        if (c->reason != SUNDER_REASON_MAX_SHIFT) continue;
+        mark(&all, town, town->body_of[c->a], shown);
+        mark(&all, town, town->body_of[c->b], shown);
+    }
+    for (size_t k = 0; k < w->report->conflicts && !status; k++) {
+        sunder_conflict *c = &w->report->conflict[k];
+        if (c->reason != SUNDER_REASON_NO_ROOM) continue;
+        const uint32_t i = town->body_of[c->a], j = town->body_of[c->b];
+        if (!shown[sunder_i_union_find(all.parent, i)] && !shown[sunder_i_union_find(all.parent, j)])
+            c->reason = SUNDER_REASON_UNRESOLVED;
+    }
+    sunder_i_free(shown);
+    free_components(&all);
+    return status;
+}

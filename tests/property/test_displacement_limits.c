@@ -1,0 +1,163 @@
+/* What is said of conflicts that limits leave, against layers whose answer is known.
+ *
+ * Planted: boxes that stand apart are carried off by no more than the limit each, so that there is a solution: no
+ * conflict may be blamed on the limits or on want of room. Packed: boxes too wide together for the lane they cannot
+ * leave: what remains is for want of room, and said to be. */
+#include "random.h"
+
+#include "sunder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 40 };
+
+typedef struct town {
+    sunder_feature feature[MOST];
+    size_t n;
+} town;
+
+static sunder_feature *add_box(town *t, double x, double y, double w, double h)
+{
+    const double xy[8] = {x, y, x + w, y, x + w, y + h, x, y + h};
+    const size_t ring_end = 4, rings = 1;
+    sunder_shape *shape = NULL;
+    sunder_error err;
+    sunder_feature *f = &t->feature[t->n++];
+    if (sunder_shape_from_rings(xy, &ring_end, &rings, 1, SUNDER_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    *f = (sunder_feature){.shape = shape, .weight = 1, .max_shift = INFINITY, .block = -1};
+    return f;
+}
+
+static void free_town(town *t)
+{
+    for (size_t k = 0; k < t->n; k++) sunder_shape_free((sunder_shape *)t->feature[k].shape);
+}
+
+static sunder_report *separate(const town *t)
+{
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    sunder_layer_options options;
+    sunder_layer_options_init(&options);
+    options.contained = SUNDER_CONTAINED_SEPARATE;
+    options.no_blocks = true;
+    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
+        fail_msg("%s", err.message);
+    sunder_layer_free(layer);
+    return report;
+}
+
+/* Boxes in rows with alleys between them; each carried off by a multiple of 1/8 within the limit; some fixed instead.
+ */
+static void plant(rng *r, town *t)
+{
+    memset(t, 0, sizeof *t);
+    const int rows = (int)rng_int(r, 1, 4), columns = (int)rng_int(r, 2, 6);
+    const double limit = (double)rng_int(r, 4, 40) / 8, alley = (double)rng_int(r, 0, 8) / 8;
+    const bool barriers = rng_once_in(r, 2);
+    double y = 5000000;
+    for (int i = 0; i < rows; i++) {
+        double x = 400000 + (double)rng_int(r, 0, 24) / 8, tallest = 0;
+        for (int j = 0; j < columns; j++) {
+            const double w = (double)rng_int(r, 8, 60) / 8, h = (double)rng_int(r, 8, 60) / 8;
+            double dx, dy;
+            do {
+                dx = (double)rng_int(r, -40, 40) / 8;
+                dy = (double)rng_int(r, -40, 40) / 8;
+            } while (dx * dx + dy * dy > limit * limit);
+            if (barriers && rng_once_in(r, 6)) {
+                add_box(t, x, y, w, h)->fixed = true;
+            } else {
+                add_box(t, x + dx, y + dy, w, h)->max_shift = limit;
+            }
+            x += w + alley;
+            tallest = fmax(tallest, h);
+        }
+        y += tallest + alley;
+    }
+}
+
+static void check_planted(void **state)
+{
+    (void)state;
+    size_t before = 0, open = 0;
+    const size_t trials = test_count(300);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        town t;
+        plant(&r, &t);
+        sunder_report *report = separate(&t);
+        sunder_layer_summary s;
+        sunder_report_summary(report, &s);
+        before += s.before.overlap + s.before.contained + s.before.duplicate;
+        size_t conflicts;
+        const sunder_conflict *c = sunder_report_conflicts(report, &conflicts);
+        for (size_t k = 0; k < conflicts; k++)
+            if (c[k].reason != SUNDER_REASON_UNRESOLVED)
+                fail_msg("trial %zu: %zu and %zu are listed as %s, but a solution was planted", trial, c[k].a, c[k].b,
+                         sunder_reason_string(c[k].reason));
+        open += conflicts;
+        sunder_report_free(report);
+        free_town(&t);
+    }
+    print_message("%zu conflicts planted, %zu left\n", before, open);
+    assert_true(before > trials);
+    assert_true(open * 50 <= before);
+}
+
+/* A lane between two fixed boxes, narrower than the boxes in it are together; all too tall to leave it, and too wide to
+ * change places. */
+static void check_packed(void **state)
+{
+    (void)state;
+    size_t open = 0, said = 0;
+    const size_t trials = test_count(200);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        town t;
+        memset(&t, 0, sizeof t);
+        const int n = (int)rng_int(&r, 2, 8);
+        double width[8], sum = 0;
+        for (int k = 0; k < n; k++) sum += width[k] = (double)rng_int(&r, 64, 120) / 8;
+        const double excess = (double)rng_int(&r, 1, 6) / 8;
+        /* Overlapping, so that what lies in the lane hangs together with its walls. */
+        const double share = excess / (n + 1);
+        double x = 400000;
+        add_box(&t, x - 10, 5000000, 10, 40)->fixed = true;
+        for (int k = 0; k < n; k++) {
+            x -= share;
+            add_box(&t, x, 5000000 + (double)rng_int(&r, 0, 16) / 8, width[k], 38)->max_shift =
+                (double)rng_int(&r, 8, 60) / 8;
+            x += width[k];
+        }
+        add_box(&t, x - share, 5000000, 10, 40)->fixed = true;
+        sunder_report *report = separate(&t);
+        size_t conflicts;
+        const sunder_conflict *c = sunder_report_conflicts(report, &conflicts);
+        assert_true(conflicts > 0);
+        for (size_t k = 0; k < conflicts; k++) {
+            assert_true(c[k].reason == SUNDER_REASON_NO_ROOM || c[k].reason == SUNDER_REASON_UNRESOLVED);
+            said += c[k].reason == SUNDER_REASON_NO_ROOM;
+            open += c[k].reason == SUNDER_REASON_UNRESOLVED;
+        }
+        sunder_report_free(report);
+        free_town(&t);
+    }
+    print_message("%zu shown to have no room, %zu not\n", said, open);
+    assert_int_equal(open, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_planted), cmocka_unit_test(check_packed)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
