@@ -14,9 +14,9 @@
  * another, and each branch shown to be void in its turn, depth first. A candidate in which nothing overlaps ends the
  * search. Pairs are looked at when a candidate makes them overlap.
  *
- * The gap only takes more away, so the proof may leave it out; a solution is one without it. Pairs that may overlap,
- * for one lies in the other, are left out altogether: what moves inside something is for the search to care. The sums
- * are in doubles, and what is asked of a proof beyond equality is far more than their rounding can be. */
+ * The gap has round corners, for which an inscribed polygon stands; a solution may miss the difference. Pairs that may
+ * overlap, for one lies in the other, are left out altogether: what moves inside something is for the search to care.
+ * The sums are in doubles, and what is asked of a proof beyond equality is far more than their rounding can be. */
 #include "displacement/certify.h"
 
 #include "displacement/region.h"
@@ -197,27 +197,77 @@ static bool may_overlap(const certify *c, uint32_t i, uint32_t j)
     return false;
 }
 
+/* An obstacle K grown by the gap has round corners. Where K turns by more than this, lines between its edges' are taken
+ * too, so that the next is never more than half of it away: a place at distance g is g cos(CORNER / 2) beyond one of
+ * the lines, or more. */
+#define CORNER 0.78539816339744831
+
+static void add_edge(const certify *c, const double at[2], const double n[2], const double u[2], edge *e)
+{
+    *e = (edge){.n = {n[0], n[1]}};
+    e->h = n[0] * at[0] + n[1] * at[1] + c->town->rules.gap * cos(CORNER / 2);
+    e->at = n[0] * u[0] + n[1] * u[1] - e->h;
+}
+
+/* Lines such that what keeps the gap from the obstacle in scratch (n corners) is beyond one of them: into c->edge, from
+ * c->edges on. Returns how many, 0 if memory is out; *depth: how far u, if it is behind all of them, is from the next.
+ */
+static size_t fill_edges(certify *c, size_t n, const double u[2], double *depth)
+{
+    const double *d = c->scratch.xy;
+    const size_t most = 2 * n + (size_t)(7 / CORNER);
+    size_t out = 0;
+    if (!sunder_i_reserve(&c->edge, &c->edge_capacity, c->edges + most, sizeof *c->edge)) return 0;
+    edge *list = c->edge + c->edges;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0), *r = NULL;
+        const double x = q[0] - p[0], y = q[1] - p[1], length = hypot(x, y);
+        if (!(length > 0)) continue;
+        const double normal[2] = {y / length, -x / length};
+        add_edge(c, p, normal, u, &list[out++]);
+        for (size_t l = 2; l <= n && c->town->rules.gap > 0 && !r; l++) {
+            r = d + 2 * ((k + l) % n);
+            if (r[0] == q[0] && r[1] == q[1]) r = NULL;
+        }
+        if (!r) continue;
+        const double turn = atan2(x * (r[1] - q[1]) - y * (r[0] - q[0]), x * (r[0] - q[0]) + y * (r[1] - q[1]));
+        for (double a = CORNER; a < fabs(turn); a += CORNER)
+            add_edge(c, q,
+                     (double[2]){normal[0] * cos(a) - normal[1] * sin(a), normal[0] * sin(a) + normal[1] * cos(a)}, u,
+                     &list[out++]);
+    }
+    double at = -INFINITY;
+    for (size_t k = 0; k < out; k++) at = fmax(at, list[k].at);
+    *depth = -at;
+    return out;
+}
+
 static void look_at(certify *c, uint32_t i, uint32_t j, overlap *worst)
 {
     const sunder_i_body *p = &c->town->body[c->body[i]], *q = &c->town->body[c->body[j]];
     const double *t = c->program.t;
     if (p->pieces == 0 || q->pieces == 0 || !(c->limit[i] + c->limit[j] > 0)) return;
-    double box[4];
-    for (uint32_t x = 0; x < 4; x++)
-        box[x] = p->box[x] + p->origin[x & 1] + t[2 * i + (x & 1)] - q->origin[x & 1] - t[2 * j + (x & 1)];
+    double box[4], shift[4];
+    for (uint32_t x = 0; x < 4; x++) {
+        shift[x] = p->origin[x & 1] + t[2 * i + (x & 1)] - q->origin[x & 1] - t[2 * j + (x & 1)];
+        shift[x] += x < 2 ? -c->town->rules.gap : c->town->rules.gap;
+        box[x] = p->box[x] + shift[x];
+    }
     if (!sunder_i_box_meet(box, q->box) || may_overlap(c, i, j)) return;
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
         const sunder_i_piece *a = &c->town->piece[k];
-        for (uint32_t x = 0; x < 4; x++)
-            box[x] = a->box[x] + p->origin[x & 1] + t[2 * i + (x & 1)] - q->origin[x & 1] - t[2 * j + (x & 1)];
+        for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
         if (!sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
             const sunder_i_piece *b = &c->town->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             const size_t n = difference(c, a, b, i, j);
-            if (n == 0) return;
-            const double depth = -sunder_i_support_at(c->scratch.xy, n, u).distance;
+            double depth;
+            if (n == 0 || !fill_edges(c, n, u, &depth)) {
+                c->scratch.failed = true;
+                return;
+            }
             if (depth > worst->depth) *worst = (overlap){i, j, depth, a, b};
         }
     }
@@ -276,27 +326,15 @@ static int by_nearness(const void *a, const void *b)
     return (p->at < q->at) - (p->at > q->at);
 }
 
-/* Fills c->edge, from c->edges on, with the edges of the overlap's difference, the one nearest to the candidate first;
- * returns how many, 0 if memory is out. */
+/* The lines that the overlap's difference can be passed by, the one nearest to the candidate first. */
 static size_t list_edges(certify *c, const overlap *o)
 {
     const double *t = c->program.t;
     const double u[2] = {t[2 * o->j] - t[2 * o->i], t[2 * o->j + 1] - t[2 * o->i + 1]};
-    const size_t n = difference(c, o->a, o->b, o->i, o->j);
-    if (n == 0 || !sunder_i_reserve(&c->edge, &c->edge_capacity, c->edges + n, sizeof *c->edge)) return 0;
-    edge *list = c->edge + c->edges;
-    size_t out = 0;
-    for (size_t k = 0; k < n; k++) {
-        const double *p = c->scratch.xy + 2 * k, *q = c->scratch.xy + 2 * (k + 1 < n ? k + 1 : 0);
-        const double length = hypot(q[0] - p[0], q[1] - p[1]);
-        if (!(length > 0)) continue;
-        edge *e = &list[out++];
-        *e = (edge){.n = {(q[1] - p[1]) / length, -(q[0] - p[0]) / length}};
-        e->h = e->n[0] * p[0] + e->n[1] * p[1];
-        e->at = e->n[0] * u[0] + e->n[1] * u[1] - e->h;
-    }
-    qsort(list, out, sizeof *list, by_nearness);
-    return out;
+    double depth;
+    const size_t n = difference(c, o->a, o->b, o->i, o->j), edges = n ? fill_edges(c, n, u, &depth) : 0;
+    if (edges) qsort(c->edge + c->edges, edges, sizeof *c->edge, by_nearness);
+    return edges;
 }
 
 /* Cuts the pair's region by the next edge that leaves it anything free; false where there is none. */

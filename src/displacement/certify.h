@@ -7,7 +7,8 @@
 typedef enum sunder_i_verdict {
     SUNDER_I_UNKNOWN,   /* the effort ran out, or a limit is infinite */
     SUNDER_I_INSOLUBLE, /* proved: no moves within the limits part all pairs */
-    SUNDER_I_SOLVED /* no two of these bodies overlap in the solution; the gap, and what lies beyond, are not heeded */
+    SUNDER_I_SOLVED     /* no two of these bodies overlap in the solution; of the gap a little may be missed, and what
+                         * lies beyond them is not heeded */
 } sunder_i_verdict;
 
 typedef struct sunder_i_solution {
