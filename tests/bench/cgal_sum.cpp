@@ -1,8 +1,8 @@
-// cgal_sum METHOD FILE: seconds of the Minkowski sum by CGAL with exact constructions, polygons already built; median of
+// cgal_sum METHOD FILE [area]: seconds of the Minkowski sum by CGAL with exact constructions, polygons already built; median of
 // several runs. Prints vertices and holes of the result and the seconds. METHOD: rc (reduced convolution), full (full convolution), ssab
 // (small-side angle bisector), vert (vertical), tri (triangulation), hm (Hertel-Mehlhorn), greene, optimal.
 // Operands with several members: the sums of all pairs of members, united in one aggregated operation, which is what the
-// package offers. Methods that take no holes end with status 3.
+// package offers. Methods that take no holes end with status 3. With "area", prints the exact area of the result instead.
 #include "wkt_input.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -16,6 +16,7 @@
 #include <CGAL/minkowski_sum_2.h>
 
 #include <exception>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -89,35 +90,45 @@ static void count(const Holed &h, size_t &vertices, size_t &holes)
     for (auto it = h.holes_begin(); it != h.holes_end(); ++it) vertices += it->size();
 }
 
+static std::vector<Holed> sum_of_sets(const std::string &method, const std::vector<Holed> &p, const std::vector<Holed> &q)
+{
+    if (p.size() == 1 && q.size() == 1) return {sum(method, p[0], q[0])};
+    std::vector<Holed> parts, out;
+    for (const Holed &a : p)
+        for (const Holed &b : q) parts.push_back(sum(method, a, b));
+    CGAL::Polygon_set_2<Kernel> all;
+    all.join(parts.begin(), parts.end());
+    all.polygons_with_holes(std::back_inserter(out));
+    return out;
+}
+
 static double once(const std::string &method, const std::vector<Holed> &p, const std::vector<Holed> &q, size_t &vertices,
                    size_t &holes)
 {
     vertices = holes = 0;
     const double start = bench_now();
-    double seconds;
-    if (p.size() == 1 && q.size() == 1) {
-        const Holed h = sum(method, p[0], q[0]);
-        seconds = bench_now() - start;
-        count(h, vertices, holes);
-        return seconds;
-    }
-    std::vector<Holed> parts;
-    for (const Holed &a : p)
-        for (const Holed &b : q) parts.push_back(sum(method, a, b));
-    CGAL::Polygon_set_2<Kernel> all;
-    all.join(parts.begin(), parts.end());
-    std::vector<Holed> out;
-    all.polygons_with_holes(std::back_inserter(out));
-    seconds = bench_now() - start;
+    const std::vector<Holed> out = sum_of_sets(method, p, q);
+    const double seconds = bench_now() - start;
     for (const Holed &h : out) count(h, vertices, holes);
     return seconds;
+}
+
+static void print_area(const std::vector<Holed> &sums)
+{
+    Kernel::FT area = 0;
+    for (const Holed &h : sums) {
+        area += h.outer_boundary().area();
+        for (auto it = h.holes_begin(); it != h.holes_end(); ++it) area += it->area(); // clockwise: negative
+    }
+    std::cout << CGAL::exact(area) << std::endl;
 }
 
 int main(int argc, char **argv)
 {
     bench_set p, q;
-    if (argc != 3) {
-        std::fprintf(stderr, "usage: cgal_sum METHOD FILE\n");
+    const bool area = argc == 4 && std::string(argv[3]) == "area";
+    if (argc != 3 && !area) {
+        std::fprintf(stderr, "usage: cgal_sum METHOD FILE [area]\n");
         return 2;
     }
     if (!bench_pair_read(argv[2], &p, &q)) {
@@ -128,6 +139,10 @@ int main(int argc, char **argv)
     double t[100], spent = 0;
     size_t n = 0, vertices = 0, holes = 0;
     try {
+        if (area) {
+            print_area(sum_of_sets(argv[1], a, b));
+            return 0;
+        }
         while (bench_again(n, spent)) {
             t[n] = once(argv[1], a, b, vertices, holes);
             spent += t[n++];
