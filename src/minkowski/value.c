@@ -102,10 +102,13 @@ static ratio add(sunder_i_arena *arena, ratio a, ratio b)
     return r;
 }
 
+static bool is_one(sunder_i_big a) { return a.size == 1 && a.limb[0] == 1; }
+
 static ratio reduce(sunder_i_arena *arena, ratio r)
 {
+    if (is_one(r.den)) return r;
     const sunder_i_big g = sunder_i_big_gcd(arena, r.num, r.den);
-    if (g.size == 0 || r.num.size == 0) return r;
+    if (g.size == 0 || r.num.size == 0 || is_one(g)) return r;
     return (ratio){sunder_i_big_div_floor(arena, r.num, g), sunder_i_big_div_floor(arena, r.den, g)};
 }
 
@@ -116,34 +119,62 @@ static ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u,
     vertex_xyw(arena, sum, u, c[0]);
     vertex_xyw(arena, sum, v, c[1]);
     ratio r;
-    r.num = sunder_i_big_sub(arena, sunder_i_big_mul(arena, c[0][0], c[1][1]), sunder_i_big_mul(arena, c[0][1], c[1][0]));
+    r.num =
+        sunder_i_big_sub(arena, sunder_i_big_mul(arena, c[0][0], c[1][1]), sunder_i_big_mul(arena, c[0][1], c[1][0]));
     r.den = sunder_i_big_mul(arena, c[0][2], c[1][2]);
     return reduce(arena, r);
 }
 
-/* Sums are taken in pairs, pairs of pairs and so on, so that operands of one addition are of one size: level k of the stack holds the
- * sum of 2^k terms. Each level's numbers live in the arena until the end. */
+/* Sums are taken in pairs, pairs of pairs and so on, so that operands of one addition are of one size: level k holds
+ * the sum of 2^k terms, or nothing. */
+typedef struct adder {
+    ratio level[64];
+    bool full[64];
+} adder;
+
+static void add_term(sunder_i_arena *arena, adder *a, ratio term)
+{
+    int k = 0;
+    for (; a->full[k]; k++) {
+        term = reduce(arena, add(arena, a->level[k], term));
+        a->full[k] = false;
+    }
+    a->level[k] = term;
+    a->full[k] = true;
+}
+
+static ratio total_of(sunder_i_arena *arena, const adder *a)
+{
+    ratio total = {{NULL, 0}, sunder_i_big_i64(arena, 1)};
+    for (int k = 0; k < 64; k++)
+        if (a->full[k]) total = add(arena, total, a->level[k]);
+    return total;
+}
+
+/* Every so many edges have their numbers in an arena of their own, of which only the sum is kept. */
+#define EDGES 256
+
 static ratio area_twice(sunder_i_arena *arena, const sunder_sum *sum)
 {
-    ratio level[64];
-    bool full[64] = {false};
+    sunder_i_arena scratch = {0};
+    adder some = {.full = {false}}, all = {.full = {false}};
+    size_t n = 0;
     for (size_t r = 0; r < sum->rings; r++) {
         const size_t from = r ? sum->ring_end[r - 1] : 0, to = sum->ring_end[r];
         for (size_t i = from; i < to && !arena->failed; i++) {
-            ratio term = edge_term(arena, sum, sum->ring_vertex[i], sum->ring_vertex[i + 1 < to ? i + 1 : from]);
-            int k = 0;
-            for (; full[k]; k++) {
-                term = reduce(arena, add(arena, level[k], term));
-                full[k] = false;
-            }
-            level[k] = term;
-            full[k] = true;
+            const uint32_t u = sum->ring_vertex[i], v = sum->ring_vertex[i + 1 < to ? i + 1 : from];
+            add_term(&scratch, &some, edge_term(&scratch, sum, u, v));
+            if (++n % EDGES && (i + 1 < to || r + 1 < sum->rings)) continue;
+            const ratio part = reduce(&scratch, total_of(&scratch, &some));
+            add_term(arena, &all, (ratio){sunder_i_big_copy(arena, part.num), sunder_i_big_copy(arena, part.den)});
+            arena->failed = arena->failed || scratch.failed;
+            sunder_i_arena_free(&scratch);
+            scratch = (sunder_i_arena){0};
+            some = (adder){.full = {false}};
         }
     }
-    ratio total = {{NULL, 0}, sunder_i_big_i64(arena, 1)};
-    for (int k = 0; k < 64; k++)
-        if (full[k]) total = add(arena, total, level[k]);
-    return total;
+    sunder_i_arena_free(&scratch);
+    return total_of(arena, &all);
 }
 
 sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err)
