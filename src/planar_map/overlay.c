@@ -3,16 +3,8 @@
  * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the
  * other map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior,
  * so walks add nothing to it but what the overlaid edges say. */
+#include "number/random.h"
 #include "planar_map/map.h"
-
-/* splitmix64 [Steele, Lea, Flood 2014]. */
-static uint64_t draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
 
 static uint32_t copied_line(sunder_i_planar_map *map, const sunder_i_map_line *from)
 {
@@ -55,7 +47,7 @@ static bool add_all(sunder_i_planar_map *map, const sunder_i_planar_map *of, nam
     for (uint32_t e = 0; e < of->edges; e++)
         if (of->edge[e].end[0] != NOWHERE) order[count++] = e;
     for (size_t i = count; i > 0; i--) { /* Fisher and Yates, from the back, inserted as drawn */
-        const size_t j = (size_t)(draw(&map->random) % i);
+        const size_t j = (size_t)(sunder_i_draw(&map->random) % i);
         const uint32_t e = order[j];
         order[j] = order[i - 1];
         if (!add_edge(map, of, n, e)) return false;
@@ -93,7 +85,7 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
 bool sunder_i_map_renew(sunder_i_planar_map *map)
 {
     sunder_i_planar_map *fresh;
-    if (sunder_i_planar_map_new(map->lattice, draw(&map->random), &fresh, NULL) != SUNDER_OK) return false;
+    if (sunder_i_planar_map_new(map->lattice, sunder_i_draw(&map->random), &fresh, NULL) != SUNDER_OK) return false;
     if (sunder_i_planar_map_overlay(fresh, map, NULL) != SUNDER_OK ||
         sunder_i_planar_map_mark(fresh, NULL) != SUNDER_OK) {
         sunder_i_planar_map_free(fresh);

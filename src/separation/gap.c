@@ -100,7 +100,7 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     out->attained = !a->isolated;
     out->contact = a->contact;
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy);
-    if (!out->rounded_is_free) {
+    if (!out->rounded_is_free && isfinite(out->dx) && isfinite(out->dy)) {
         const sunder_i_rational r = sunder_i_rational_doubles(g, out->dx, out->dy);
         out->rounded_is_free = true;
         for (size_t k = 0; k < g->subsums && out->rounded_is_free; k++) {

@@ -12,18 +12,11 @@
  *
  * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
  * same union. */
+#include "number/random.h"
 #include "number/sort.h"
 #include "unions/unions.h"
 
 #include <math.h>
-
-uint64_t sunder_i_draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
 
 /* Fisher and Yates. */
 static void shuffle(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)

@@ -46,8 +46,6 @@ typedef struct sunder_i_uniting {
 /* Puts n subsums in the order that the options ask for; they are consecutive numbers, ascending. False if memory is
  * out. */
 bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n);
-/* The next number drawn, splitmix64 [Steele, Lea, Flood 2014]. */
-uint64_t sunder_i_draw(uint64_t *state);
 
 /* One subsum, in u->arena, its time and operations booked. False if memory is out. */
 bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out);

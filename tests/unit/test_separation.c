@@ -160,6 +160,21 @@ static void huge_and_tiny(void **state)
     polyset_free(&q);
 }
 
+/* An answer beyond the range of doubles is exact as text, and says that its doubles are of no use. */
+static void beyond_doubles(void **state)
+{
+    sunder_shape *p = shape("POLYGON((-1e308 -1e308,1e308 -1e308,1e308 1e308,-1e308 1e308))");
+    for (int k = 0; k < 2; k++) {
+        sunder_separation s;
+        assert_int_equal(sunder_pair_separate(p, p, k ? 1e308 : 0, &s, NULL), SUNDER_OK);
+        assert_true(isinf(s.dx) && s.dy == 0 && !s.rounded_is_free);
+        assert_int_equal(strlen(s.dx_text), 1 + 309);
+        assert_int_equal(s.dx_text[1], k ? '3' : '2');
+        sunder_separation_clear(&s);
+    }
+    sunder_shape_free(p);
+}
+
 /* The doubles nearest to a rational answer may fall on either side. */
 static void rounded_or_not(void **state)
 {
@@ -395,6 +410,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_answers),   cmocka_unit_test(translated_alike),  cmocka_unit_test(huge_and_tiny),
+        cmocka_unit_test(beyond_doubles),
         cmocka_unit_test(rounded_or_not),  cmocka_unit_test(upper_limit),       cmocka_unit_test(bad_arguments),
         cmocka_unit_test(empty_operands),  cmocka_unit_test(containment),       cmocka_unit_test(distances),
         cmocka_unit_test(memory_runs_out), cmocka_unit_test(repaired_operands),
