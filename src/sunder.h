@@ -71,7 +71,8 @@ typedef struct sunder_operations {
     uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
 } sunder_operations;
 
-/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. */
+/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. Calls do not overlap, but
+ * where work is shared by threads they may come from any of them. */
 typedef bool (*sunder_progress)(double fraction, void *user);
 
 /* ---- Shapes: polygonal sets ------------------------------------------------------------------------------- */

@@ -421,6 +421,7 @@ static sunder_status solve(certify *c, bool *shown, sunder_error *err)
         /* Hard enough that the masses hardly count. */
         if (sunder_i_quadratic_solve(&c->program, 1e-6, 1e-6 * c->longest, c->longest) < 0)
             return sunder_i_no_memory(err);
+        if (sunder_i_is_stopped(&c->town->rules)) return sunder_i_broken_off(&c->town->rules, err);
         *shown = is_proved(c);
     } while (!*shown && add_missed(c, &ok));
     return ok ? SUNDER_OK : sunder_i_no_memory(err);

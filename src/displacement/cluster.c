@@ -13,7 +13,7 @@
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
 {
-    if (!status && s->failed) status = sunder_i_no_memory(err);
+    if (!status && s->failed) status = sunder_i_broken_off(&s->town->rules, err);
     if (!status)
         for (size_t k = 0; k < s->n; k++)
             if (s->mass[k] > 0) sunder_i_round_move(s->town, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
@@ -110,7 +110,7 @@ sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_c
     sunder_i_search_free(&s);
     sunder_i_free(body);
     sunder_i_free(all);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_broken_off(&town->rules, err);
 }
 
 /* ---- From start to moves --------------------------------------------------------------------------------------- */
@@ -312,5 +312,5 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_free(all);
     sunder_i_free(best);
     sunder_i_free(order);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_broken_off(&town->rules, err);
 }

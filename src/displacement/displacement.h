@@ -5,6 +5,9 @@
 
 #include "separation/separation.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
+
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
 struct sunder_layer {
@@ -18,13 +21,27 @@ typedef struct sunder_i_rules {
     bool joins, list_inside; /* joins: touch and containment make blocks */
     sunder_containment contained;
     unsigned threads;
-    sunder_progress progress;
-    void *progress_user;
+    struct sunder_i_watch *watch; /* NULL: nobody asks how far it is, or to stop */
 } sunder_i_rules;
 
+/* The caller's progress function, called by one thread at a time. */
+typedef struct sunder_i_watch {
+    pthread_mutex_t lock;
+    sunder_progress progress;
+    void *user;
+    double fraction;
+    atomic_bool stopped;
+} sunder_i_watch;
+
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
+void sunder_i_watch_init(sunder_i_watch *watch, const sunder_layer_options *options);
+void sunder_i_watch_clear(sunder_i_watch *watch);
 /* False when the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
+/* Did the caller ask to stop? For long stretches within a stage; any thread may ask. */
+bool sunder_i_is_stopped(const sunder_i_rules *rules);
+/* The error of work that was broken off: stopped, or out of memory. */
+sunder_status sunder_i_broken_off(const sunder_i_rules *rules, sunder_error *err);
 
 /* Is the feature there at all (not ignored, not empty)? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)
@@ -310,8 +327,9 @@ typedef struct sunder_i_quadratic {
     const double *mass; /* [bodies] inverse: 1 / (2 w); 0 for what is fixed */
     sunder_i_constraint *constraint;
     size_t n, capacity;
-    double *t;     /* [2 * bodies] out */
-    uint64_t work; /* done so far, roughly in constraints looked at */
+    double *t;                   /* [2 * bodies] out */
+    uint64_t work;               /* done so far, roughly in constraints looked at */
+    const sunder_i_rules *rules; /* NULL, or whom to ask whether to stop; then the solution is of no use */
 } sunder_i_quadratic;
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in

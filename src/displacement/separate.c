@@ -64,6 +64,7 @@ static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sun
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
+    rules.watch = &w->watch;
     if (!status) status = sunder_i_town_init(layer, &rules, &w->town, err);
     if (!status) status = sunder_i_scene_init(&w->town, &w->scene, err);
     if (!status) status = sunder_i_scene_relate(&w->town, &w->scene, NULL, NULL, &w->start, err);
@@ -130,12 +131,14 @@ sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_laye
 {
     sunder_i_job w;
     memset(&w, 0, sizeof w);
+    sunder_i_watch_init(&w.watch, options);
     const sunder_status status = separate(&w, layer, options, err);
     if (!status) {
         *out = w.report;
         w.report = NULL;
     }
     sunder_i_job_free(&w);
+    sunder_i_watch_clear(&w.watch);
     return status;
 }
 
@@ -144,6 +147,7 @@ sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_o
 {
     sunder_i_job w;
     memset(&w, 0, sizeof w);
+    sunder_i_watch_init(&w.watch, options);
     const double began = seconds();
     sunder_status status = start(&w, layer, options, err);
     if (!status) status = sunder_i_report_conflicts(w.report, &w.town, &w.scene, &w.start, false, err);
@@ -156,5 +160,6 @@ sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_o
         w.report = NULL;
     }
     sunder_i_job_free(&w);
+    sunder_i_watch_clear(&w.watch);
     return status;
 }

@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-enum { MOST = 12 };
+enum { MOST = 30 };
 
 typedef struct scene {
     sunder_feature feature[MOST];
@@ -504,6 +504,43 @@ static void check_cancel(void **state)
     end(&s);
 }
 
+static bool stop_later(double fraction, void *user)
+{
+    (void)fraction;
+    return --*(long *)user > 0;
+}
+
+/* Stopped at every place that asks: no report, no leak, and the word for it. */
+static void check_cancel_anywhere(void **state)
+{
+    scene s;
+    begin(&s, 1);
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; j < 5; j++) {
+            sunder_feature *f = add_box(&s, 8 * i, 7 * j, 10, 10);
+            if (j < 2) f->max_shift = 3;
+        }
+    s.options.progress = stop_later;
+    sunder_layer *layer = NULL;
+    sunder_error err;
+    assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
+    sunder_status status = SUNDER_ECANCEL;
+    long calls = 1;
+    for (; status && calls < 1000000; calls += 1 + calls / 4) {
+        long left = calls;
+        s.options.progress_user = &left;
+        s.options.threads = calls % 2 ? 1 : 3;
+        status = sunder_layer_separate(layer, &s.options, &s.report, &err);
+        if (!status) break;
+        assert_int_equal(status, SUNDER_ECANCEL);
+        assert_null(s.report);
+    }
+    assert_int_equal(status, SUNDER_OK);
+    assert_true(calls > 100); /* it was asked within the search, too */
+    sunder_layer_free(layer);
+    end(&s);
+}
+
 static void check_within(void **state)
 {
     const double t[2] = {3, 4}, u[2] = {3, nextafter(4, 5)}, v[2] = {3e-200, 4e-200};
@@ -527,7 +564,7 @@ int main(void)
         cmocka_unit_test(check_kept_inside),
         cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
-        cmocka_unit_test(check_within),
+        cmocka_unit_test(check_cancel_anywhere), cmocka_unit_test(check_within),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
