@@ -149,7 +149,7 @@ static void add_by_status(text *to, kind of)
             statuses[i].value, i);
     add(to, "</categories>\n<symbols>\n");
     for (int i = 0; i < STATUSES; i++) {
-        char name[8];
+        char name[12];
         snprintf(name, sizeof name, "%d", i);
         add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
     }
