@@ -6,6 +6,7 @@
 #include "report.h"
 
 #include <cpl_conv.h>
+#include <math.h>
 #include <stdio.h>
 
 typedef struct separate_run {
@@ -88,9 +89,11 @@ static void json_count(gis_json *out, const char *key, size_t value)
     gis_json_size(out, value);
 }
 
-/* What part of the cost is not proved to be needed. */
+/* What part of the cost is not proved to be needed; of a cost beyond doubles all of it, as far as a double can tell. */
 static double optimality_gap(const sunder_layer_summary *summary)
 {
+    if (isinf(summary->cost))
+        return 1;
     return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
 }
 

@@ -125,3 +125,14 @@ same "$(jq -c .moved s.json)" 0
 says err 'sunder_dx'
 same "$(fields again.gpkg houses)" "$(fields o.gpkg houses)" "fields after a second run"
 finish
+
+# A stray vertex makes moves whose cost no double holds.
+layer stray.gpkg houses POLYGON <<'X'
+id,WKT
+a,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+b,"POLYGON((1 1,6 1,6 6,1 6,1 1))"
+c,"POLYGON((2 2,1e241 2,6 9,2 9,2 2))"
+X
+expect 0 separate stray.gpkg stray_out.gpkg --no-blocks --stats s.json
+same "$(jq -c '.displacement | [.cost, .optimality_gap]' s.json)" '[null,1]'
+says out '(optimality gap 1)'
