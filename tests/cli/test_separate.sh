@@ -124,7 +124,6 @@ expect 0 separate o.gpkg again.gpkg -l houses --stats s.json
 same "$(jq -c .moved s.json)" 0
 says err 'sunder_dx'
 same "$(fields again.gpkg houses)" "$(fields o.gpkg houses)" "fields after a second run"
-finish
 
 # A stray vertex makes moves whose cost no double holds.
 layer stray.gpkg houses POLYGON <<'X'
@@ -136,3 +135,4 @@ X
 expect 0 separate stray.gpkg stray_out.gpkg --no-blocks --stats s.json
 same "$(jq -c '.displacement | [.cost, .optimality_gap]' s.json)" '[null,1]'
 says out '(optimality gap 1)'
+finish
