@@ -79,6 +79,12 @@ typedef struct sunder_i_list {
     size_t n, capacity;
 } sunder_i_list;
 
+/* For qsort() and bsearch(). */
+int sunder_i_by_number(const void *a, const void *b);
+/* Sorts n numbers and drops repeats; returns how many are left. */
+size_t sunder_i_set_make(uint32_t *number, size_t n);
+bool sunder_i_set_has(const uint32_t *set, size_t n, uint32_t number);
+
 /* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
 bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
 /* The box grown by reach, rounded outward. */

@@ -41,22 +41,6 @@ static int by_root(const void *a, const void *b)
     return p->pair.b < q->pair.b ? -1 : p->pair.b > q->pair.b;
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t *p = a, *q = b;
-    return *p < *q ? -1 : *p > *q;
-}
-
-static size_t unique(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))
-{
-    char *p = list;
-    size_t out = 0;
-    if (n) qsort(p, n, size, compare);
-    for (size_t k = 0; k < n; k++)
-        if (k == 0 || compare(p + (out - 1) * size, p + k * size)) memmove(p + out++ * size, p + k * size, size);
-    return out;
-}
-
 static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
 {
     const sunder_i_town *town = &w->town;
@@ -76,7 +60,11 @@ static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
         const sunder_i_couple c = list[k].pair;
         list[k].root = sunder_i_union_find(parent, town->body[c.a].fixed ? c.b : c.a);
     }
-    return unique(list, n, sizeof *list, by_root);
+    if (n) qsort(list, n, sizeof *list, by_root);
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || by_root(&list[out - 1], &list[k])) list[out++] = list[k];
+    return out;
 }
 
 static void free_components(components *c)
@@ -106,7 +94,7 @@ static sunder_status find_components(const sunder_i_job *w, components *out, sun
             out->pair[end] = list[end].pair;
             memcpy(body + 2 * (end - first), &list[end].pair, 2 * sizeof *body);
         }
-        const size_t bodies = unique(body, 2 * (end - first), sizeof *body, by_number);
+        const size_t bodies = sunder_i_set_make(body, 2 * (end - first));
         out->component[out->n++] = (component){list[first].root, out->pair + first, end - first, body, bodies};
     }
     sunder_i_free(list);
@@ -146,7 +134,7 @@ static sunder_status gather_bodies(const sunder_i_job *w, const component *c, ui
     if (!*body) return sunder_i_no_memory(err);
     memcpy(*body, c->body, c->bodies * sizeof **body);
     for (size_t k = 0; k < more; k++) (*body)[c->bodies + k] = first[k].body;
-    *n = unique(*body, c->bodies + more, sizeof **body, by_number);
+    *n = sunder_i_set_make(*body, c->bodies + more);
     return SUNDER_OK;
 }
 
@@ -193,8 +181,8 @@ static void take_back(sunder_i_town *town, const sunder_i_solution *s)
 {
     size_t out = 0;
     for (size_t k = 0; k < town->given_n; k++)
-        if (!bsearch(&town->given[k].a, s->body, s->bodies, sizeof *s->body, by_number) &&
-            !bsearch(&town->given[k].b, s->body, s->bodies, sizeof *s->body, by_number))
+        if (!sunder_i_set_has(s->body, s->bodies, town->given[k].a) &&
+            !sunder_i_set_has(s->body, s->bodies, town->given[k].b))
             town->given[out++] = town->given[k];
     town->given_n = out;
 }
@@ -205,9 +193,10 @@ static bool go_on_from(sunder_i_job *w, const component *c, const sunder_i_solut
     bool ok = true;
     take_back(&w->town, s);
     for (size_t k = 0; k < s->bodies; k++) {
-        const double *move = s->move + 2 * k;
         const uint32_t b = s->body[k];
+        double move[2];
         if (w->town.body[b].fixed) continue;
+        sunder_i_round_move(&w->town, b, s->move + 2 * k, move, NULL);
         sunder_i_job_place(w, b, move);
         if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_job_add_edge(w, c->root, b);
     }

@@ -85,18 +85,11 @@ sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err)
     return status;
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t *p = a, *q = b;
-    return *p < *q ? -1 : *p > *q;
-}
-
 static bool gave_up(const sunder_i_job *w, const sunder_i_cluster *c)
 {
     const sunder_i_town *town = &w->town;
     for (size_t k = 0; k < town->given_n; k++)
-        if (bsearch(&town->given[k].a, c->body, c->n, sizeof *c->body, by_number) &&
-            bsearch(&town->given[k].b, c->body, c->n, sizeof *c->body, by_number))
+        if (sunder_i_set_has(c->body, c->n, town->given[k].a) && sunder_i_set_has(c->body, c->n, town->given[k].b))
             return true;
     return false;
 }

@@ -58,7 +58,7 @@ bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation
 bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r);
 /* The moves that a cluster starts from. */
 void sunder_i_job_load_moves(const sunder_i_job *w, const sunder_i_cluster *c, double *move);
-/* Moves body b, unless it is fixed; marks what changed. */
+/* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
 void sunder_i_job_place(sunder_i_job *w, uint32_t b, const double *move);
 /* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
 void sunder_i_job_commit(sunder_i_job *w);

@@ -144,12 +144,6 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     }
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t *p = a, *q = b;
-    return *p < *q ? -1 : *p > *q;
-}
-
 /* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to
  * hits once each. */
 static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
@@ -159,12 +153,12 @@ static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double b
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1] + (c < 2 ? -s->town->far : s->town->far);
     if (!sunder_i_index_query(&town->tree, where, hits)) return false;
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
-    if (hits->n) qsort(hits->item, hits->n, sizeof *hits->item, by_number);
+    hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++) {
         const uint32_t b = hits->item[k];
-        if ((out && hits->item[out - 1] == b) || bsearch(&b, s->body, s->own, sizeof b, by_number)) continue;
-        if (!bsearch(&b, s->body + s->own, s->n - s->own, sizeof b, by_number)) hits->item[out++] = b;
+        if (sunder_i_set_has(s->body, s->own, b) || sunder_i_set_has(s->body + s->own, s->n - s->own, b)) continue;
+        hits->item[out++] = b;
     }
     hits->n = out;
     return true;

@@ -81,12 +81,6 @@ typedef struct pair_search {
     sunder_i_list *found; /* [features] partners of each, greater than it */
 } pair_search;
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return x < y ? -1 : x > y;
-}
-
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
@@ -105,7 +99,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         for (size_t k = 0; k < list->n; k++)
             if (list->item[k] > f) list->item[kept++] = list->item[k];
         list->n = kept;
-        if (kept) qsort(list->item, kept, sizeof *list->item, by_number);
+        if (kept) qsort(list->item, kept, sizeof *list->item, sunder_i_by_number);
     }
     return SUNDER_OK;
 }

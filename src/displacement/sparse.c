@@ -35,12 +35,6 @@ typedef struct graph {
     sunder_i_list merged;
 } graph;
 
-static int by_number(const void *a, const void *b)
-{
-    const uint32_t *p = a, *q = b;
-    return *p < *q ? -1 : *p > *q;
-}
-
 static void unlist(graph *g, uint32_t v)
 {
     if (g->prev[v] != SUNDER_I_NOBODY)
@@ -79,11 +73,7 @@ static bool graph_init(graph *g, size_t n, const sunder_i_couple *couple, size_t
         if (!append(&g->near[couple[k].a], couple[k].b) || !append(&g->near[couple[k].b], couple[k].a)) return false;
     for (size_t v = 0; v < n; v++) {
         sunder_i_list *near = &g->near[v];
-        if (near->n) qsort(near->item, near->n, sizeof *near->item, by_number);
-        size_t out = 0;
-        for (size_t k = 0; k < near->n; k++)
-            if (out == 0 || near->item[out - 1] != near->item[k]) near->item[out++] = near->item[k];
-        near->n = out;
+        near->n = sunder_i_set_make(near->item, near->n);
         g->head[v] = SUNDER_I_NOBODY;
     }
     /* Backwards, so that of equal degrees the lowest number comes first. */
@@ -159,7 +149,7 @@ static bool fill_columns(sunder_i_sparse *m, const graph *g)
         uint32_t *row = m->row + m->column[m->rank[v]];
         const size_t n = g->near[v].n;
         for (size_t k = 0; k < n; k++) row[k] = m->rank[g->near[v].item[k]];
-        if (n) qsort(row, n, sizeof *row, by_number);
+        if (n) qsort(row, n, sizeof *row, sunder_i_by_number);
         m->work += n * (n + 1) / 2;
     }
     return true;
@@ -197,7 +187,7 @@ double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *
 {
     const uint32_t ra = m->rank[a], rb = m->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
     const uint32_t *row = m->row + m->column[low];
-    const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, by_number);
+    const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, sunder_i_by_number);
     *transposed = ra < rb;
     return m->block + 4 * (size_t)(found - m->row);
 }
