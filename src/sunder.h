@@ -398,14 +398,14 @@ typedef enum sunder_conflict_kind {
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE, /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT,
-    SUNDER_REASON_FIXED,
+    SUNDER_REASON_NONE,       /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT,  /* the pair cannot be parted within both limits together */
+    SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,
-    SUNDER_REASON_NO_ROOM,
-    SUNDER_REASON_SAME_BLOCK,
-    SUNDER_REASON_KEPT, /* allowed to overlap: contained, ignored */
-    SUNDER_REASON_UNRESOLVED
+    SUNDER_REASON_NO_ROOM,    /* proved: what is in conflict and hangs together with it has no solution within the limits */
+    SUNDER_REASON_SAME_BLOCK, /* they move as one */
+    SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
+    SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
 } sunder_reason;
 
 /* "", "max_shift", "fixed", "side", "no_room", "same_block", "kept", "unresolved". */
