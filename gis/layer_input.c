@@ -85,7 +85,10 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gi
         gis_say_warning("%s: invalid: %s; %s", who, reason.message,
                         ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
     }
-    if (rings->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
+    if (rings->linearised > 0 && input->as_chords)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        rings->linearised);
+    else if (rings->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
         if (!grow(shape, rings->linearised, who, &grown, error)) {
             sunder_shape_free(shape);
             return false;
@@ -261,15 +264,33 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     return true;
 }
 
-bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
+static bool start_reading(const gis_options *options, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){.options = options, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
     if (!open_source(out, error))
         return false;
     out->rule = gis_ruler_of(gis_source_crs(out->source), options);
     out->shape = calloc(out->n + 1, sizeof *out->shape);
+    return out->shape || gis_no_memory(error);
+}
+
+bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis_error *error)
+{
+    if (!start_reading(options, out, error))
+        return false;
+    out->as_chords = true;
+    if (!make_shapes(out, error))
+        return false;
+    warn_of_crs(out);
+    return true;
+}
+
+bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
+{
+    if (!start_reading(options, out, error))
+        return false;
     out->feature = calloc(out->n + 1, sizeof *out->feature);
-    if (!out->shape || !out->feature)
+    if (!out->feature)
         return gis_no_memory(error);
     if (!gis_layer_lengths(out, error) || !make_shapes(out, error))
         return false;

@@ -11,6 +11,7 @@ typedef struct gis_layer_input {
     gis_source *source;
     size_t n;                 /* features */
     bool points;              /* the features are points, and the shapes the symbols at them */
+    bool as_chords;           /* arcs are taken as their polylines, and not grown to contain the arcs */
     gis_ruler rule;
     double gap, max_shift;    /* in units of the layer; INFINITY: no limit */
     double tolerance;         /* negative: the default */
@@ -24,6 +25,8 @@ typedef struct gis_layer_input {
 
 /* Reads everything. On failure what was read can be released all the same. */
 bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error);
+/* The source and the shapes alone, arcs as chords: for commands to which features are not in conflict. */
+bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis_error *error);
 void gis_layer_input_clear(gis_layer_input *input);
 
 /* "layer buildings, FID 12", with the user's own id if there is one. */

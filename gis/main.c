@@ -23,6 +23,8 @@ const gis_command gis_commands[] = {
      "\"POLYGON ((0 0, 4 0, 0 3))\" disc:1", gis_command_sum},
     {GIS_PAIR, "pair", "P Q [OUTPUT]", 2, 3, "Least translation of Q that takes its interior off P",
      "square:4 \"POLYGON ((1 1, 5 1, 5 2))\" --gap 0.5", gis_command_pair},
+    {GIS_BUFFER, "buffer", "INPUT OUTPUT", 2, 2, "Grows, shrinks, opens or closes features by a shape, exactly",
+     "--operation close --shape square:6m --dissolve houses.gpkg blocks.gpkg", gis_command_buffer},
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 
@@ -114,7 +116,7 @@ int main(int argc, char **argv)
     if (command) {
         status = run(command, argc - 2, argv + 2);
     } else if (!first) {
-        gis_fail_usage(&error, "which command? separate, check, sum or pair; `sunder --help` tells more");
+        gis_fail_usage(&error, "which command? separate, check, sum, pair or buffer; `sunder --help` tells more");
         status = gis_say_failure(&error);
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());

@@ -6,12 +6,13 @@
 #include "sunder.h"
 #include "wkt.h"
 
-/* The polygons of a sum in doubles, each valid as SUNDER_STRICT asks. deviation: no point of their boundaries is
+/* The polygons of a sum in doubles, each valid in the sense of OGC simple features. deviation: no point of their boundaries is
  * farther than this from the exact boundary. (The other way round that does not hold: a needle or a hole thinner than
  * an ulp may be gone.) */
 typedef struct gis_rounded {
     gis_polygons set;
     double deviation;
+    size_t repaired; /* polygons that rounding would have broken */
 } gis_rounded;
 
 /* Fails where a vertex leaves the range of doubles, or a polygon cannot be mended. */
@@ -21,10 +22,18 @@ void gis_rounded_clear(gis_rounded *rounded);
 /* Steps of it (sum_mend.c). Ends the ring that began at vertex `first`, unless it has no area: then it is taken back.
  */
 bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error);
-/* Are rings [first, last) a valid polygon? False only where the question cannot be answered. */
-bool gis_polygon_is_valid(const gis_polygons *set, size_t first, size_t last, gis_error *error, bool *valid);
+/* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_STRICT alone: an
+ * interior that falls apart, a ring that meets itself. False only where the question cannot be answered. */
+typedef enum gis_polygon_state { GIS_POLYGON_BROKEN, GIS_POLYGON_TOUCHES, GIS_POLYGON_WELL } gis_polygon_state;
+bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state);
+/* Appends rings [first, last) of another set, which touch, as polygons that are valid in the sense of OGC; their corners
+ * are the same. */
+bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error);
 /* Replaces rings [first, set->rings) by valid polygons, and raises *moved to how far that moves a boundary. */
 bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error *error);
+/* Ends the polygon of rings [first, set->rings), which are not one yet, as what it is or, if that is not valid in the sense
+ * of OGC, as the polygons that it is mended to; those are counted. */
+bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error);
 /* The unit in the last place of a double. */
 double gis_ulp(double x);
 

@@ -97,10 +97,9 @@ static bool gather_face(map_run *run, uint32_t face, gis_error *error)
             return false;
     if (!run->face.rings)
         return true;
-    bool valid;
     double moved = 0;
-    return gis_polygon_is_valid(&run->face, 0, run->face.rings, error, &valid) &&
-           (valid ? gis_polygons_end_polygon(&run->face, error) : gis_mend_polygon(&run->face, 0, &moved, error));
+    size_t repaired = 0;
+    return gis_end_valid_polygon(&run->face, 0, &moved, &repaired, error);
 }
 
 static bool write_face(gis_sink_layer *layer, map_run *run, uint32_t face, gis_error *error)

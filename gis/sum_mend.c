@@ -42,7 +42,8 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
     return true;
 }
 
-bool gis_polygon_is_valid(const gis_polygons *set, size_t first, size_t last, gis_error *error, bool *valid)
+/* Rings [first, last) as a shape of one polygon; *out is NULL where they are none. */
+static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sunder_shape **out, gis_error *error)
 {
     size_t start = first ? set->ring_end[first - 1] : 0, rings = last - first;
     size_t *ends = malloc((rings + 1) * sizeof *ends);
@@ -50,14 +51,62 @@ bool gis_polygon_is_valid(const gis_polygons *set, size_t first, size_t last, gi
         return gis_no_memory(error);
     for (size_t r = first; r < last; r++)
         ends[r - first] = set->ring_end[r] - start;
-    sunder_shape *shape = NULL;
+    *out = NULL;
     sunder_error why;
-    sunder_status status =
-        sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_STRICT, &shape, &why);
-    sunder_shape_free(shape);
+    sunder_status status = sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_STRICT, out, &why);
     free(ends);
-    *valid = status == SUNDER_OK;
-    return *valid || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
+    return status == SUNDER_OK || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
+}
+
+bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state)
+{
+    sunder_shape *shape;
+    if (!strict_shape(set, first, last, &shape, error))
+        return false;
+    *state = !shape                        ? GIS_POLYGON_BROKEN
+             : sunder_shape_touches(shape) ? GIS_POLYGON_TOUCHES
+                                           : GIS_POLYGON_WELL;
+    sunder_shape_free(shape);
+    return true;
+}
+
+static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *error)
+{
+    sunder_sum_counts counts;
+    sunder_error why;
+    sunder_sum_count(sum, &counts);
+    for (size_t p = 0; p < counts.polygons; p++) {
+        for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
+            size_t n;
+            double off = 0; /* they were doubles, and still are */
+            const uint32_t *vertex = sunder_sum_ring(sum, p, r, &n);
+            if (!gis_polygons_reserve(to, n, error))
+                return false;
+            if (sunder_sum_vertices(sum, vertex, n, to->xy + 2 * to->vertices, &off, &why) != SUNDER_OK)
+                return gis_fail(error, "%s", why.message);
+            to->vertices += n;
+            if (!gis_polygons_end_ring(to, error))
+                return false;
+        }
+        if (!gis_polygons_end_polygon(to, error))
+            return false;
+    }
+    return true;
+}
+
+bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
+{
+    sunder_shape *shape;
+    sunder_sum *sum = NULL;
+    sunder_error why;
+    if (!strict_shape(from, first, last, &shape, error))
+        return false;
+    bool ok = (shape && sunder_shape_union(shape, NULL, &sum, &why) == SUNDER_OK) ||
+              gis_fail(error, "%s", shape ? why.message : "the polygon is not valid");
+    ok = ok && append_exact(sum, set, error);
+    sunder_sum_free(sum);
+    sunder_shape_free(shape);
+    return ok;
 }
 
 /* ---- Bending ---------------------------------------------------------------------------------------------- */
@@ -204,9 +253,12 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
 {
     for (size_t p = 0; p < set->polygons; p++) {
         size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
-        bool valid;
-        if (!gis_polygon_is_valid(set, from, to, error, &valid) ||
-            !gis_polygons_append(valid ? done : broken, set, from, to, error))
+        gis_polygon_state state;
+        if (!gis_polygon_look(set, from, to, error, &state))
+            return false;
+        if (!(state == GIS_POLYGON_TOUCHES ? gis_settle_polygon(done, set, from, to, error)
+                                           : gis_polygons_append(state == GIS_POLYGON_WELL ? done : broken, set, from,
+                                                                 to, error)))
             return false;
     }
     return true;
@@ -246,5 +298,25 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
         ok = gis_fail(error, "rounded to doubles the sum is no longer valid; `sunder sum --exact` gives it as JSON");
     gis_polygons_clear(&work);
     *moved = fmax(*moved, total);
+    return ok;
+}
+
+bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error)
+{
+    gis_polygon_state state;
+    if (!gis_polygon_look(set, first, set->rings, error, &state))
+        return false;
+    if (state == GIS_POLYGON_WELL)
+        return gis_polygons_end_polygon(set, error);
+    if (state == GIS_POLYGON_BROKEN) {
+        *repaired += 1;
+        return gis_mend_polygon(set, first, moved, error);
+    }
+    gis_polygons copy = {0};
+    bool ok = gis_polygons_append(&copy, set, first, set->rings, error);
+    set->vertices = first ? set->ring_end[first - 1] : 0;
+    set->rings = first;
+    ok = ok && gis_settle_polygon(set, &copy, 0, copy.rings, error);
+    gis_polygons_clear(&copy);
     return ok;
 }

@@ -5,11 +5,7 @@
  * polygon is well, before and after. */
 #include "sum_layers.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 double gis_ulp(double x)
 {
@@ -17,52 +13,12 @@ double gis_ulp(double x)
     return nextafter(x, INFINITY) - x;
 }
 
-/* A double as the library writes exact numbers: "num" or "num/den" in lowest terms; false if it is too long. */
-static bool exact_text(double x, char *text, size_t size)
-{
-    int exponent;
-    double mantissa = frexp(x, &exponent); /* x = mantissa 2^exponent, 0.5 <= |mantissa| < 1 */
-    if (x == floor(x))
-        return (size_t)snprintf(text, size, "%.0f", x == 0 ? 0.0 : x) < size;
-    mantissa = ldexp(mantissa, DBL_MANT_DIG);
-    exponent -= DBL_MANT_DIG;
-    while (fmod(mantissa, 2) == 0) {
-        mantissa /= 2;
-        exponent++;
-    }
-    return exponent > -1024 && (size_t)snprintf(text, size, "%.0f/%.0f", mantissa, ldexp(1, -exponent)) < size;
-}
-
-/* A bound of |exact - x| where x is the double nearest to exact: 0 if they are equal, else the difference in long
- * doubles with what that may be off by, but never more than half a unit of x. */
-static double coordinate_deviation(const char *exact, double x)
-{
-    char same[700];
-    if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0)
-        return 0;
-    double bound = gis_ulp(x) / 2;
-    const char *slash = strchr(exact, '/');
-    long double quotient = strtold(exact, NULL) / (slash ? strtold(slash + 1, NULL) : 1.0L);
-    long double seen = fabsl(quotient - (long double)x) + 4 * LDBL_EPSILON * fabsl((long double)x);
-    return seen < (long double)bound ? nextafter((double)seen, INFINITY) : bound; /* NaN: the bound */
-}
-
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error)
 {
     double xy[2];
-    sunder_sum_vertex(sum, vertex, xy);
-    if (!isfinite(xy[0]) || !isfinite(xy[1])) {
-        *deviation = INFINITY;
-        return true;
-    }
-    char *x, *y;
     sunder_error why;
-    if (sunder_sum_vertex_text(sum, vertex, &x, &y, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
-    *deviation = hypot(coordinate_deviation(x, xy[0]), coordinate_deviation(y, xy[1]));
-    sunder_free(x);
-    sunder_free(y);
-    return true;
+    *deviation = 0;
+    return sunder_sum_vertices(sum, &vertex, 1, xy, deviation, &why) == SUNDER_OK || gis_fail(error, "%s", why.message);
 }
 
 static bool same_vertex(const double *a, const double *b)
@@ -75,22 +31,25 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
                         gis_error *error)
 {
     size_t n, first = out->set.vertices;
+    sunder_error why;
     const uint32_t *vertex = sunder_sum_ring(sum, polygon, ring, &n);
+    if (!gis_polygons_reserve(&out->set, n, error))
+        return false;
+    double *xy = out->set.xy + 2 * first;
+    if (sunder_sum_vertices(sum, vertex, n, xy, &out->deviation, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    if (!isfinite(out->deviation))
+        return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
+                        "`sunder sum --exact` gives it as JSON");
+    size_t m = 0;
     for (size_t i = 0; i < n; i++) {
-        double xy[2], deviation = 0;
-        if (!gis_vertex_deviation(sum, vertex[i], &deviation, error))
-            return false;
-        if (!isfinite(deviation))
-            return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
-                            "`sunder sum --exact` gives it as JSON");
-        sunder_sum_vertex(sum, vertex[i], xy);
-        if (deviation > out->deviation)
-            out->deviation = deviation;
-        if (out->set.vertices > first && same_vertex(out->set.xy + 2 * (out->set.vertices - 1), xy))
+        if (m > 0 && same_vertex(xy + 2 * (m - 1), xy + 2 * i))
             continue;
-        if (!gis_polygons_vertex(&out->set, xy[0], xy[1], error))
-            return false;
+        xy[2 * m] = xy[2 * i];
+        xy[2 * m + 1] = xy[2 * i + 1];
+        m++;
     }
+    out->set.vertices = first + m;
     return gis_end_ring_with_area(&out->set, first, kept, error);
 }
 
@@ -110,12 +69,8 @@ bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
             if (r == 0)
                 kept = ring_kept; /* without its outer ring, a polygon and its holes are gone */
         }
-        if (!ok || !kept)
-            continue;
-        bool valid;
-        ok = gis_polygon_is_valid(&rounded.set, first, rounded.set.rings, error, &valid) &&
-             (valid ? gis_polygons_end_polygon(&rounded.set, error)
-                    : gis_mend_polygon(&rounded.set, first, &moved, error));
+        if (ok && kept)
+            ok = gis_end_valid_polygon(&rounded.set, first, &moved, &rounded.repaired, error);
     }
     rounded.deviation += moved;
     if (ok)

@@ -128,6 +128,9 @@ SUNDER_API size_t sunder_shape_polygons(const sunder_shape *shape);
 SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cleaning: no repeated, no collinear ones */
 SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
 SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
+/* Did rings of one polygon meet somewhere, or a ring meet itself, as they were given? If not, the polygons of a strict
+ * shape are valid in the sense of OGC simple features, which allows less than SUNDER_STRICT does. */
+SUNDER_API bool sunder_shape_touches(const sunder_shape *shape);
 /* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
 /* The corners x0 y0 x1 y1 ... of one ring, *n of them, outer rings counter-clockwise; of a repaired shape the nearest
@@ -241,6 +244,10 @@ SUNDER_API const uint32_t *sunder_sum_ring(const sunder_sum *sum, size_t polygon
 /* The two ends of degenerate segment i (the smaller first), and the place of degenerate point i, as vertex numbers. */
 SUNDER_API void sunder_sum_segment(const sunder_sum *sum, size_t i, uint32_t ends[2]);
 SUNDER_API uint32_t sunder_sum_point(const sunder_sum *sum, size_t i);
+/* The nearest doubles to n vertices at once, in xy[2 n]; *deviation is raised to a bound of how far any of them is from
+ * its vertex (infinite where one leaves the range of doubles). */
+SUNDER_API sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy,
+                                             double *deviation, sunder_error *err);
 /* The coordinates of a vertex: the nearest doubles (infinite where they leave the range) ... */
 SUNDER_API void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2]);
 /* ... and exactly, as text "num" or "num/den" in lowest terms; freed with sunder_free(). */
@@ -248,6 +255,36 @@ SUNDER_API sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t 
                                                 sunder_error *err);
 /* The area as "num/den", freed with sunder_free(). */
 SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err);
+
+/* ---- Growing and shrinking ---------------------------------------------------------------------------------- */
+
+typedef enum sunder_operation {
+    SUNDER_DILATE, /* P + B */
+    SUNDER_ERODE,  /* { x : B + x in P } */
+    SUNDER_OPEN,   /* the erosion dilated: the union of all B + x in P */
+    SUNDER_CLOSE   /* the dilation eroded */
+} sunder_operation;
+
+/* "dilate", "erode", "open", "close". */
+SUNDER_API const char *sunder_operation_string(sunder_operation operation);
+
+/* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
+ *
+ * p, b  not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
+ * opts  progress and seed; the dilation takes all of them. NULL for defaults.
+ * out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior. Segments and
+ *       points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts without
+ *       area; an opening has none.
+ *
+ * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL, SUNDER_EARG
+ * Source  src/morphology/README */
+SUNDER_API sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
+                                           const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
+
+/* The union of a shape's members, exact, as a sum without degenerate parts. It is made of polygons that are valid in the
+ * sense of OGC simple features, whatever touched, overlapped or fell apart. SUNDER_ENOMEM, SUNDER_ECANCEL. */
+SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *opts, sunder_sum **out,
+                                            sunder_error *err);
 
 /* ---- The planar map beneath a sum --------------------------------------------------------------------------- */
 

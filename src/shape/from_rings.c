@@ -156,7 +156,7 @@ typedef struct builder {
     sunder_i_rings r;
     sunder_i_made_points made;
     sunder_i_rationals rationals;
-    bool repaired;
+    bool repaired, touches;
 } builder;
 
 static bool place_input(builder *b)
@@ -187,6 +187,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
     if (problem.fault && b->validity == SUNDER_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
+    b->touches |= touches;
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;
         r->vertices = vertices;
@@ -202,6 +203,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
 static bool complete(builder *b, sunder_shape *s)
 {
     s->repaired = b->repaired;
+    s->touches = b->touches;
     if (b->made.rational) {
         const sunder_i_rationals *q = &b->rationals;
         if (!sunder_i_shape_set_rational(s, q->num, q->den, q->exponent) || !sunder_i_shape_measure_rational(s))

@@ -10,6 +10,8 @@ size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->polygons
 size_t sunder_shape_vertices(const sunder_shape *shape) { return shape->vertices; }
 bool sunder_shape_is_empty(const sunder_shape *shape) { return shape->polygons == 0; }
 bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; }
+
+bool sunder_shape_touches(const sunder_shape *shape) { return shape->touches; }
 void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, shape->box, sizeof shape->box); }
 
 /* Twice the area of a closed walk on the lattice, exactly: sum of cross products taken from its first corner. */

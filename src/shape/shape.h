@@ -32,6 +32,7 @@ struct sunder_shape {
     uint32_t *poly_end;    /* [polygons] index past the last ring of each polygon; its first ring is the outer one */
     uint32_t *next, *prev; /* [vertices] along the ring */
     bool *shared;          /* [vertices] another vertex stands at the same place */
+    bool touches;          /* as given, rings of one polygon meet somewhere, or a ring meets itself */
     double *xy;            /* [2 * vertices] the coordinates; of a rational shape the nearest doubles */
     sunder_i_extent extent;
     double box[4];         /* rounded outward if rational */

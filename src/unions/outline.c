@@ -14,6 +14,8 @@
  * Degenerate holes. Slits on one line that meet are one segment. A point is a vertex that no region covers, where no
  * edge does without cover either.
  *
+ * The same is done for other sets of faces than the covered ones (`sunder_i_inside`): what lies between regions, say.
+ *
  * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas
  * leave them. */
 #include "number/sort.h"
@@ -29,6 +31,7 @@ typedef struct ring {
 
 typedef struct outline {
     sunder_i_planar_map *map;
+    const sunder_i_inside *inside; /* NULL: what is covered */
     uint32_t *component; /* [faces] a forest; roots stand for components */
     bool *done;          /* [half-edges] */
     uint32_t *vertex;    /* of all rings, then ends of segments, then points; as the map numbers them */
@@ -51,9 +54,10 @@ static uint32_t find(uint32_t *parent, uint32_t f)
     return f;
 }
 
-static bool both_covered(const sunder_i_planar_map *map, uint32_t e)
+static bool left_inside(const outline *o, uint32_t h)
 {
-    return sunder_i_planar_map_left_covered(map, 2 * e) && sunder_i_planar_map_left_covered(map, 2 * e + 1);
+    return o->inside ? o->inside->face[sunder_i_planar_map_face(o->map, h)]
+                     : sunder_i_planar_map_left_covered(o->map, h) != 0;
 }
 
 static bool connect_faces(outline *o)
@@ -63,7 +67,7 @@ static bool connect_faces(outline *o)
     if (!o->component) return false;
     for (uint32_t f = 0; f < faces; f++) o->component[f] = f;
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
-        if (!sunder_i_planar_map_edge_alive(o->map, e) || !both_covered(o->map, e)) continue;
+        if (!sunder_i_planar_map_edge_alive(o->map, e) || !left_inside(o, 2 * e) || !left_inside(o, 2 * e + 1)) continue;
         const uint32_t f = find(o->component, sunder_i_planar_map_face(o->map, 2 * e));
         const uint32_t g = find(o->component, sunder_i_planar_map_face(o->map, 2 * e + 1));
         o->component[f < g ? g : f] = f < g ? f : g;
@@ -78,17 +82,16 @@ static uint32_t component_of(const outline *o, uint32_t h)
 
 /* ---- Rings ---- */
 
-static bool bounds(const sunder_i_planar_map *map, uint32_t h)
+static bool bounds(const outline *o, uint32_t h)
 {
-    return sunder_i_planar_map_left_covered(map, h) &&
-           !sunder_i_planar_map_left_covered(map, sunder_i_planar_map_twin(h));
+    return left_inside(o, h) && !left_inside(o, sunder_i_planar_map_twin(h));
 }
 
 static uint32_t next_of_ring(const outline *o, uint32_t h, uint32_t component)
 {
     uint32_t g = sunder_i_planar_map_twin(h);
     do g = sunder_i_planar_map_ccw(o->map, g);
-    while (!bounds(o->map, g) || component_of(o, g) != component);
+    while (!bounds(o, g) || component_of(o, g) != component);
     return g;
 }
 
@@ -148,34 +151,36 @@ static bool trace_rings(outline *o)
     o->done = sunder_i_calloc(halves, sizeof *o->done);
     if (!o->done) return false;
     for (uint32_t h = 0; h < halves; h++)
-        if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && bounds(o->map, h) && !o->done[h] && !trace_ring(o, h))
+        if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && bounds(o, h) && !o->done[h] && !trace_ring(o, h))
             return false;
     return true;
 }
 
 /* ---- Degenerate holes ---- */
 
-static bool is_slit(const sunder_i_planar_map *map, uint32_t e)
+static bool is_slit(const outline *o, uint32_t e)
 {
-    return sunder_i_planar_map_edge_alive(map, e) && sunder_i_planar_map_edge_covered(map, e) == 0 &&
-           both_covered(map, e);
+    return sunder_i_planar_map_edge_alive(o->map, e) && sunder_i_planar_map_edge_covered(o->map, e) == 0 &&
+           sunder_i_planar_map_left_covered(o->map, 2 * e) && sunder_i_planar_map_left_covered(o->map, 2 * e + 1) &&
+           (!o->inside || (o->inside->edge && o->inside->edge[e]));
 }
 
 /* The slit that goes on from the end of h in its direction; NOWHERE: the segment ends there. */
-static uint32_t slit_after(sunder_i_planar_map *map, uint32_t h)
+static uint32_t slit_after(const outline *o, uint32_t h)
 {
+    sunder_i_planar_map *map = o->map;
     const uint32_t back = sunder_i_planar_map_twin(h);
     for (uint32_t g = sunder_i_planar_map_ccw(map, back); g != back; g = sunder_i_planar_map_ccw(map, g))
-        if (is_slit(map, g >> 1) && straight(map, h, g)) return g;
+        if (is_slit(o, g >> 1) && straight(map, h, g)) return g;
     return SUNDER_I_NOWHERE;
 }
 
 static bool gather_segments(outline *o)
 {
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
-        if (!is_slit(o->map, e) || slit_after(o->map, 2 * e + 1) != SUNDER_I_NOWHERE) continue;
+        if (!is_slit(o, e) || slit_after(o, 2 * e + 1) != SUNDER_I_NOWHERE) continue;
         uint32_t last = 2 * e;
-        for (uint32_t g = last; g != SUNDER_I_NOWHERE; g = slit_after(o->map, g)) last = g;
+        for (uint32_t g = last; g != SUNDER_I_NOWHERE; g = slit_after(o, g)) last = g;
         if (!push(o, sunder_i_planar_map_origin(o->map, 2 * e)) ||
             !push(o, sunder_i_planar_map_origin(o->map, sunder_i_planar_map_twin(last))))
             return false;
@@ -184,8 +189,10 @@ static bool gather_segments(outline *o)
     return true;
 }
 
-static bool is_point(const sunder_i_planar_map *map, uint32_t v)
+static bool is_point(const outline *o, uint32_t v)
 {
+    const sunder_i_planar_map *map = o->map;
+    if (o->inside && !(o->inside->vertex && o->inside->vertex[v])) return false;
     if (!sunder_i_planar_map_vertex_alive(map, v) || sunder_i_planar_map_vertex_covered(map, v)) return false;
     const uint32_t first = sunder_i_planar_map_vertex_out(map, v);
     uint32_t h = first;
@@ -200,7 +207,7 @@ static bool is_point(const sunder_i_planar_map *map, uint32_t v)
 static bool gather_points(outline *o)
 {
     for (uint32_t v = 0; v < sunder_i_planar_map_vertex_end(o->map); v++)
-        if (is_point(o->map, v) && !push(o, v)) return false;
+        if (is_point(o, v) && !push(o, v)) return false;
     return true;
 }
 
@@ -354,11 +361,10 @@ static bool make_vertices(outline *o, sunder_sum *sum)
     return ok;
 }
 
-sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)
+sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
+                                  sunder_error *err)
 {
-    const sunder_status status = sunder_i_planar_map_faces(map, err);
-    if (status != SUNDER_OK) return status;
-    outline o = {.map = map};
+    outline o = {.map = map, .inside = inside};
     const bool ok = connect_faces(&o) && trace_rings(&o) && gather_segments(&o) && gather_points(&o) &&
                     arrange_rings(&o, sum) && arrange_degenerates(&o, sum) && make_vertices(&o, sum);
     sunder_i_free(o.component);
@@ -366,4 +372,10 @@ sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder
     sunder_i_free(o.vertex);
     sunder_i_free(o.ring);
     return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)
+{
+    const sunder_status status = sunder_i_planar_map_faces(map, err);
+    return status == SUNDER_OK ? sunder_i_outline_of(map, NULL, sum, err) : status;
 }

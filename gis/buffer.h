@@ -1,0 +1,47 @@
+/* buffer.h: what sunder buffer makes of a layer: sets of features, each grown or shrunk, in doubles. */
+#ifndef GIS_BUFFER_H
+#define GIS_BUFFER_H
+
+#include "layer_input.h"
+#include "sink.h"
+#include "sum_layers.h"
+
+/* One set of features (a single one, unless they are dissolved) and what became of it. */
+typedef struct gis_buffer_set {
+    const size_t *member; /* features, in their order; borrowed */
+    size_t members;
+    bool none;            /* none of them has a polygon: nothing is made, and a null geometry written */
+    gis_rounded result;
+    double *segment;      /* [4 * segments] ends, with --degenerate */
+    double *point;        /* [2 * points] */
+    size_t segments, points;
+    double area;
+} gis_buffer_set;
+
+typedef struct gis_buffer {
+    const gis_options *options;
+    gis_layer_input input;
+    sunder_shape *shape;
+    sunder_operation operation;
+    int field;             /* of --dissolve-field; -1: none */
+    bool dissolve;         /* into one set, or by the field */
+    gis_buffer_set *set;
+    size_t sets;
+    size_t *member;        /* features, set by set */
+    size_t empty, vertices, repaired;
+    double area, deviation;
+} gis_buffer;
+
+/* Deals the features to sets: by value of the field, in the order in which values come first (each null by itself), or
+ * all into one. */
+bool gis_buffer_gather(gis_buffer *buffer, gis_error *error);
+/* Makes the sets, on as many threads as the options ask for, and adds up the figures. */
+bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error);
+/* Turns the shape to the main direction of a set of features (--align). */
+bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);
+void gis_buffer_clear(gis_buffer *buffer);
+
+/* LAYER, and with --degenerate LAYER_degenerate_segments and LAYER_degenerate_points. */
+bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error);
+
+#endif

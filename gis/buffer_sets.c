@@ -1,0 +1,344 @@
+/* buffer_sets.c: which features are grown together, and the growing, set by set, on several threads. Which thread takes
+ * which set is left to chance; what comes of it is not. */
+#include "buffer.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- Sets ---- */
+
+typedef struct keyed {
+    char *key; /* the value of the field as text; NULL: null */
+    size_t feature, set;
+} keyed;
+
+/* Nulls stand by themselves: each is a value of its own. */
+static int by_key(const void *a, const void *b)
+{
+    const keyed *ka = a, *kb = b;
+    int order = !ka->key || !kb->key ? (ka->key != NULL) - (kb->key != NULL) : strcmp(ka->key, kb->key);
+    return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
+}
+
+static int by_first(const void *a, const void *b)
+{
+    const keyed *ka = a, *kb = b;
+    int order = (ka->set > kb->set) - (ka->set < kb->set);
+    return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
+}
+
+static bool same_set(const keyed *a, const keyed *b)
+{
+    return a->key && b->key && strcmp(a->key, b->key) == 0;
+}
+
+static bool read_keys(const gis_buffer *buffer, keyed *keys, gis_error *error)
+{
+    for (size_t i = 0; i < buffer->input.n; i++) {
+        OGRFeatureH feature = gis_source_feature(buffer->input.source, i);
+        keys[i].feature = i;
+        if (!OGR_F_IsFieldSetAndNotNull(feature, buffer->field))
+            continue;
+        keys[i].key = strdup(OGR_F_GetFieldAsString(feature, buffer->field));
+        if (!keys[i].key)
+            return gis_no_memory(error);
+    }
+    return true;
+}
+
+/* Numbers a set by its first feature, then puts the features in the order of sets. */
+static void sort_keys(keyed *keys, size_t n)
+{
+    qsort(keys, n, sizeof *keys, by_key);
+    for (size_t i = 0; i < n; i++)
+        keys[i].set = i > 0 && same_set(&keys[i], &keys[i - 1]) ? keys[i - 1].set : keys[i].feature;
+    qsort(keys, n, sizeof *keys, by_first);
+}
+
+static bool gather_by_field(gis_buffer *buffer, gis_error *error)
+{
+    size_t n = buffer->input.n;
+    keyed *keys = calloc(n + 1, sizeof *keys);
+    if (!keys)
+        return gis_no_memory(error);
+    bool ok = read_keys(buffer, keys, error);
+    if (ok)
+        sort_keys(keys, n);
+    for (size_t i = 0; ok && i < n; i++) {
+        if (i == 0 || keys[i].set != keys[i - 1].set)
+            buffer->set[buffer->sets++].member = buffer->member + i;
+        buffer->set[buffer->sets - 1].members++;
+        buffer->member[i] = keys[i].feature;
+    }
+    for (size_t i = 0; i < n; i++)
+        free(keys[i].key);
+    free(keys);
+    return ok;
+}
+
+bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
+{
+    size_t n = buffer->input.n;
+    buffer->set = calloc(n + 1, sizeof *buffer->set);
+    buffer->member = calloc(n + 1, sizeof *buffer->member);
+    if (!buffer->set || !buffer->member)
+        return gis_no_memory(error);
+    if (buffer->field >= 0)
+        return gather_by_field(buffer, error);
+    buffer->sets = buffer->dissolve ? 1 : n;
+    for (size_t i = 0; i < n; i++)
+        buffer->member[i] = i;
+    for (size_t k = 0; k < buffer->sets; k++) {
+        buffer->set[k].member = buffer->member + k;
+        buffer->set[k].members = buffer->dissolve ? n : 1;
+    }
+    return true;
+}
+
+/* ---- One set ---- */
+
+static bool has_shape(const gis_buffer *buffer, size_t feature)
+{
+    return buffer->input.shape[feature] != NULL;
+}
+
+/* Members as they were read, as one shape: each valid by itself, or else all taken as what their rings enclose. */
+static bool join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error)
+{
+    gis_rings rings = {0};
+    gis_polygons all = {0};
+    bool ok = true, repaired = false;
+    for (size_t i = 0; ok && i < set->members; i++) {
+        size_t feature = set->member[i];
+        if (!has_shape(buffer, feature))
+            continue;
+        repaired = repaired || sunder_shape_repaired(buffer->input.shape[feature]);
+        ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), &rings, error);
+        for (size_t p = 0; ok && p < rings.set.polygons; p++)
+            ok = gis_polygons_append(&all, &rings.set, p ? rings.set.poly_end[p - 1] : 0, rings.set.poly_end[p], error);
+    }
+    sunder_error why;
+    ok = ok && (gis_polygons_shape(&all, repaired ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
+                gis_fail(error, "%s", why.message));
+    gis_rings_clear(&rings);
+    gis_polygons_clear(&all);
+    return ok;
+}
+
+static bool place(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy, double *deviation,
+                  gis_error *error)
+{
+    sunder_error why;
+    if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    return isfinite(*deviation) || gis_fail(error, "the result leaves the range of doubles");
+}
+
+static bool keep_degenerate(const sunder_sum *sum, gis_buffer_set *set, gis_error *error)
+{
+    sunder_sum_counts counts;
+    sunder_sum_count(sum, &counts);
+    set->segment = malloc((counts.degenerate_segments + 1) * 4 * sizeof *set->segment);
+    set->point = malloc((counts.degenerate_points + 1) * 2 * sizeof *set->point);
+    if (!set->segment || !set->point)
+        return gis_no_memory(error);
+    set->segments = counts.degenerate_segments;
+    set->points = counts.degenerate_points;
+    for (size_t i = 0; i < set->segments; i++) {
+        uint32_t ends[2];
+        sunder_sum_segment(sum, i, ends);
+        if (!place(sum, ends, 2, set->segment + 4 * i, &set->result.deviation, error))
+            return false;
+    }
+    for (size_t i = 0; i < set->points; i++) {
+        uint32_t vertex = sunder_sum_point(sum, i);
+        if (!place(sum, &vertex, 1, set->point + 2 * i, &set->result.deviation, error))
+            return false;
+    }
+    return true;
+}
+
+/* Twice the signed area of a ring, from its first vertex on, so that large coordinates cost no digits. */
+static long double ring_area(const double *xy, size_t n)
+{
+    long double area = 0;
+    for (size_t i = 1; i + 1 < n; i++) {
+        const double *a = xy, *b = xy + 2 * i, *c = b + 2;
+        area += ((long double)b[0] - a[0]) * ((long double)c[1] - a[1]) -
+                ((long double)b[1] - a[1]) * ((long double)c[0] - a[0]);
+    }
+    return area;
+}
+
+/* Outer rings less holes, whichever way they run. */
+static double area_of(const gis_polygons *set)
+{
+    long double area = 0;
+    for (size_t p = 0, r = 0; p < set->polygons; p++)
+        for (size_t first = r; r < set->poly_end[p]; r++) {
+            size_t from = r ? set->ring_end[r - 1] : 0;
+            long double one = fabsl(ring_area(set->xy + 2 * from, set->ring_end[r] - from));
+            area += r == first ? one : -one;
+        }
+    return (double)(area / 2);
+}
+
+static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunder_shape *p, const sunder_shape *b,
+                      const sunder_sum_options *how, gis_error *error)
+{
+    sunder_sum *sum;
+    sunder_error why;
+    sunder_status status = sunder_morphology(p, b, buffer->operation, how, &sum, &why);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+    bool ok = gis_round_sum(sum, &set->result, error) &&
+              (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
+    sunder_sum_free(sum);
+    if (ok)
+        set->area = area_of(&set->result.set);
+    return ok;
+}
+
+static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how, gis_error *error)
+{
+    sunder_shape *joined = NULL, *turned = NULL;
+    set->none = true;
+    for (size_t i = 0; i < set->members && set->none; i++)
+        set->none = !has_shape(buffer, set->member[i]);
+    if (set->none)
+        return true;
+    bool align = buffer->options->given[OPT_ALIGN];
+    bool ok = (!buffer->dissolve || join(buffer, set, &joined, error)) &&
+              (!align || gis_buffer_turned(buffer, set, &turned, error)) &&
+              make_from(buffer, set, joined ? joined : buffer->input.shape[set->member[0]],
+                        turned ? turned : buffer->shape, how, error);
+    sunder_shape_free(joined);
+    sunder_shape_free(turned);
+    return ok;
+}
+
+/* ---- All of them ---- */
+
+typedef struct making {
+    gis_buffer *buffer;
+    gis_progress *progress; /* told by whoever holds the lock */
+    atomic_size_t next;
+    atomic_bool stop;
+    pthread_mutex_t lock; /* of what follows */
+    size_t done, failed;  /* the least set that failed */
+    gis_error error;
+} making;
+
+/* The progress of a single large set comes from inside it. */
+static bool tell_inside(double fraction, void *user)
+{
+    making *m = user;
+    return gis_progress_call(fraction, m->progress);
+}
+
+static void tell(making *m)
+{
+    pthread_mutex_lock(&m->lock);
+    m->done++;
+    if (m->buffer->sets > 1 && !gis_progress_call((double)m->done / (double)m->buffer->sets, m->progress) &&
+        !atomic_exchange(&m->stop, true))
+        gis_fail(&m->error, "interrupted");
+    pthread_mutex_unlock(&m->lock);
+}
+
+static void fail(making *m, size_t set, const gis_error *error)
+{
+    char who[512] = "";
+    const gis_buffer *buffer = m->buffer;
+    if (!buffer->dissolve)
+        gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
+    pthread_mutex_lock(&m->lock);
+    if (set < m->failed) {
+        m->failed = set;
+        m->error = *error;
+        if (*who && strcmp(error->message, "interrupted") != 0)
+            gis_fail(&m->error, "%s: %s", who, error->message);
+    }
+    pthread_mutex_unlock(&m->lock);
+    atomic_store(&m->stop, true);
+}
+
+static void *work(void *argument)
+{
+    making *m = argument;
+    gis_error error;
+    sunder_sum_options how = {0};
+    if (m->buffer->sets == 1)
+        how = (sunder_sum_options){.progress = tell_inside, .progress_user = m};
+    while (!atomic_load(&m->stop)) {
+        size_t k = atomic_fetch_add(&m->next, 1);
+        if (k >= m->buffer->sets)
+            break;
+        if (!make_set(m->buffer, &m->buffer->set[k], &how, &error))
+            fail(m, k, &error);
+        tell(m);
+    }
+    return NULL;
+}
+
+static size_t thread_count(const gis_buffer *buffer)
+{
+    double asked = buffer->options->given[OPT_THREADS] ? buffer->options->number[OPT_THREADS] : 0;
+    long there = sysconf(_SC_NPROCESSORS_ONLN);
+    size_t n = asked > 0 ? (size_t)fmin(asked, 4096) : there > 0 ? (size_t)there : 1;
+    return n < buffer->sets ? n : buffer->sets;
+}
+
+static void add_up(gis_buffer *buffer)
+{
+    for (size_t k = 0; k < buffer->sets; k++) {
+        const gis_buffer_set *set = &buffer->set[k];
+        buffer->empty += !set->none && set->result.set.polygons == 0;
+        buffer->vertices += set->result.set.vertices;
+        buffer->repaired += set->result.repaired;
+        buffer->area += set->area;
+        buffer->deviation = fmax(buffer->deviation, set->result.deviation);
+    }
+}
+
+/* This thread works, too: where no other can be started it does everything. */
+bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error)
+{
+    making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets};
+    size_t threads = thread_count(buffer), started = 0;
+    pthread_t *thread = calloc(threads + 1, sizeof *thread);
+    if (!thread)
+        return gis_no_memory(error);
+    pthread_mutex_init(&m.lock, NULL);
+    while (started + 1 < threads && pthread_create(&thread[started], NULL, work, &m) == 0)
+        started++;
+    work(&m);
+    for (size_t i = 0; i < started; i++)
+        pthread_join(thread[i], NULL);
+    pthread_mutex_destroy(&m.lock);
+    free(thread);
+    if (atomic_load(&m.stop)) {
+        *error = m.error;
+        return false;
+    }
+    add_up(buffer);
+    return true;
+}
+
+void gis_buffer_clear(gis_buffer *buffer)
+{
+    for (size_t k = 0; k < buffer->sets; k++) {
+        gis_rounded_clear(&buffer->set[k].result);
+        free(buffer->set[k].segment);
+        free(buffer->set[k].point);
+    }
+    free(buffer->set);
+    free(buffer->member);
+    sunder_shape_free(buffer->shape);
+    gis_layer_input_clear(&buffer->input);
+}

@@ -1,0 +1,320 @@
+/* F + B and F^c + (-B), where the corners of F are rational.
+ *
+ * Let C be a convex piece of what is added, c a point inside it, and X a set of which the boundary is known. Then
+ *
+ *     X + int C  =  (X + c)  u  (boundary of X + int C)           for X open or closed
+ *
+ * For let x = y + b with y in X, b in int C. If x - c is not in X, then on the way from b to c, which stays inside C, x
+ * minus the way leaves X, and where it does it is on the boundary. The boundary is sides, so the second set is a union
+ * of *bands*: a side s gives the open convex polygon s + int C. (A degenerate segment or point of X is boundary, too.)
+ * Uniting over the pieces of B gives all but what only the diagonals between pieces reach: with X open nothing, since a
+ * bit of y can be traded for a bit of b; with X closed only seams without area, which the closure has.
+ *
+ * So the bands are united in a planar map (../planar_map/), one after the other in random order, what lies inside being
+ * forgotten. No band reaches a cell of the map that none covers, be it a face, an edge or a vertex: so the boundary of
+ * X + c does not either, and the cell lies in X + c as a whole or not at all. One of its corners is enough to ask.
+ * (Where X + c is drawn as a region beside the bands, its complement needs a frame, and counts of vertices where rings
+ * touch; asking costs one location a cell, and few cells are left.)
+ *
+ *     grow:   a cell is in   if covered, or in F + c for some piece;
+ *     shrink: a cell is in   if not covered, and in F + c for every piece: in no F^c + c.
+ *
+ * Every corner that is compared is on the lines of two sides: of F, of B moved to a corner of F, or of F moved by a
+ * corner of B. All have lattice directions, and none is made from more than one corner of F: so numbers do not grow with
+ * the figure, only with what its own corners were made from.
+ *
+ * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
+#include "minkowski/minkowski.h"
+#include "morphology/morphology.h"
+#include "number/random.h"
+#include "unions/unions.h"
+
+typedef struct growth {
+    const sunder_i_figure *figure;
+    const sunder_i_probe *probe;
+    const sunder_sum_options *options;
+    sunder_i_planar_map *bands, *solid; /* solid: the figure itself; NULL where it has no area */
+    sunder_i_arena scratch;
+    uint64_t random;
+    bool shrink;
+} growth;
+
+static sunder_status canceled(sunder_error *err)
+{
+    return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+}
+
+static bool go_on(const sunder_sum_options *options, uint64_t done, uint64_t all)
+{
+    return !options->progress || options->progress((double)done / (double)all, options->progress_user);
+}
+
+/* A random order of n things; NULL if memory is out. */
+static uint64_t *random_order(uint64_t *random, uint64_t n)
+{
+    uint64_t *order = sunder_i_alloc(n, sizeof *order);
+    for (uint64_t i = 0; order && i < n; i++) order[i] = i;
+    for (uint64_t i = n; order && i > 1; i--) {
+        const uint64_t j = sunder_i_draw(random) % i, kept = order[j];
+        order[j] = order[i - 1];
+        order[i - 1] = kept;
+    }
+    return order;
+}
+
+/* The two ends of side i of a figure, over all rings; the side ends in the ring's first corner where it is the last. */
+static void ends_of_side(const sunder_i_figure *f, const uint32_t *next, uint64_t i, uint32_t ends[2])
+{
+    ends[0] = f->ring[i];
+    ends[1] = f->ring[next[i]];
+}
+
+/* Where each side's successor stands. */
+static uint32_t *successors(const sunder_i_figure *f)
+{
+    uint32_t *next = sunder_i_alloc(f->sides, sizeof *next);
+    for (size_t r = 0; next && r < f->rings; r++) {
+        const size_t first = r ? f->ring_end[r - 1] : 0, end = f->ring_end[r];
+        for (size_t i = first; i < end; i++) next[i] = (uint32_t)(i + 1 < end ? i + 1 : first);
+    }
+    return next;
+}
+
+/* ---- The figure itself ---- */
+
+/* The sides of the figure, the interior on their left, in a map of their own, marked. Counts of vertices are not kept
+ * up (rings may touch there): only faces are ever asked. */
+static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice, uint64_t *random,
+                                 sunder_i_planar_map **out, sunder_error *err)
+{
+    sunder_i_planar_map *map;
+    sunder_status status = sunder_i_planar_map_new(lattice, sunder_i_draw(random), &map, err);
+    if (status != SUNDER_OK) return status;
+    uint32_t *next = successors(f);
+    uint64_t *order = random_order(random, f->sides);
+    status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t i = 0; i < f->sides && status == SUNDER_OK; i++) {
+        uint32_t ends[2];
+        ends_of_side(f, next, order[i], ends);
+        status = sunder_i_planar_map_insert_segment(map, f->at[ends[0]], f->at[ends[1]], 1, 0, NULL, NULL, err);
+    }
+    if (status == SUNDER_OK) status = sunder_i_planar_map_mark(map, err);
+    sunder_i_free(next);
+    sunder_i_free(order);
+    if (status == SUNDER_OK)
+        *out = map;
+    else
+        sunder_i_planar_map_free(map);
+    return status;
+}
+
+/* ---- Bands ---- */
+
+/* a b - c d. */
+static sunder_i_big minor(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big c, sunder_i_big d)
+{
+    return sunder_i_big_sub(arena, sunder_i_big_mul(arena, a, b), sunder_i_big_mul(arena, c, d));
+}
+
+/* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
+static bool is_far(sunder_i_arena *arena, const sunder_i_big u[2], const sunder_i_big side[2])
+{
+    const int turn = sunder_i_big_sign(minor(arena, u[0], side[1], u[1], side[0]));
+    if (turn) return turn > 0;
+    return sunder_i_big_sign(minor(arena, u[0], side[0], u[1], sunder_i_big_neg(side[1]))) > 0;
+}
+
+static void put_corner(sunder_i_arena *arena, const sunder_i_xyw at, const sunder_i_big c[2], sunder_i_xyw out)
+{
+    for (int k = 0; k < 2; k++) out[k] = sunder_i_big_add(arena, at[k], sunder_i_big_mul(arena, at[2], c[k]));
+    out[2] = at[2];
+}
+
+/* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A
+ * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows. */
+static size_t make_band(growth *g, const sunder_i_xyw a, const sunder_i_xyw b, size_t first, size_t end,
+                        sunder_i_xyw *out)
+{
+    sunder_i_arena *s = &g->scratch;
+    const sunder_i_probe *p = g->probe;
+    const sunder_i_big u[2] = {minor(s, b[0], a[2], a[0], b[2]), minor(s, b[1], a[2], a[1], b[2])};
+    size_t n = 0;
+    bool before = is_far(s, u, p->side[end - 1]);
+    for (size_t i = first; i < end; i++) {
+        const bool after = is_far(s, u, p->side[i]);
+        put_corner(s, before ? b : a, p->corner[i], out[n++]);
+        if (after != before) put_corner(s, after ? b : a, p->corner[i], out[n++]);
+        before = after;
+    }
+    return n;
+}
+
+static size_t make_spot(growth *g, const sunder_i_xyw at, size_t first, size_t end, sunder_i_xyw *out)
+{
+    for (size_t i = first; i < end; i++) put_corner(&g->scratch, at, g->probe->corner[i], out[i - first]);
+    return end - first;
+}
+
+/* Band number k: of the sides, then the segments, then the points, each with all pieces. */
+static sunder_status add_band(growth *g, const uint32_t *next, uint64_t k, sunder_error *err)
+{
+    const sunder_i_figure *f = g->figure;
+    const sunder_i_probe *p = g->probe;
+    const uint64_t piece = k % p->pieces, i = k / p->pieces;
+    const size_t first = piece ? p->end[piece - 1] : 0, end = p->end[piece];
+    const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
+    sunder_i_xyw *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
+    if (!corner) return sunder_i_no_memory(err);
+    size_t n;
+    if (i < f->sides) {
+        uint32_t ends[2];
+        ends_of_side(f, next, i, ends);
+        n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
+    } else if (i < f->sides + f->segments) {
+        const uint32_t *ends = f->segment + 2 * (i - f->sides);
+        n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
+    } else
+        n = make_spot(g, f->at[f->point[i - f->sides - f->segments]], first, end, corner);
+    if (g->scratch.failed) return sunder_i_no_memory(err);
+    const sunder_status status =
+        sunder_i_planar_map_unite_polygon(g->bands, (const sunder_i_xyw *)corner, NULL, n, err);
+    sunder_i_arena_release(&g->scratch, mark);
+    return status;
+}
+
+static sunder_status unite_bands(growth *g, sunder_error *err)
+{
+    const sunder_i_figure *f = g->figure;
+    const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->probe->pieces;
+    uint32_t *next = successors(f);
+    uint64_t *order = random_order(&g->random, all);
+    sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
+        status = go_on(g->options, i, all) ? add_band(g, next, order[i], err) : canceled(err);
+    sunder_i_free(next);
+    sunder_i_free(order);
+    return status;
+}
+
+/* ---- Cells between the bands ---- */
+
+/* Does a vertex that no band covers lie in F + c, for the inner point c of some piece (grow) or of all (shrink)? It is
+ * not on the boundary of any. */
+static sunder_status is_inside(growth *g, uint32_t vertex, bool *in, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *in = g->solid && g->shrink;
+    for (uint32_t j = 0; g->solid && j < g->probe->pieces && *in == g->shrink && status == SUNDER_OK; j++) {
+        const sunder_i_big *v = sunder_i_planar_map_vertex_xyw(g->bands, vertex), *c = g->probe->inner[j];
+        const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
+        sunder_i_arena *s = &g->scratch;
+        const sunder_i_xyw at = {minor(s, v[0], c[2], c[0], v[2]), minor(s, v[1], c[2], c[1], v[2]),
+                                 sunder_i_big_mul(s, v[2], c[2])};
+        if (s->failed) return sunder_i_no_memory(err);
+        sunder_i_location where;
+        status = sunder_i_planar_map_locate(g->solid, at, &where, err);
+        if (status == SUNDER_OK) *in = where.covered != 0;
+        sunder_i_arena_release(s, mark);
+    }
+    return status;
+}
+
+static sunder_status sort_faces(growth *g, bool *face, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (uint32_t f = 1; f < sunder_i_planar_map_face_end(g->bands) && status == SUNDER_OK; f++) {
+        const bool covered = sunder_i_planar_map_face_covered(g->bands, f) != 0;
+        face[f] = covered && !g->shrink;
+        if (!covered)
+            status = is_inside(g, sunder_i_planar_map_origin(g->bands, sunder_i_planar_map_face_outer(g->bands, f)),
+                               &face[f], err);
+    }
+    return status;
+}
+
+/* Parts without area: edges and vertices between covered faces. Others belong to a face, and are asked in vain. */
+static sunder_status sort_rest(growth *g, bool *edge, bool *vertex, sunder_error *err)
+{
+    const sunder_i_planar_map *map = g->bands;
+    sunder_status status = SUNDER_OK;
+    for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(map) && status == SUNDER_OK; e++)
+        if (sunder_i_planar_map_edge_alive(map, e) && sunder_i_planar_map_edge_covered(map, e) == 0 &&
+            sunder_i_planar_map_left_covered(map, 2 * e) && sunder_i_planar_map_left_covered(map, 2 * e + 1))
+            status = is_inside(g, sunder_i_planar_map_origin(map, 2 * e), &edge[e], err);
+    for (uint32_t v = 0; v < sunder_i_planar_map_vertex_end(map) && status == SUNDER_OK; v++)
+        if (sunder_i_planar_map_vertex_alive(map, v) && sunder_i_planar_map_vertex_covered(map, v) == 0 &&
+            sunder_i_planar_map_vertex_out(map, v) == SUNDER_I_NOWHERE)
+            status = is_inside(g, v, &vertex[v], err);
+    return status;
+}
+
+static sunder_status read_cells(growth *g, sunder_sum *sum, sunder_error *err)
+{
+    sunder_status status = sunder_i_planar_map_faces(g->bands, err);
+    if (status != SUNDER_OK) return status;
+    bool *face = sunder_i_calloc(sunder_i_planar_map_face_end(g->bands), sizeof *face);
+    bool *edge = sunder_i_calloc(sunder_i_planar_map_edge_end(g->bands), sizeof *edge);
+    bool *vertex = sunder_i_calloc(sunder_i_planar_map_vertex_end(g->bands), sizeof *vertex);
+    const sunder_i_inside inside = {face, g->shrink ? edge : NULL, g->shrink ? vertex : NULL};
+    status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_no_memory(err);
+    if (status == SUNDER_OK && g->shrink) status = sort_rest(g, edge, vertex, err);
+    if (status == SUNDER_OK) status = sunder_i_outline_of(g->bands, &inside, sum, err);
+    sunder_i_free(face);
+    sunder_i_free(edge);
+    sunder_i_free(vertex);
+    return status;
+}
+
+static sunder_status grow_or_shrink(growth *g, sunder_sum *sum, sunder_error *err)
+{
+    static const sunder_sum_options defaults;
+    if (!g->options) g->options = &defaults;
+    g->random = g->options->seed;
+    sunder_status status = sunder_i_planar_map_new(&sum->lattice, sunder_i_draw(&g->random), &g->bands, err);
+    if (status == SUNDER_OK) status = unite_bands(g, err);
+    if (status == SUNDER_OK && g->figure->rings)
+        status = draw_figure(g->figure, &sum->lattice, &g->random, &g->solid, err);
+    if (status == SUNDER_OK) status = read_cells(g, sum, err);
+    sunder_i_planar_map_free(g->bands);
+    sunder_i_planar_map_free(g->solid);
+    sunder_i_arena_free(&g->scratch);
+    return status;
+}
+
+sunder_status sunder_i_grow(const sunder_i_figure *figure, const sunder_i_probe *probe,
+                            const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
+{
+    growth g = {.figure = figure, .probe = probe, .options = options};
+    return grow_or_shrink(&g, sum, err);
+}
+
+sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_probe *probe,
+                              const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
+{
+    growth g = {.figure = figure, .probe = probe, .options = options, .shrink = true};
+    return grow_or_shrink(&g, sum, err);
+}
+
+/* ---- Members that overlap ---- */
+
+sunder_status sunder_i_unite_figure(const sunder_i_figure *figure, const sunder_sum_options *options, sunder_sum *sum,
+                                    sunder_error *err)
+{
+    uint64_t random = options ? options->seed : 0;
+    sunder_i_planar_map *map;
+    sunder_status status = draw_figure(figure, &sum->lattice, &random, &map, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_planar_map_faces(map, err);
+    bool *face = NULL;
+    if (status == SUNDER_OK) {
+        face = sunder_i_calloc(sunder_i_planar_map_face_end(map), sizeof *face);
+        if (!face) status = sunder_i_no_memory(err);
+    }
+    for (uint32_t f = 1; status == SUNDER_OK && f < sunder_i_planar_map_face_end(map); f++)
+        face[f] = sunder_i_planar_map_face_covered(map, f) != 0;
+    const sunder_i_inside inside = {face, NULL, NULL};
+    if (status == SUNDER_OK) status = sunder_i_outline_of(map, &inside, sum, err);
+    sunder_i_free(face);
+    sunder_i_planar_map_free(map);
+    return status;
+}
