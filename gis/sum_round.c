@@ -35,7 +35,7 @@ static bool exact_text(double x, char *text, size_t size)
 
 /* A bound of |exact - x| where x is the double nearest to exact: 0 if they are equal, else the difference in long
  * doubles with what that may be off by, but never more than half a unit of x. */
-static double coordinate_deviation(const char *exact, double x)
+double gis_text_deviation(const char *exact, double x)
 {
     char same[700];
     if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0)
@@ -59,7 +59,7 @@ bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviat
     sunder_error why;
     if (sunder_sum_vertex_text(sum, vertex, &x, &y, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
-    *deviation = hypot(coordinate_deviation(x, xy[0]), coordinate_deviation(y, xy[1]));
+    *deviation = hypot(gis_text_deviation(x, xy[0]), gis_text_deviation(y, xy[1]));
     sunder_free(x);
     sunder_free(y);
     return true;
