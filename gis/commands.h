@@ -9,5 +9,6 @@ int gis_command_check(const gis_options *options);
 int gis_command_sum(const gis_options *options);
 int gis_command_pair(const gis_options *options);
 int gis_command_buffer(const gis_options *options);
+int gis_command_route(const gis_options *options);
 
 #endif

@@ -88,10 +88,15 @@ void gis_help_command(const gis_command *command)
     if (command->bit & GIS_SHAPES)
         printf("P, Q: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N], square:SIDE,\n"
                "rectangle:WxH, or a data source. ");
+    if (command->bit & GIS_ROUTE)
+        printf("OBSTACLES, SHAPE: a data source, WKT, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N],\n"
+               "square:SIDE, rectangle:WxH. ");
     printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
            "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n"
            "Example: sunder %s %s\n",
-           command->bit & GIS_LAYERS ? ", 3 conflicts" : "", command->name, command->example);
+           command->bit & GIS_LAYERS  ? ", 3 conflicts"
+           : command->bit & GIS_ROUTE ? ", 3 no route"
+                                      : "", command->name, command->example);
 }
 
 void gis_help_program(void)
@@ -101,5 +106,5 @@ void gis_help_program(void)
     for (size_t i = 0; i < gis_n_commands; i++)
         printf("  %-10s %-18s %s\n", gis_commands[i].name, gis_commands[i].operands, gis_commands[i].summary);
     printf("\n`sunder COMMAND --help` lists the options of a command; `sunder --version` prints the version.\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found.\n");
+           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n");
 }

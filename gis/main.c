@@ -25,6 +25,8 @@ const gis_command gis_commands[] = {
      "square:4 \"POLYGON ((1 1, 5 1, 5 2))\" --gap 0.5", gis_command_pair},
     {GIS_BUFFER, "buffer", "INPUT OUTPUT", 2, 2, "Grows, shrinks, opens or closes features by a shape, exactly",
      "--operation close --shape square:6m --dissolve houses.gpkg blocks.gpkg", gis_command_buffer},
+    {GIS_ROUTE, "route", "OBSTACLES [OUTPUT]", 1, 2, "Shortest way for a robot among obstacles, contact allowed",
+     "\"POLYGON ((2 -9, 4 -9, 4 3, 2 3))\" --robot square:2 --from 0,0 --to 6,0", gis_command_route},
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 
@@ -116,7 +118,7 @@ int main(int argc, char **argv)
     if (command) {
         status = run(command, argc - 2, argv + 2);
     } else if (!first) {
-        gis_fail_usage(&error, "which command? separate, check, sum, pair or buffer; `sunder --help` tells more");
+        gis_fail_usage(&error, "which command? separate, check, sum, pair, buffer or route; `sunder --help` tells more");
         status = gis_say_failure(&error);
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());

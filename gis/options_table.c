@@ -4,7 +4,7 @@
 #define OWN GIS_GROUP_OWN
 
 const gis_option gis_option_table[OPT_N] = {
-    [OPT_GAP] = {OPT_GAP, "--gap", GIS_TYPE_LENGTH, GIS_LAYERS | GIS_PAIR, OWN, "LENGTH", "0",
+    [OPT_GAP] = {OPT_GAP, "--gap", GIS_TYPE_LENGTH, GIS_LAYERS | GIS_PAIR | GIS_ROUTE, OWN, "LENGTH", "0",
                  "least distance between features, in units of the layer"},
     [OPT_MAX_SHIFT] = {OPT_MAX_SHIFT, "--max-shift", GIS_TYPE_LENGTH, GIS_SEPARATE, OWN, "LENGTH", "no limit",
                        "no move is longer, in units of the layer"},
@@ -36,7 +36,7 @@ const gis_option gis_option_table[OPT_N] = {
                    "the map is 1:N; lengths may be mm on the sheet"},
     [OPT_REFLECT] = {OPT_REFLECT, "--reflect", GIS_TYPE_FLAG, GIS_SUM, OWN, NULL, NULL,
                      "the sum of P and -Q: where Q may not stand"},
-    [OPT_EXACT] = {OPT_EXACT, "--exact", GIS_TYPE_FLAG, GIS_SHAPES, OWN, NULL, NULL,
+    [OPT_EXACT] = {OPT_EXACT, "--exact", GIS_TYPE_FLAG, GIS_SHAPES | GIS_ROUTE, OWN, NULL, NULL,
                    "coordinates as rationals, in strings"},
     [OPT_ALGORITHM] = {OPT_ALGORITHM, "--algorithm", GIS_TYPE_CHOICE, GIS_SHAPES, OWN,
                        "auto|convolution|arrangement|incremental|divide", "auto",
@@ -50,6 +50,13 @@ const gis_option gis_option_table[OPT_N] = {
                   "for what is drawn at random (convolution draws nothing)"},
     [OPT_PLANAR_MAP] = {OPT_PLANAR_MAP, "--planar-map", GIS_TYPE_FLAG, GIS_SUM, OWN, NULL, NULL,
                         "layers of the map beneath the sum; auto is arrangement"},
+    [OPT_ROBOT] = {OPT_ROBOT, "--robot", GIS_TYPE_TEXT, GIS_ROUTE, OWN, "SHAPE", NULL,
+                   "what is moved; its origin is the reference point"},
+    [OPT_FROM] = {OPT_FROM, "--from", GIS_TYPE_TEXT, GIS_ROUTE, OWN, "X,Y", NULL,
+                  "where the origin starts: decimals or num/den"},
+    [OPT_TO] = {OPT_TO, "--to", GIS_TYPE_TEXT, GIS_ROUTE, OWN, "X,Y", NULL, "where it is to go"},
+    [OPT_FREE_SPACE] = {OPT_FREE_SPACE, "--free-space", GIS_TYPE_FLAG, GIS_ROUTE, OWN, NULL, NULL,
+                        "layers of obstacles and free space, too"},
     [OPT_ALLOW_CONFLICTS] = {OPT_ALLOW_CONFLICTS, "--allow-conflicts", GIS_TYPE_FLAG, GIS_LAYERS, OWN, NULL, NULL,
                              "exit 0, not 3, where conflicts are left or found"},
     [OPT_SHAPE] = {OPT_SHAPE, "--shape", GIS_TYPE_TEXT, GIS_BUFFER, OWN, "SHAPE", NULL,

@@ -37,7 +37,7 @@ static bool place(const sunder_sum *sum, uint32_t vertex, double xy[2], double *
     return true;
 }
 
-static bool write_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation, gis_error *error)
+bool gis_write_sum_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation, gis_error *error)
 {
     for (size_t i = 0; i < n; i++) {
         uint32_t ends[2];
@@ -54,7 +54,7 @@ static bool write_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t 
     return true;
 }
 
-static bool write_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation, gis_error *error)
+bool gis_write_sum_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation, gis_error *error)
 {
     for (size_t i = 0; i < n; i++) {
         double xy[2];
@@ -82,13 +82,13 @@ bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH c
         request.suffix = "degenerate_segments";
         request.type = wkbLineString;
         ok = gis_sink_add(sink, &request, &layer, error) &&
-             write_segments(layer, sum, counts.degenerate_segments, &rounded.deviation, error);
+             gis_write_sum_segments(layer, sum, counts.degenerate_segments, &rounded.deviation, error);
     }
     if (ok && gis_sink_takes_more(sink)) {
         request.suffix = "degenerate_points";
         request.type = wkbPoint;
         ok = gis_sink_add(sink, &request, &layer, error) &&
-             write_points(layer, sum, counts.degenerate_points, &rounded.deviation, error);
+             gis_write_sum_points(layer, sum, counts.degenerate_points, &rounded.deviation, error);
     }
     *deviation = rounded.deviation;
     gis_rounded_clear(&rounded);

@@ -37,12 +37,19 @@ bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_
 /* The unit in the last place of a double. */
 double gis_ulp(double x);
 
+/* A bound of |exact - x| where x is the double nearest to exact, which is "num" or "num/den" as the core writes it. */
+double gis_text_deviation(const char *exact, double x);
 /* A bound of the distance from a vertex of the sum to its nearest doubles; infinite beyond their range. */
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error);
 
 /* The layers MAIN, MAIN_degenerate_segments and MAIN_degenerate_points; the largest deviation of all. */
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,
                    gis_error *error);
+
+/* Degenerate holes into a layer, n of them; raises *deviation. */
+bool gis_write_sum_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation,
+                            gis_error *error);
+bool gis_write_sum_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation, gis_error *error);
 
 /* The layers MAIN_faces (all but the outermost), MAIN_edges and MAIN_vertices of the planar map beneath a sum, with the
  * field covered_by (sum_map.c). Rounded to doubles; a face that falls together so is left out, one that falls apart is

@@ -5,12 +5,43 @@
  * polygon is well, before and after. */
 #include "sum_layers.h"
 
+#include <float.h>
 #include <math.h>
 
 double gis_ulp(double x)
 {
     x = fabs(x);
     return nextafter(x, INFINITY) - x;
+}
+
+/* A double as the library writes exact numbers: "num" or "num/den" in lowest terms; false if it is too long. */
+static bool exact_text(double x, char *text, size_t size)
+{
+    int exponent;
+    double mantissa = frexp(x, &exponent); /* x = mantissa 2^exponent, 0.5 <= |mantissa| < 1 */
+    if (x == floor(x))
+        return (size_t)snprintf(text, size, "%.0f", x == 0 ? 0.0 : x) < size;
+    mantissa = ldexp(mantissa, DBL_MANT_DIG);
+    exponent -= DBL_MANT_DIG;
+    while (fmod(mantissa, 2) == 0) {
+        mantissa /= 2;
+        exponent++;
+    }
+    return exponent > -1024 && (size_t)snprintf(text, size, "%.0f/%.0f", mantissa, ldexp(1, -exponent)) < size;
+}
+
+/* A bound of |exact - x| where x is the double nearest to exact: 0 if they are equal, else the difference in long
+ * doubles with what that may be off by, but never more than half a unit of x. */
+double gis_text_deviation(const char *exact, double x)
+{
+    char same[700];
+    if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0)
+        return 0;
+    double bound = gis_ulp(x) / 2;
+    const char *slash = strchr(exact, '/');
+    long double quotient = strtold(exact, NULL) / (slash ? strtold(slash + 1, NULL) : 1.0L);
+    long double seen = fabsl(quotient - (long double)x) + 4 * LDBL_EPSILON * fabsl((long double)x);
+    return seen < (long double)bound ? nextafter((double)seen, INFINITY) : bound; /* NaN: the bound */
 }
 
 bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviation, gis_error *error)

@@ -509,6 +509,73 @@ typedef struct sunder_bound_pair {
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
 
+/* ---- Routes ----------------------------------------------------------------------------------------------- */
+
+/* An obstacle: a polygonal set, or lines and points, or both. The robot's interior may not meet it. */
+typedef struct sunder_obstacle {
+    const sunder_shape *shape; /* borrowed for the call; NULL: none */
+    const double *xy;          /* x0 y0 x1 y1 ... of all lines, one after the other; finite */
+    const size_t *line_end;    /* [lines] index past the last point of each; a line of one point is a point */
+    size_t lines;
+} sunder_obstacle;
+
+/* A place, exactly: "num" or "num/den" in decimal where text[k] is given, else the double. */
+typedef struct sunder_place {
+    double xy[2];
+    const char *text[2];
+} sunder_place;
+
+typedef struct sunder_route_options {
+    double gap;              /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc */
+    sunder_progress progress; /* NULL: none */
+    void *progress_user;
+} sunder_route_options;
+
+typedef enum sunder_no_route {
+    SUNDER_ROUTE_FOUND,
+    SUNDER_ROUTE_START_COLLIDES, /* at the start the robot's interior meets an obstacle */
+    SUNDER_ROUTE_GOAL_COLLIDES,
+    SUNDER_ROUTE_DISCONNECTED    /* start and goal lie in different components of free space */
+} sunder_no_route;
+
+/* "found", "start_in_collision", "goal_in_collision", "disconnected". */
+SUNDER_API const char *sunder_no_route_string(sunder_no_route reason);
+
+typedef struct sunder_route sunder_route;
+
+/* A shortest path along which the robot can be moved, by translations, among the obstacles.
+ *
+ * Free space is the complement of the union of the open sets O_i + int(-robot) and so is closed: contact is allowed, and
+ * passages that the robot fits exactly are passages; an exact fit in a keyhole is a place. The path is that of the
+ * robot's own origin. Of several shortest paths the lexicographically smallest, as sequences of vertices; lengths are told
+ * apart up to 2^-256 of themselves. Each leg is proved, by a test of its own, to keep the interior of the robot off every
+ * obstacle all the way.
+ *
+ * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are fine.
+ * out        on success, also where there is no route: see sunder_route_reason().
+ * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_ERANGE for a place too
+ *            far away to be compared.
+ * Cost       the outline of the union as of a sum; then A* over the corners, of which only edges that may belong to a
+ *            shortest path are looked at. */
+SUNDER_API sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
+                                           const sunder_place *from, const sunder_place *to,
+                                           const sunder_route_options *options, sunder_route **out, sunder_error *err);
+SUNDER_API void sunder_route_free(sunder_route *route);
+
+/* Why there is none; *obstacle is the first one in the way, if there is one, else SIZE_MAX. */
+SUNDER_API sunder_no_route sunder_route_reason(const sunder_route *route, size_t *obstacle);
+/* Vertices of the path, start and goal included; one if they are the same; 0 if there is no route. */
+SUNDER_API size_t sunder_route_vertices(const sunder_route *route);
+/* A vertex: the nearest doubles, and texts as of a sum's, owned by the route. */
+SUNDER_API void sunder_route_vertex(const sunder_route *route, size_t vertex, double xy[2]);
+SUNDER_API void sunder_route_vertex_text(const sunder_route *route, size_t vertex, const char **x, const char **y);
+/* To the nearest double; 0 if there is no route. */
+SUNDER_API double sunder_route_length(const sunder_route *route);
+/* Is the path with its vertices rounded to the nearest doubles free as well? Proved like the path. */
+SUNDER_API bool sunder_route_rounded_is_free(const sunder_route *route);
+/* The configuration-space obstacles, united: a sum like any other, with its degenerate holes. Lives as long as the route. */
+SUNDER_API const sunder_sum *sunder_route_obstacles(const sunder_route *route);
+
 /* ---- Predicates on doubles -------------------------------------------------------------------------------- */
 
 typedef struct sunder_point {

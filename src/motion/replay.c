@@ -1,0 +1,93 @@
+/* The proof of a leg, along another road than the search's: no tree, no separating axes, no doubles but for boxes.
+ *
+ * The point p + t (q - p) is in an open part exactly when it lies strictly left of each of its sides. Each side's cross
+ * product is linear in t, f(t) = (1 - t) f(p) + t f(q), so the t in question are an open interval, cut to [0, 1]. The leg
+ * is free of the part when no t is left. */
+#include "motion/space.h"
+
+#include <math.h>
+
+/* cross(b - a, c - a) times the positive w of c. */
+static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c)
+{
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_big ax = sunder_i_lattice_get(l, a.x), ay = sunder_i_lattice_get(l, a.y);
+    const sunder_i_big ux = sunder_i_big_sub(m, sunder_i_lattice_get(l, b.x), ax);
+    const sunder_i_big uy = sunder_i_big_sub(m, sunder_i_lattice_get(l, b.y), ay);
+    const sunder_i_big vx = sunder_i_big_sub(m, c->x, sunder_i_big_mul(m, ax, c->w));
+    const sunder_i_big vy = sunder_i_big_sub(m, c->y, sunder_i_big_mul(m, ay, c->w));
+    return sunder_i_big_sub(m, sunder_i_big_mul(m, ux, vy), sunder_i_big_mul(m, uy, vx));
+}
+
+typedef struct bound {
+    sunder_i_big num, den; /* den > 0 */
+    bool open;
+} bound;
+
+static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b)
+{
+    return sunder_i_big_cmp(sunder_i_big_mul(m, a->num, b->den), sunder_i_big_mul(m, b->num, a->den));
+}
+
+/* Is some point of the closed segment strictly left of every side? */
+static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
+{
+    sunder_i_lattice *l = s->ground.lattice;
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_hulls *c = &s->part;
+    const uint32_t first = sunder_i_hulls_first(c, part), end = c->end[part];
+    const sunder_i_big one = sunder_i_big_i64(m, 1);
+    bound low = {sunder_i_big_i64(m, 0), one, false}, high = {one, one, false};
+    for (uint32_t k = first; k < end; k++) {
+        const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
+        /* Over one denominator p.w q.w: f(p) and f(q). */
+        const sunder_i_big fp = sunder_i_big_mul(m, height(l, a, b, p), q->w);
+        const sunder_i_big fq = sunder_i_big_mul(m, height(l, a, b, q), p->w);
+        const int sp = sunder_i_big_sign(fp), sq = sunder_i_big_sign(fq);
+        if (sp <= 0 && sq <= 0) return false;
+        if (sp > 0 && sq > 0) continue;
+        /* f(t) = 0 at t = fp / (fp - fq). One of the two is positive, the other is not. */
+        const sunder_i_big d = sunder_i_big_sub(m, fp, fq);
+        const bound at = sunder_i_big_sign(d) > 0 ? (bound){fp, d, true}
+                                                  : (bound){sunder_i_big_neg(fp), sunder_i_big_neg(d), true};
+        if (sp > 0) { /* from p to the crossing */
+            if (bound_cmp(m, &at, &high) <= 0) high = at;
+        } else if (bound_cmp(m, &at, &low) >= 0) {
+            low = at;
+        }
+    }
+    const int order = bound_cmp(m, &low, &high);
+    return order < 0 || (order == 0 && !low.open && !high.open);
+}
+
+static bool box_apart(const sunder_i_space *s, uint32_t part, const double low[2], const double high[2])
+{
+    const sunder_i_hulls *c = &s->part;
+    bool left = true, right = true, below = true, above = true;
+    for (uint32_t k = sunder_i_hulls_first(c, part); k < c->end[part]; k++) {
+        const double x = sunder_i_approx(s->ground.lattice, c->corner[k].x);
+        const double y = sunder_i_approx(s->ground.lattice, c->corner[k].y);
+        left = left && x < low[0];
+        right = right && x > high[0];
+        below = below && y < low[1];
+        above = above && y > high[1];
+    }
+    return left || right || below || above;
+}
+
+bool sunder_i_replay_is_free(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q)
+{
+    sunder_i_arena *m = &s->ground.lattice->arena;
+    const double e = 4 * s->ground.error;
+    const double low[2] = {fmin(p->ax, q->ax) - e, fmin(p->ay, q->ay) - e};
+    const double high[2] = {fmax(p->ax, q->ax) + e, fmax(p->ay, q->ay) + e};
+    for (uint32_t part = 0; part < s->part.n; part++) {
+        if (box_apart(s, part, low, high)) continue;
+        const sunder_i_mark mark = sunder_i_arena_mark(m);
+        const bool meets = passes(s, part, p, q);
+        if (m->failed) return false;
+        sunder_i_arena_release(m, mark);
+        if (meets) return false;
+    }
+    return true;
+}

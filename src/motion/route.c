@@ -1,0 +1,231 @@
+/* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
+#include "motion/search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct stop {
+    double xy[2];
+    char *text[2];
+} stop;
+
+struct sunder_route {
+    sunder_i_space space;
+    sunder_no_route reason;
+    size_t obstacle;
+    stop *stop; /* [n] */
+    size_t n;
+    double length;
+    bool rounded_is_free;
+};
+
+const char *sunder_no_route_string(sunder_no_route reason)
+{
+    switch (reason) {
+    case SUNDER_ROUTE_FOUND: return "found";
+    case SUNDER_ROUTE_START_COLLIDES: return "start_in_collision";
+    case SUNDER_ROUTE_GOAL_COLLIDES: return "goal_in_collision";
+    default: return "disconnected";
+    }
+}
+
+/* ---- Arguments ---- */
+
+/* A place named by the caller; raises the error bound of the ground to what its doubles may be off by. */
+static sunder_status read_place(sunder_i_space *space, const sunder_place *place, const char *which,
+                                sunder_i_place_at *out, sunder_error *err)
+{
+    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_big num[2], den[2];
+    for (int k = 0; k < 2; k++) {
+        if (place->text[k]) {
+            if (!sunder_i_parse_rational(&l->arena, place->text[k], &num[k], &den[k]))
+                return sunder_i_fail(err, SUNDER_EARG, "%s: %.60s is neither a whole number nor a fraction of two", which,
+                                     place->text[k]);
+            continue;
+        }
+        if (!isfinite(place->xy[k])) return sunder_i_fail(err, SUNDER_EARG, "%s is not finite", which);
+        int e;
+        num[k] = sunder_i_big_double(&l->arena, place->xy[k], &e);
+        den[k] = sunder_i_big_i64(&l->arena, 1);
+        if (e >= 0)
+            num[k] = sunder_i_big_shl(&l->arena, num[k], (unsigned long)e);
+        else
+            den[k] = sunder_i_big_shl(&l->arena, den[k], (unsigned long)-(long)e);
+    }
+    if (l->arena.failed) return sunder_i_no_memory(err);
+    *out = sunder_i_place_of_rational(space->sum, l, num, den);
+    if (l->arena.failed) return sunder_i_no_memory(err);
+    const double size = fmax(fabs(out->ax), fabs(out->ay));
+    if (!(size < 0x1p900)) return sunder_i_fail(err, SUNDER_ERANGE, "%s is too far away", which);
+    space->ground.error = fmax(space->ground.error, 0x1p-48 * size);
+    return SUNDER_OK;
+}
+
+static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n, sunder_error *err)
+{
+    for (size_t i = 0; i < n; i++) {
+        const sunder_obstacle *o = &obstacles[i];
+        const size_t points = o->lines ? o->line_end[o->lines - 1] : 0;
+        for (size_t k = 0; k < 2 * points; k++)
+            if (!isfinite(o->xy[k]))
+                return sunder_i_fail(err, SUNDER_EINVALID, "obstacle %zu: point %zu is not finite", i, k / 2);
+    }
+    return SUNDER_OK;
+}
+
+/* ---- The result ---- */
+
+/* Does the robot at the place collide? Then the reason and the obstacle are noted. */
+static bool collides(sunder_route *r, const sunder_i_place_at *at, sunder_no_route reason)
+{
+    uint32_t part;
+    if (sunder_i_space_is_free(&r->space, at, at, true, &part)) return false;
+    r->reason = reason;
+    r->obstacle = r->space.piece_obstacle[part / r->space.robot_pieces];
+    return true;
+}
+
+static sunder_status take_stop(sunder_route *r, const sunder_i_place_at *at, sunder_error *err)
+{
+    const sunder_i_big xyw[3] = {at->x, at->y, at->w};
+    sunder_i_arena arena = {0};
+    stop *s = &r->stop[r->n];
+    sunder_status status = sunder_i_sum_texts(&arena, r->space.sum, xyw, &s->text[0], &s->text[1], err);
+    if (status == SUNDER_OK) {
+        r->n++;
+        for (int k = 0; k < 2; k++) s->xy[k] = sunder_i_sum_double(&arena, r->space.sum, k, xyw[k], xyw[2]);
+        if (arena.failed) status = sunder_i_no_memory(err);
+    }
+    sunder_i_arena_free(&arena);
+    return status;
+}
+
+/* Every leg of the path as it is, which must be free, and of the path as doubles hold it. */
+static sunder_status prove(sunder_route *r, const sunder_i_place_at *place, const uint32_t *path, sunder_error *err)
+{
+    sunder_i_lattice *l = r->space.ground.lattice;
+    r->rounded_is_free = true;
+    for (size_t i = 0; i < r->n; i++)
+        if (!isfinite(r->stop[i].xy[0]) || !isfinite(r->stop[i].xy[1])) r->rounded_is_free = false;
+    for (size_t i = 0; i == 0 || i + 1 < r->n; i++) {
+        const size_t j = r->n > 1 ? i + 1 : i;
+        const bool is_free = sunder_i_replay_is_free(&r->space, &place[path[i]], &place[path[j]]);
+        if (l->arena.failed) return sunder_i_no_memory(err);
+        if (!is_free) return sunder_i_fail(err, SUNDER_EINVALID, "leg %zu of the path fails its proof", i + 1);
+        if (!r->rounded_is_free) continue;
+        const sunder_i_place_at a = sunder_i_place_of_double(r->space.sum, l, r->stop[i].xy);
+        const sunder_i_place_at b = sunder_i_place_of_double(r->space.sum, l, r->stop[j].xy);
+        r->rounded_is_free = sunder_i_replay_is_free(&r->space, &a, &b);
+    }
+    return l->arena.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
+static sunder_status keep_path(sunder_route *r, const sunder_i_place_at *place, const uint32_t *path, size_t n,
+                               sunder_error *err)
+{
+    r->stop = sunder_i_calloc(n, sizeof *r->stop);
+    sunder_status status = r->stop ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t i = 0; status == SUNDER_OK && i < n; i++) status = take_stop(r, &place[path[i]], err);
+    if (status == SUNDER_OK) status = prove(r, place, path, err);
+    if (status != SUNDER_OK) return status;
+    r->length = sunder_i_path_length(&r->space, place, path, n);
+    return isnan(r->length) ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
+static sunder_status find_path(sunder_route *r, sunder_i_corners *corners, const sunder_sum_options *how,
+                               sunder_error *err)
+{
+    const uint32_t start = corners->vertices, goal = start + 1;
+    if (!sunder_i_corners_connected(corners, start, goal)) {
+        r->reason = SUNDER_ROUTE_DISCONNECTED;
+        return SUNDER_OK;
+    }
+    uint32_t *path;
+    size_t n;
+    sunder_status status = sunder_i_search(&r->space, corners, how, &path, &n, err);
+    if (status != SUNDER_OK) return status;
+    status = keep_path(r, corners->place, path, n, err);
+    sunder_i_free(path);
+    return status;
+}
+
+static sunder_status find(sunder_route *r, const sunder_place *from, const sunder_place *to,
+                          const sunder_sum_options *how, sunder_error *err)
+{
+    sunder_i_place_at end[2];
+    sunder_status status = read_place(&r->space, from, "the start", &end[0], err);
+    if (status == SUNDER_OK) status = read_place(&r->space, to, "the goal", &end[1], err);
+    if (status != SUNDER_OK) return status;
+    if (collides(r, &end[0], SUNDER_ROUTE_START_COLLIDES) || collides(r, &end[1], SUNDER_ROUTE_GOAL_COLLIDES))
+        return SUNDER_OK;
+    if (sunder_i_place_cmp(&r->space.ground, &end[0], &end[1]) == 0) return keep_path(r, end, (uint32_t[]){0}, 1, err);
+    sunder_i_corners corners;
+    status = sunder_i_corners_find(&r->space, &end[0], &end[1], &corners, err);
+    if (status != SUNDER_OK) return status;
+    status = find_path(r, &corners, how, err);
+    sunder_i_corners_free(&corners);
+    return status;
+}
+
+sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
+                                const sunder_place *from, const sunder_place *to, const sunder_route_options *options,
+                                sunder_route **out, sunder_error *err)
+{
+    static const sunder_route_options defaults;
+    if (!options) options = &defaults;
+    if (!(options->gap >= 0) || !isfinite(options->gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative, not %.17g", options->gap);
+    if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot encloses nothing");
+    sunder_status status = check_obstacles(obstacles, n, err);
+    if (status != SUNDER_OK) return status;
+    const sunder_sum_options how = {.progress = options->progress, .progress_user = options->progress_user};
+    sunder_route *r = sunder_i_calloc(1, sizeof *r);
+    if (!r) return sunder_i_no_memory(err);
+    r->obstacle = SIZE_MAX;
+    status = sunder_i_space_build(obstacles, n, robot, options->gap, &how, &r->space, err);
+    if (status == SUNDER_OK) status = find(r, from, to, &how, err);
+    if (status == SUNDER_OK && r->space.ground.lattice->arena.failed) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK)
+        *out = r;
+    else
+        sunder_route_free(r);
+    return status;
+}
+
+void sunder_route_free(sunder_route *route)
+{
+    if (!route) return;
+    for (size_t i = 0; i < route->n; i++) {
+        sunder_i_free(route->stop[i].text[0]);
+        sunder_i_free(route->stop[i].text[1]);
+    }
+    sunder_i_free(route->stop);
+    sunder_i_space_free(&route->space);
+    sunder_i_free(route);
+}
+
+sunder_no_route sunder_route_reason(const sunder_route *route, size_t *obstacle)
+{
+    if (obstacle) *obstacle = route->obstacle;
+    return route->reason;
+}
+
+size_t sunder_route_vertices(const sunder_route *route) { return route->n; }
+
+void sunder_route_vertex(const sunder_route *route, size_t vertex, double xy[2])
+{
+    memcpy(xy, route->stop[vertex].xy, sizeof route->stop[vertex].xy);
+}
+
+void sunder_route_vertex_text(const sunder_route *route, size_t vertex, const char **x, const char **y)
+{
+    *x = route->stop[vertex].text[0];
+    *y = route->stop[vertex].text[1];
+}
+
+double sunder_route_length(const sunder_route *route) { return route->length; }
+
+bool sunder_route_rounded_is_free(const sunder_route *route) { return route->rounded_is_free; }
+
+const sunder_sum *sunder_route_obstacles(const sunder_route *route) { return route->space.sum; }

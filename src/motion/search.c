@@ -1,0 +1,297 @@
+/* A* over the visibility graph, which is never made: edges are guessed to be free, and tried only when their turn comes.
+ *
+ * The queue holds edges (v, w) by the length of the path over them to the goal, as the crow flies from w on. An edge that
+ * comes out is skipped if w has been reached by less; else the exact test is made, and w is reached. So only edges that
+ * could belong to a shortest path are ever tried. A first search that overrates the distance left finds some path
+ * quickly; its length keeps out of the second search all edges that cannot beat it.
+ *
+ * Lengths are doubles until two of them are too close to tell apart; then they are taken to LENGTH_BITS bits, which is
+ * more than 256 significant ones, and paths still equal are compared as sequences of places. */
+#include "motion/search.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Significant bits of a compared length: 256 asked for, and some for the sum of many legs. */
+#define LENGTH_BITS 320
+/* How the first search overrates: three times gives paths a few percent too long in a few expansions. */
+#define HASTE 3.0
+
+typedef struct edge {
+    double key;
+    uint32_t from, to; /* nodes */
+} edge;
+
+typedef struct reached {
+    double length;
+    uint32_t before; /* node */
+    bool known;
+} reached;
+
+typedef struct search {
+    const sunder_i_space *space;
+    sunder_i_corners *corners;
+    const sunder_sum_options *options;
+    reached *at;      /* [nodes] */
+    edge *heap;
+    size_t heap_n, heap_capacity;
+    double haste, limit, slack;
+    uint32_t start, goal; /* nodes */
+    unsigned tried;
+    bool no_memory, cancelled;
+} search;
+
+static const sunder_i_place_at *place_of(const search *s, uint32_t node)
+{
+    return &s->corners->place[s->corners->node[node]];
+}
+
+static double distance(const sunder_i_place_at *a, const sunder_i_place_at *b) { return hypot(a->ax - b->ax, a->ay - b->ay); }
+
+/* ---- The queue ---- */
+
+static bool before(const edge *a, const edge *b)
+{
+    if (a->key != b->key) return a->key < b->key;
+    return a->from != b->from ? a->from < b->from : a->to < b->to;
+}
+
+static void push(search *s, edge e)
+{
+    if (s->heap_n == s->heap_capacity &&
+        !sunder_i_reserve(&s->heap, &s->heap_capacity, s->heap_n + 1, sizeof *s->heap)) {
+        s->no_memory = true;
+        return;
+    }
+    size_t i = s->heap_n++;
+    for (; i && before(&e, &s->heap[(i - 1) / 2]); i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = e;
+}
+
+static edge pop(search *s)
+{
+    const edge top = s->heap[0], last = s->heap[--s->heap_n];
+    size_t i = 0;
+    for (;;) {
+        size_t k = 2 * i + 1;
+        if (k >= s->heap_n) break;
+        if (k + 1 < s->heap_n && before(&s->heap[k + 1], &s->heap[k])) k++;
+        if (!before(&s->heap[k], &last)) break;
+        s->heap[i] = s->heap[k];
+        i = k;
+    }
+    if (s->heap_n) s->heap[i] = last;
+    return top;
+}
+
+/* ---- Which edges are worth a try ---- */
+
+/* Does the line through a and b clearly part the two neighbours of the corner v (one of a, b)? Then a path along ab that
+ * bends at v could be cut short there: the obstacle does not hold it. */
+static bool cuts(const search *s, const sunder_i_place_at *a, const sunder_i_place_at *b, uint32_t v)
+{
+    const uint32_t *beside = s->corners->beside[v];
+    if (beside[0] == SUNDER_I_NO_PLACE_AT) return false;
+    const double dx = b->ax - a->ax, dy = b->ay - a->ay, e = s->space->ground.error;
+    double side[2], bound = 0;
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_place_at *c = &s->corners->place[beside[k]];
+        const double qx = c->ax - a->ax, qy = c->ay - a->ay;
+        const double size = fabs(dx) + fabs(dy) + fabs(qx) + fabs(qy), f = 2 * e + DBL_EPSILON * size;
+        side[k] = dx * qy - dy * qx;
+        bound = fmax(bound, 2 * f * (size + f) + 8 * DBL_EPSILON * size * size);
+    }
+    return (side[0] > bound && side[1] < -bound) || (side[0] < -bound && side[1] > bound);
+}
+
+static void expand(search *s, uint32_t v)
+{
+    const sunder_i_place_at *a = place_of(s, v), *goal = place_of(s, s->goal);
+    const uint32_t pv = s->corners->node[v];
+    for (uint32_t w = 0; w < s->corners->nodes && !s->no_memory; w++) {
+        if (w == v || w == s->start) continue;
+        const sunder_i_place_at *b = place_of(s, w);
+        const double length = s->at[v].length + distance(a, b);
+        const double key = length + s->haste * distance(b, goal);
+        if (key > s->limit || (s->at[w].known && s->at[w].length < length - s->slack)) continue;
+        const uint32_t pw = s->corners->node[w];
+        if (!sunder_i_corners_connected(s->corners, pv, pw)) continue;
+        if (v != s->start && cuts(s, a, b, pv)) continue;
+        if (w != s->goal && cuts(s, a, b, pw)) continue;
+        push(s, (edge){key, v, w});
+    }
+}
+
+/* ---- Comparing paths ---- */
+
+/* Nodes of the path to v, from the start, into room for all nodes; how many. */
+static size_t path_to(const search *s, uint32_t v, uint32_t *out)
+{
+    size_t n = 1;
+    for (uint32_t u = v; u != s->start; u = s->at[u].before) n++;
+    for (size_t i = n; i-- > 0; v = s->at[v].before) {
+        out[i] = v;
+        if (v == s->start) break;
+    }
+    return n;
+}
+
+/* Takes out the nodes at which a path goes straight on; how many are left. A path turns back nowhere, so collinear is
+ * straight. */
+static size_t straighten(const search *s, uint32_t *path, size_t n)
+{
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++) {
+        while (m >= 2 && sunder_i_place_orient(&s->space->ground, place_of(s, path[m - 2]), place_of(s, path[m - 1]),
+                                               place_of(s, path[i])) == 0)
+            m--;
+        path[m++] = path[i];
+    }
+    return m;
+}
+
+/* 2^bits times the length of a path of nodes, less than two a leg too small. */
+static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t *path, size_t n, unsigned long bits)
+{
+    sunder_i_big sum = sunder_i_big_i64(arena, 0);
+    for (size_t i = 0; i + 1 < n; i++)
+        sum = sunder_i_big_add(arena, sum,
+                               sunder_i_place_distance(arena, place_of(s, path[i]), place_of(s, path[i + 1]), bits));
+    return sum;
+}
+
+/* So that a length that is about `length` has LENGTH_BITS bits, and at least that many behind the point if it is short. */
+static unsigned long bits_for(const sunder_i_lattice *l, double length)
+{
+    int e = 0;
+    frexp(length, &e);
+    const long bits = LENGTH_BITS - (long)e - (long)l->approx_shift;
+    return bits > 64 ? (unsigned long)bits : 64;
+}
+
+static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n, double length)
+{
+    sunder_i_arena *arena = &s->space->ground.lattice->arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const unsigned long bits = bits_for(s->space->ground.lattice, length);
+    const sunder_i_big d = sunder_i_big_sub(arena, total(s, arena, p, m, bits), total(s, arena, q, n, bits));
+    const sunder_i_big noise = sunder_i_big_i64(arena, 4 * (int64_t)(m + n));
+    int c = 0;
+    if (sunder_i_big_cmp(d, noise) > 0) c = 1;
+    if (sunder_i_big_cmp(sunder_i_big_neg(d), noise) > 0) c = -1;
+    if (arena->failed) return 0;
+    sunder_i_arena_release(arena, mark);
+    for (size_t i = 0; c == 0 && i < m && i < n; i++)
+        c = p[i] == q[i] ? 0 : sunder_i_place_cmp(&s->space->ground, place_of(s, p[i]), place_of(s, q[i]));
+    return c ? c : (m > n) - (m < n);
+}
+
+/* Is the path to v and on to w better than the one known to w? */
+static bool improves(search *s, uint32_t v, uint32_t w)
+{
+    const size_t most = (size_t)s->corners->nodes + 1;
+    uint32_t *p = sunder_i_alloc(2 * most, sizeof *p);
+    if (!p) {
+        s->no_memory = true;
+        return false;
+    }
+    size_t m = path_to(s, v, p);
+    size_t n = path_to(s, w, p + most);
+    bool through = false; /* w lies on the way to v: no path */
+    for (size_t i = 0; i < m; i++) through = through || p[i] == w;
+    p[m++] = w;
+    m = straighten(s, p, m);
+    n = straighten(s, p + most, n);
+    const bool better = !through && compare_paths(s, p, m, p + most, n, s->at[w].length) < 0;
+    sunder_i_free(p);
+    return better;
+}
+
+/* ---- The search ---- */
+
+static void take(search *s, edge e)
+{
+    const double length = s->at[e.from].length + distance(place_of(s, e.from), place_of(s, e.to));
+    reached *to = &s->at[e.to];
+    if (to->known && to->length < length - s->slack) return;
+    if ((++s->tried & 255) == 0 && s->options && s->options->progress &&
+        !s->options->progress(0.5, s->options->progress_user))
+        s->cancelled = true;
+    if (to->known) {
+        if (s->haste == 1 && to->before != e.from &&
+            sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL) &&
+            improves(s, e.from, e.to)) {
+            to->before = e.from;
+            if (e.to != s->goal) expand(s, e.to); /* what goes on from there is smaller as well, of equal paths */
+        }
+        return;
+    }
+    if (!sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL)) return;
+    *to = (reached){length, e.from, true};
+    if (e.to != s->goal) expand(s, e.to);
+}
+
+static void run(search *s, double haste, double limit)
+{
+    memset(s->at, 0, s->corners->nodes * sizeof *s->at);
+    s->heap_n = 0;
+    s->haste = haste;
+    s->limit = limit;
+    s->at[s->start] = (reached){0, s->start, true};
+    expand(s, s->start);
+    while (s->heap_n && !s->no_memory && !s->cancelled && !s->space->ground.lattice->arena.failed) {
+        const edge e = pop(s);
+        const reached *goal = &s->at[s->goal];
+        if (goal->known && (haste > 1 || e.key > goal->length + s->slack)) break;
+        take(s, e);
+    }
+}
+
+sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners, const sunder_sum_options *options,
+                              uint32_t **path, size_t *n, sunder_error *err)
+{
+    search s = {.space = space, .corners = corners, .options = options, .start = corners->nodes - 2,
+                .goal = corners->nodes - 1};
+    s.at = sunder_i_calloc(corners->nodes, sizeof *s.at);
+    uint32_t *found = sunder_i_alloc(corners->nodes, sizeof *found);
+    s.no_memory = !s.at || !found;
+    if (!s.no_memory) {
+        run(&s, HASTE, INFINITY);
+        const double some = s.at[s.goal].length;
+        /* What doubles of lengths may be off by: two coordinates a leg, and a rounding each. */
+        s.slack = 1e-12 * some + 64 * space->ground.error;
+        if (s.at[s.goal].known) run(&s, 1, some + s.slack);
+    }
+    sunder_status status = SUNDER_OK;
+    if (s.no_memory || space->ground.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
+        status = sunder_i_no_memory(err);
+    else if (s.cancelled)
+        status = sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+    if (status == SUNDER_OK) {
+        *n = straighten(&s, found, path_to(&s, s.goal, found));
+        for (size_t i = 0; i < *n; i++) found[i] = corners->node[found[i]];
+        *path = found;
+    } else {
+        sunder_i_free(found);
+    }
+    sunder_i_free(s.at);
+    sunder_i_free(s.heap);
+    return status;
+}
+
+double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at *place, const uint32_t *path, size_t n)
+{
+    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_arena arena = {0};
+    double about = 0;
+    for (size_t i = 0; i + 1 < n; i++) about += distance(&place[path[i]], &place[path[i + 1]]);
+    const unsigned long bits = bits_for(l, about);
+    sunder_i_big sum = sunder_i_big_i64(&arena, 0);
+    for (size_t i = 0; i + 1 < n; i++)
+        sum = sunder_i_big_add(&arena, sum, sunder_i_place_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
+    const double length =
+        arena.failed ? (double)NAN : sunder_i_big_ratio(&arena, sum, l->denominator, l->exponent - (long)bits);
+    sunder_i_arena_free(&arena);
+    return length;
+}

@@ -1,0 +1,329 @@
+#include "motion/space.h"
+
+#include "minkowski/boundary.h"
+#include "minkowski/cells.h"
+#include "predicate/predicate.h"
+
+#include <float.h>
+#include <limits.h>
+#include <math.h>
+#include <string.h>
+
+/* The disc that a gap grows the robot by: 64 sides, as the interface says. */
+#define GAP_SEGMENTS 64
+
+typedef struct maker {
+    const sunder_obstacle *obstacle;
+    size_t n;
+    const sunder_shape *robot, *disc; /* disc: NULL without a gap */
+    const sunder_sum_options *options;
+    sunder_i_lattice *lattice;
+    sunder_i_space *out;
+    sunder_i_hulls obstacles, robots, discs;
+} maker;
+
+/* ---- The lattice ---- */
+
+static void join_extent(sunder_i_extent *all, const sunder_i_extent *e)
+{
+    if (!e->any) return;
+    if (!all->any) {
+        *all = *e;
+        return;
+    }
+    for (int k = 0; k < 2; k++) {
+        all->low[k] = fmin(all->low[k], e->low[k]);
+        all->high[k] = fmax(all->high[k], e->high[k]);
+    }
+    if (e->low_bit < all->low_bit) all->low_bit = e->low_bit;
+}
+
+/* Room for what the disc adds, so that sums of two operands are sums of all three. */
+static void grow_extent(sunder_i_extent *e, const sunder_i_extent *by)
+{
+    for (int k = 0; k < 2; k++) {
+        e->low[k] = nextafter(e->low[k] + by->low[k], -INFINITY);
+        e->high[k] = nextafter(e->high[k] + by->high[k], INFINITY);
+    }
+    if (by->low_bit < e->low_bit) e->low_bit = by->low_bit;
+}
+
+static bool clamp(sunder_i_extent *e)
+{
+    bool inside = true;
+    for (int k = 0; k < 2; k++) {
+        inside = inside && isfinite(e->low[k]) && isfinite(e->high[k]);
+        e->low[k] = fmax(fmin(e->low[k], DBL_MAX), -DBL_MAX);
+        e->high[k] = fmax(fmin(e->high[k], DBL_MAX), -DBL_MAX);
+    }
+    return inside;
+}
+
+static void join_denominator(sunder_i_lattice *l, const sunder_shape *shape, long *exponent)
+{
+    if (!shape || !shape->rational) return;
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_big g = sunder_i_big_gcd(m, l->denominator, shape->den);
+    if (m->failed) return;
+    l->denominator = sunder_i_big_mul(m, sunder_i_big_div_floor(m, l->denominator, g), shape->den);
+    if (shape->exponent < *exponent) *exponent = shape->exponent;
+}
+
+/* Doubles taken exactly; shapes that were repaired are rational, and then the lattice has a denominator. */
+static void choose_lattice(maker *m)
+{
+    sunder_i_extent extent[3] = {{0}, {0}, {0}};
+    bool rational = m->robot->rational;
+    for (size_t i = 0; i < m->n; i++) {
+        const sunder_obstacle *o = &m->obstacle[i];
+        if (o->shape) {
+            join_extent(&extent[0], &o->shape->extent);
+            rational = rational || o->shape->rational;
+        }
+        for (size_t k = 0, from = 0; k < o->lines; from = o->line_end[k++])
+            sunder_i_extent_add(&extent[0], o->xy + 2 * from, o->line_end[k] - from);
+    }
+    extent[1] = m->robot->extent;
+    if (m->disc) {
+        extent[2] = m->disc->extent;
+        grow_extent(&extent[1], &extent[2]);
+    }
+    const bool inside = clamp(&extent[1]);
+    double origin[3][2];
+    sunder_i_lattice *l = m->lattice;
+    sunder_i_lattice_init(l, extent, 3, inside && !rational, origin, !inside || rational);
+    if (rational) {
+        long exponent = LONG_MAX;
+        for (int i = 0; i < 3; i++)
+            if (extent[i].any && extent[i].low_bit < exponent) exponent = extent[i].low_bit;
+        for (size_t i = 0; i < m->n; i++) join_denominator(l, m->obstacle[i].shape, &exponent);
+        join_denominator(l, m->robot, &exponent);
+        l->exponent = exponent;
+    }
+    memcpy(m->out->sum->origin[0], origin[0], sizeof origin[0]);
+    for (int k = 0; k < 2; k++) m->out->sum->origin[1][k] = origin[1][k] == 0 ? 0 : -origin[1][k];
+}
+
+static sunder_i_point put_double(sunder_i_lattice *l, const double xy[2], const double origin[2])
+{
+    return (sunder_i_point){sunder_i_lattice_int(l, xy[0], origin[0]), sunder_i_lattice_int(l, xy[1], origin[1])};
+}
+
+static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape, uint32_t v, const double origin[2])
+{
+    if (!shape->rational) return put_double(l, shape->xy + 2 * (size_t)v, origin);
+    sunder_i_arena *m = &l->arena;
+    if (m->failed) return (sunder_i_point){0, 0};
+    const sunder_i_big factor = sunder_i_big_shl(m, sunder_i_big_div_floor(m, l->denominator, shape->den),
+                                                 (unsigned long)(shape->exponent - l->exponent));
+    int64_t at[2];
+    for (size_t k = 0; k < 2; k++)
+        at[k] = sunder_i_lattice_big(l, sunder_i_big_mul(m, shape->num[2 * (size_t)v + k], factor));
+    return (sunder_i_point){at[0], at[1]};
+}
+
+/* ---- Pieces ---- */
+
+static void add_corner(sunder_i_hulls *list, sunder_i_point at, bool edge)
+{
+    list->corner[list->corners] = at;
+    list->edge[list->corners++] = edge;
+}
+
+static void add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], bool reflect,
+                      sunder_i_hulls *list)
+{
+    for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
+        const uint32_t first = k;
+        for (; k < shape->piece_end[i]; k++) {
+            const uint32_t u = shape->piece_vertex[k];
+            const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
+            const sunder_i_point at = put_vertex(l, shape, u, origin);
+            add_corner(list, reflect ? sunder_i_point_neg(l, at) : at, sunder_i_is_boundary(shape, u, v));
+        }
+        list->end[list->n++] = list->corners;
+    }
+}
+
+/* A line of obstacle: its segments, repeated points once; a point alone is a piece of its own. */
+static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const double origin[2], sunder_i_hulls *list)
+{
+    const uint32_t before = list->n;
+    for (size_t i = 0; i + 1 < n; i++) {
+        const double *a = xy + 2 * i, *b = a + 2;
+        if (a[0] == b[0] && a[1] == b[1]) continue;
+        add_corner(list, put_double(l, a, origin), true);
+        add_corner(list, put_double(l, b, origin), true);
+        list->end[list->n++] = list->corners;
+    }
+    if (n == 0 || list->n > before) return;
+    add_corner(list, put_double(l, xy, origin), true);
+    list->end[list->n++] = list->corners;
+}
+
+static size_t piece_corners(const sunder_shape *s) { return s->pieces ? s->piece_end[s->pieces - 1] : 0; }
+
+static bool make_pieces(maker *m)
+{
+    size_t pieces = 0, corners = 0;
+    for (size_t i = 0; i < m->n; i++) {
+        const sunder_obstacle *o = &m->obstacle[i];
+        const size_t points = o->lines ? o->line_end[o->lines - 1] : 0;
+        pieces += (o->shape ? o->shape->pieces : 0) + points;
+        corners += (o->shape ? piece_corners(o->shape) : 0) + 2 * points;
+    }
+    sunder_i_space *out = m->out;
+    out->piece_obstacle = sunder_i_alloc(pieces, sizeof *out->piece_obstacle);
+    if (!out->piece_obstacle || !sunder_i_hulls_init(&m->obstacles, pieces, corners) ||
+        !sunder_i_hulls_init(&m->robots, m->robot->pieces, piece_corners(m->robot)))
+        return false;
+    sunder_i_lattice *l = m->lattice;
+    const double *origin = out->sum->origin[0];
+    for (size_t i = 0; i < m->n; i++) {
+        const sunder_obstacle *o = &m->obstacle[i];
+        uint32_t before = m->obstacles.n;
+        if (o->shape) add_shape(l, o->shape, origin, false, &m->obstacles);
+        for (size_t k = 0, from = 0; k < o->lines; from = o->line_end[k++])
+            add_line(l, o->xy + 2 * from, o->line_end[k] - from, origin, &m->obstacles);
+        for (; before < m->obstacles.n; before++) out->piece_obstacle[before] = (uint32_t)i;
+    }
+    const double robot_origin[2] = {-out->sum->origin[1][0], -out->sum->origin[1][1]};
+    add_shape(l, m->robot, robot_origin, true, &m->robots);
+    if (m->disc) {
+        static const double zero[2] = {0, 0};
+        if (!sunder_i_hulls_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
+        add_shape(l, m->disc, zero, false, &m->discs);
+    }
+    return !l->arena.failed;
+}
+
+static bool make_parts(maker *m, sunder_i_point **direction, uint32_t *classes)
+{
+    sunder_i_hulls *list[3] = {&m->obstacles, &m->robots, &m->discs};
+    if (!sunder_i_hulls_rank(m->lattice, list, m->disc ? 3 : 2, direction, classes)) return false;
+    if (m->disc) {
+        sunder_i_hulls grown;
+        if (!sunder_i_hulls_sum(m->lattice, &m->robots, &m->discs, &grown)) return false;
+        sunder_i_hulls_free(&m->robots);
+        m->robots = grown;
+    }
+    m->out->robot_pieces = m->robots.n;
+    return sunder_i_hulls_sum(m->lattice, &m->obstacles, &m->robots, &m->out->part);
+}
+
+/* Bounds for the doubles that stand for places; on a wide lattice they are scaled so that they stay finite. */
+static void measure(maker *m)
+{
+    sunder_i_lattice *l = m->lattice;
+    const sunder_i_hulls *part = &m->out->part;
+    if (!l->narrow) {
+        unsigned long most = 0;
+        for (uint32_t i = 0; i < part->corners; i++) {
+            const unsigned long x = sunder_i_big_bits(sunder_i_lattice_get(l, part->corner[i].x));
+            const unsigned long y = sunder_i_big_bits(sunder_i_lattice_get(l, part->corner[i].y));
+            most = x > most ? x : y > most ? y : most;
+        }
+        l->approx_shift = most > 500 ? (int)(most - 500) : 0;
+    }
+    double most = 1;
+    for (uint32_t i = 0; i < part->corners; i++)
+        most = fmax(most, fmax(fabs(sunder_i_approx(l, part->corner[i].x)), fabs(sunder_i_approx(l, part->corner[i].y))));
+    /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
+     * (predicate/hpoint.c), a lattice point's within 2^-53. */
+    m->out->ground = (sunder_i_ground){l, 0x1p-48 * most};
+}
+
+/* ---- The outline ---- */
+
+static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_space *out, sunder_error *err)
+{
+    out->stretch = sunder_i_alloc(coverage->pieces, sizeof *out->stretch);
+    if (!out->stretch) return sunder_i_no_memory(err);
+    for (size_t i = 0; i < coverage->pieces; i++)
+        out->stretch[i] =
+            (sunder_i_stretch){coverage->piece[i].from, coverage->piece[i].to, coverage->piece[i].banks};
+    out->stretches = coverage->pieces;
+    return SUNDER_OK;
+}
+
+static sunder_status trace(maker *m, const sunder_i_subsums *subsums, const sunder_i_lines *lines, sunder_error *err)
+{
+    sunder_i_cell_pairs pairing;
+    sunder_i_coverage coverage;
+    sunder_status status = sunder_i_cells_pair(subsums, lines, m->options, &pairing, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_coverage_find(subsums, lines, &pairing, &coverage, err);
+    sunder_i_cell_pairs_free(&pairing);
+    if (status != SUNDER_OK) return status;
+    status = keep_stretches(&coverage, m->out, err);
+    if (status == SUNDER_OK) status = sunder_i_boundary_build(subsums, lines, &coverage, m->out->sum, err);
+    sunder_i_coverage_free(&coverage);
+    return status;
+}
+
+static sunder_status find_outline(maker *m, sunder_i_point *direction, uint32_t classes, sunder_error *err)
+{
+    const sunder_i_hulls *part = &m->out->part;
+    if (part->n == 0) return SUNDER_OK;
+    const sunder_i_subsums subsums = {m->lattice, classes, direction, part->n, part->corners,
+                                      part->end, part->corner, part->rank, part->edge};
+    sunder_i_lines lines;
+    sunder_status status = sunder_i_lines_group(&subsums, &lines, err);
+    if (status != SUNDER_OK) return status;
+    status = trace(m, &subsums, &lines, err);
+    sunder_i_lines_free(&lines);
+    return status;
+}
+
+static sunder_status make(maker *m, sunder_error *err)
+{
+    sunder_i_point *direction = NULL;
+    uint32_t classes;
+    sunder_status status = SUNDER_OK;
+    choose_lattice(m);
+    if (!make_pieces(m) || !make_parts(m, &direction, &classes))
+        status = sunder_i_no_memory(err);
+    else
+        measure(m);
+    if (status == SUNDER_OK) status = find_outline(m, direction, classes, err);
+    sunder_i_free(direction);
+    if (status == SUNDER_OK && (!sunder_i_part_tree_build(m->out) || m->lattice->arena.failed))
+        status = sunder_i_no_memory(err);
+    return status;
+}
+
+sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot, double gap,
+                                   const sunder_sum_options *options, sunder_i_space *out, sunder_error *err)
+{
+    sunder_shape *disc = NULL;
+    memset(out, 0, sizeof *out);
+    if (gap > 0) {
+        const sunder_status status = sunder_shape_disc(gap, GAP_SEGMENTS, false, &disc, err);
+        if (status != SUNDER_OK) return status;
+    }
+    out->sum = sunder_i_calloc(1, sizeof *out->sum);
+    sunder_status status = out->sum ? SUNDER_OK : sunder_i_no_memory(err);
+    if (status == SUNDER_OK) {
+        out->sum->method.algorithm = SUNDER_CONVOLUTION;
+        maker m = {.obstacle = obstacles, .n = n, .robot = robot, .disc = disc, .options = options,
+                   .lattice = &out->sum->lattice, .out = out};
+        status = make(&m, err);
+        sunder_i_hulls_free(&m.obstacles);
+        sunder_i_hulls_free(&m.robots);
+        sunder_i_hulls_free(&m.discs);
+    }
+    sunder_shape_free(disc);
+    if (status != SUNDER_OK) sunder_i_space_free(out);
+    return status;
+}
+
+void sunder_i_space_free(sunder_i_space *space)
+{
+    sunder_sum_free(space->sum);
+    sunder_i_hulls_free(&space->part);
+    sunder_i_free(space->piece_obstacle);
+    sunder_i_free(space->stretch);
+    sunder_i_free(space->tree.part);
+    sunder_i_free(space->tree.box);
+    memset(space, 0, sizeof *space);
+}

@@ -1,0 +1,56 @@
+/* Obstacles and a robot made into free space.
+ *
+ * O = union of O_i + int(-R') over the obstacles O_i, R' the robot, grown by a polygon around a disc if there is a gap.
+ * With convex pieces of all three, O is a union of open convex polygons, the *parts*: that alone is what every question
+ * about collisions is asked of. The outline of O is found by the stages of minkowski/ that find a sum's; its corners and
+ * degenerate holes are where shortest paths can bend. */
+#ifndef SUNDER_I_SPACE_H
+#define SUNDER_I_SPACE_H
+
+#include "motion/hulls.h"
+#include "motion/place.h"
+
+/* A stretch of the outline between two vertices of the sum: a side of O, or of a degenerate segment. */
+typedef struct sunder_i_stretch {
+    uint32_t from, to;
+    uint8_t banks; /* SUNDER_I_LEFT and SUNDER_I_RIGHT where O lies, seen from `from` */
+} sunder_i_stretch;
+
+/* Boxes of parts, in a binary tree without pointers: leaves of LEAF_PARTS along a space-filling curve. */
+typedef struct sunder_i_part_tree {
+    uint32_t *part;      /* [parts] in tree order */
+    size_t parts, leaves; /* leaves is a power of two */
+    double (*box)[4];    /* heap order, 1 .. 2 * leaves - 1; widened by the ground's error */
+} sunder_i_part_tree;
+
+typedef struct sunder_i_space {
+    sunder_sum *sum;           /* the outline of O; owns the lattice */
+    sunder_i_ground ground;
+    sunder_i_hulls part;
+    uint32_t robot_pieces;     /* parts [i * robot_pieces, (i + 1) * robot_pieces) are of obstacle piece i */
+    uint32_t *piece_obstacle;  /* [pieces] whose it is */
+    sunder_i_stretch *stretch;
+    size_t stretches;
+    sunder_i_part_tree tree;
+} sunder_i_space;
+
+sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot, double gap,
+                                   const sunder_sum_options *options, sunder_i_space *out, sunder_error *err);
+void sunder_i_space_free(sunder_i_space *space);
+
+/* ---- tree.c ---- */
+
+/* False if memory is out. */
+bool sunder_i_part_tree_build(sunder_i_space *space);
+/* Does the closed segment pq (p == q: the point) meet no open part? Exact. *part, if not NULL: one that it meets, the
+ * least in number if `least` is asked for. */
+bool sunder_i_space_is_free(const sunder_i_space *space, const sunder_i_place_at *p, const sunder_i_place_at *q,
+                            bool least, uint32_t *part);
+
+/* ---- replay.c ---- */
+
+/* The same question answered along another road, for proofs: the segment as p + t (q - p) is clipped by the sides of
+ * every part, one after the other, in rational numbers. */
+bool sunder_i_replay_is_free(const sunder_i_space *space, const sunder_i_place_at *p, const sunder_i_place_at *q);
+
+#endif

@@ -1,0 +1,167 @@
+/* Which parts a segment meets: a tree of boxes finds the few to ask, and the separating axis theorem asks them exactly.
+ *
+ * A closed segment pq and an open convex polygon are disjoint exactly when a line through a side of the polygon, or
+ * the line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel to
+ * these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
+#include "motion/space.h"
+
+#include "shape/build.h"
+
+#include <float.h>
+#include <math.h>
+
+#define LEAF_PARTS 4
+
+static void part_box(const sunder_i_space *s, uint32_t part, double box[4])
+{
+    const sunder_i_hulls *c = &s->part;
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+    for (uint32_t k = sunder_i_hulls_first(c, part); k < c->end[part]; k++) {
+        const double x = sunder_i_approx(s->ground.lattice, c->corner[k].x);
+        const double y = sunder_i_approx(s->ground.lattice, c->corner[k].y);
+        box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
+        box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
+    }
+    for (int k = 0; k < 2; k++) {
+        box[k] -= s->ground.error;
+        box[k + 2] += s->ground.error;
+    }
+}
+
+static void join_box(double all[4], const double box[4])
+{
+    for (int k = 0; k < 2; k++) {
+        all[k] = fmin(all[k], box[k]);
+        all[k + 2] = fmax(all[k + 2], box[k + 2]);
+    }
+}
+
+static void fill_boxes(const sunder_i_space *s, sunder_i_part_tree *t)
+{
+    for (size_t i = 2 * t->leaves - 1; i >= 1; i--) {
+        double *box = t->box[i];
+        box[0] = box[1] = INFINITY;
+        box[2] = box[3] = -INFINITY;
+        if (i < t->leaves) {
+            join_box(box, t->box[2 * i]);
+            join_box(box, t->box[2 * i + 1]);
+            continue;
+        }
+        for (size_t k = (i - t->leaves) * LEAF_PARTS; k < (i - t->leaves + 1) * LEAF_PARTS && k < t->parts; k++) {
+            double one[4];
+            part_box(s, t->part[k], one);
+            join_box(box, one);
+        }
+    }
+}
+
+bool sunder_i_part_tree_build(sunder_i_space *s)
+{
+    sunder_i_part_tree *t = &s->tree;
+    const size_t n = s->part.n;
+    t->parts = n;
+    t->leaves = 1;
+    while (t->leaves * LEAF_PARTS < n) t->leaves *= 2;
+    t->part = sunder_i_alloc(n, sizeof *t->part);
+    t->box = sunder_i_alloc(2 * t->leaves, sizeof *t->box);
+    double *middle = sunder_i_alloc(2 * n, sizeof *middle);
+    uint32_t *self = sunder_i_alloc(n, sizeof *self);
+    bool ok = t->part && t->box && middle && self;
+    for (uint32_t i = 0; ok && i < n; i++) {
+        double box[4];
+        part_box(s, i, box);
+        middle[2 * i] = box[0] / 2 + box[2] / 2;
+        middle[2 * i + 1] = box[1] / 2 + box[3] / 2;
+        t->part[i] = self[i] = i;
+    }
+    if (ok) {
+        sunder_i_arena arena = {0};
+        sunder_i_curve_sort(middle, self, t->part, n, &arena);
+        ok = !arena.failed;
+        sunder_i_arena_free(&arena);
+    }
+    if (ok) fill_boxes(s, t);
+    sunder_i_free(middle);
+    sunder_i_free(self);
+    return ok;
+}
+
+/* ---- One part ---- */
+
+/* Are both ends on or beyond one side of the part, or all of the part on one side of the line pq? */
+static bool meets(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
+{
+    const sunder_i_hulls *c = &s->part;
+    const uint32_t first = sunder_i_hulls_first(c, part), end = c->end[part];
+    for (uint32_t k = first; k < end; k++) {
+        const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
+        if (sunder_i_side_of(&s->ground, a, b, p) <= 0 && (p == q || sunder_i_side_of(&s->ground, a, b, q) <= 0))
+            return false;
+    }
+    if (p == q) return true;
+    int left = 0, right = 0;
+    for (uint32_t k = first; k < end && !(left && right); k++) {
+        const int side = sunder_i_corner_side(&s->ground, p, q, c->corner[k]);
+        left += side > 0;
+        right += side < 0;
+    }
+    /* p == q in place: the line is none, and the sides have told. */
+    return (left && right) || (!left && !right);
+}
+
+/* ---- The tree ---- */
+
+typedef struct ray {
+    double x, y, dx, dy, low[2], high[2], slack;
+} ray;
+
+static bool box_near(const double box[4], const ray *r)
+{
+    if (box[0] > r->high[0] || box[2] < r->low[0] || box[1] > r->high[1] || box[3] < r->low[1]) return false;
+    /* The line passes it by: all corners clearly on one side. */
+    const double mx = box[0] / 2 + box[2] / 2 - r->x, my = box[1] / 2 + box[3] / 2 - r->y;
+    const double hx = (box[2] - box[0]) / 2, hy = (box[3] - box[1]) / 2;
+    const double off = fabs(r->dx * my - r->dy * mx), reach = fabs(r->dx) * hy + fabs(r->dy) * hx;
+    return off <= reach + r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
+}
+
+static ray ray_of(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q)
+{
+    const double e = s->ground.error;
+    ray r = {p->ax, p->ay, q->ax - p->ax, q->ay - p->ay, {0, 0}, {0, 0}, 0};
+    r.low[0] = fmin(p->ax, q->ax) - e, r.high[0] = fmax(p->ax, q->ax) + e;
+    r.low[1] = fmin(p->ay, q->ay) - e, r.high[1] = fmax(p->ay, q->ay) + e;
+    /* The ends are off by e each, and sums of boxes and ends round: generously. */
+    r.slack = 16 * e + 4 * DBL_EPSILON * (fabs(r.dx) + fabs(r.dy));
+    return r;
+}
+
+bool sunder_i_space_is_free(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q, bool least,
+                            uint32_t *part)
+{
+    const sunder_i_part_tree *t = &s->tree;
+    const ray r = ray_of(s, p, q);
+    size_t stack[64], n = 0; /* depth below 64, one waiting child a level */
+    uint32_t found = UINT32_MAX;
+    if (t->parts) stack[n++] = 1;
+    while (n) {
+        const size_t i = stack[--n];
+        if (!box_near(t->box[i], &r)) continue;
+        if (i < t->leaves) {
+            stack[n++] = 2 * i;
+            stack[n++] = 2 * i + 1;
+            continue;
+        }
+        for (size_t k = (i - t->leaves) * LEAF_PARTS; k < (i - t->leaves + 1) * LEAF_PARTS && k < t->parts; k++) {
+            if (t->part[k] > found || !meets(s, t->part[k], p, q)) continue;
+            found = t->part[k];
+            if (!least) {
+                if (part) *part = found;
+                return false;
+            }
+        }
+    }
+    if (part) *part = found;
+    return found == UINT32_MAX;
+}
