@@ -107,24 +107,49 @@ static bool has_shape(const gis_buffer *buffer, size_t feature)
     return buffer->input.shape[feature] != NULL;
 }
 
-/* Members as they were read, as one shape: each valid by itself, or else all taken as what their rings enclose. */
-static bool join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error)
+/* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of a
+ * whole layer. *deviation is raised to what that moves. */
+static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double *deviation, gis_error *error)
+{
+    sunder_sum *sum;
+    sunder_error why;
+    gis_rounded rounded = {0};
+    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    bool ok = gis_round_sum(sum, &rounded, error);
+    for (size_t p = 0; ok && p < rounded.set.polygons; p++)
+        ok = gis_polygons_append(all, &rounded.set, p ? rounded.set.poly_end[p - 1] : 0, rounded.set.poly_end[p],
+                                 error);
+    *deviation = fmax(*deviation, rounded.deviation);
+    gis_rounded_clear(&rounded);
+    sunder_sum_free(sum);
+    return ok;
+}
+
+static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *rings, gis_polygons *all,
+                          double *deviation, gis_error *error)
+{
+    const sunder_shape *shape = buffer->input.shape[feature];
+    if (sunder_shape_repaired(shape))
+        return append_repaired(shape, all, deviation, error);
+    bool ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error);
+    for (size_t p = 0; ok && p < rings->set.polygons; p++)
+        ok = gis_polygons_append(all, &rings->set, p ? rings->set.poly_end[p - 1] : 0, rings->set.poly_end[p], error);
+    return ok;
+}
+
+/* All members as one shape. */
+static bool join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
+                 gis_error *error)
 {
     gis_rings rings = {0};
     gis_polygons all = {0};
-    bool ok = true, repaired = false;
-    for (size_t i = 0; ok && i < set->members; i++) {
-        size_t feature = set->member[i];
-        if (!has_shape(buffer, feature))
-            continue;
-        repaired = repaired || sunder_shape_repaired(buffer->input.shape[feature]);
-        ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), &rings, error);
-        for (size_t p = 0; ok && p < rings.set.polygons; p++)
-            ok = gis_polygons_append(&all, &rings.set, p ? rings.set.poly_end[p - 1] : 0, rings.set.poly_end[p], error);
-    }
+    bool ok = true;
+    for (size_t i = 0; ok && i < set->members; i++)
+        ok = !has_shape(buffer, set->member[i]) ||
+             append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
-    ok = ok && (gis_polygons_shape(&all, repaired ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
-                gis_fail(error, "%s", why.message));
+    ok = ok && (gis_polygons_shape(&all, SUNDER_STRICT, out, &why) == SUNDER_OK || gis_fail(error, "%s", why.message));
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
     return ok;
@@ -213,10 +238,12 @@ static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder
     if (set->none)
         return true;
     bool align = buffer->options->given[OPT_ALIGN];
-    bool ok = (!buffer->dissolve || join(buffer, set, &joined, error)) &&
+    double before = 0;
+    bool ok = (!buffer->dissolve || join(buffer, set, &joined, &before, error)) &&
               (!align || gis_buffer_turned(buffer, set, &turned, error)) &&
               make_from(buffer, set, joined ? joined : buffer->input.shape[set->member[0]],
                         turned ? turned : buffer->shape, how, error);
+    set->result.deviation += before;
     sunder_shape_free(joined);
     sunder_shape_free(turned);
     return ok;
