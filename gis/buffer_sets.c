@@ -138,9 +138,8 @@ static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *r
     return ok;
 }
 
-/* All members as one shape. */
-static bool join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
-                 gis_error *error)
+bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
+                     gis_error *error)
 {
     gis_rings rings = {0};
     gis_polygons all = {0};
@@ -201,7 +200,7 @@ static long double ring_area(const double *xy, size_t n)
 }
 
 /* Outer rings less holes, whichever way they run. */
-static double area_of(const gis_polygons *set)
+double gis_buffer_area(const gis_polygons *set)
 {
     long double area = 0;
     for (size_t p = 0, r = 0; p < set->polygons; p++)
@@ -225,11 +224,12 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
               (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)
-        set->area = area_of(&set->result.set);
+        set->area = gis_buffer_area(&set->result.set);
     return ok;
 }
 
-static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how, gis_error *error)
+bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                         gis_error *error)
 {
     sunder_shape *joined = NULL, *turned = NULL;
     set->none = true;
@@ -237,10 +237,9 @@ static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder
         set->none = !has_shape(buffer, set->member[i]);
     if (set->none)
         return true;
-    bool align = buffer->options->given[OPT_ALIGN];
     double before = 0;
-    bool ok = (!buffer->dissolve || join(buffer, set, &joined, &before, error)) &&
-              (!align || gis_buffer_turned(buffer, set, &turned, error)) &&
+    bool ok = (!buffer->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
+              (!buffer->options->given[OPT_ALIGN] || gis_buffer_turned(buffer, set, &turned, error)) &&
               make_from(buffer, set, joined ? joined : buffer->input.shape[set->member[0]],
                         turned ? turned : buffer->shape, how, error);
     set->result.deviation += before;
@@ -306,7 +305,8 @@ static void *work(void *argument)
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)
             break;
-        if (!make_set(m->buffer, &m->buffer->set[k], &how, &error))
+        bool blocks = m->buffer->dissolve && m->buffer->options->given[OPT_ALIGN];
+        if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
             fail(m, k, &error);
         tell(m);
     }
@@ -357,13 +357,18 @@ bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *erro
     return true;
 }
 
+void gis_buffer_set_clear(gis_buffer_set *set)
+{
+    gis_rounded_clear(&set->result);
+    free(set->segment);
+    free(set->point);
+    set->segment = set->point = NULL;
+}
+
 void gis_buffer_clear(gis_buffer *buffer)
 {
-    for (size_t k = 0; k < buffer->sets; k++) {
-        gis_rounded_clear(&buffer->set[k].result);
-        free(buffer->set[k].segment);
-        free(buffer->set[k].point);
-    }
+    for (size_t k = 0; k < buffer->sets; k++)
+        gis_buffer_set_clear(&buffer->set[k]);
     free(buffer->set);
     free(buffer->member);
     sunder_shape_free(buffer->shape);
