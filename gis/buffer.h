@@ -37,8 +37,20 @@ typedef struct gis_buffer {
 bool gis_buffer_gather(gis_buffer *buffer, gis_error *error);
 /* Makes the sets, on as many threads as the options ask for, and adds up the figures. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error);
-/* Turns the shape to the main direction of a set of features (--align). */
+/* Makes one set, as it stands. */
+bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                         gis_error *error);
+/* All its members as one shape; *deviation is raised to what that moved. */
+bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
+                     gis_error *error);
+/* The area of polygons without overlaps. */
+double gis_buffer_area(const gis_polygons *set);
+void gis_buffer_set_clear(gis_buffer_set *set);
+/* --align (buffer_align.c): turns the shape to the main direction of a set of features; */
 bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);
+/* makes a dissolved set block by block, the shape turned for each. */
+bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                            gis_error *error);
 void gis_buffer_clear(gis_buffer *buffer);
 
 /* LAYER, and with --degenerate LAYER_degenerate_segments and LAYER_degenerate_points. */

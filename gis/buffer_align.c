@@ -2,10 +2,16 @@
  *
  * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a quarter
  * of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin and its
- * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. */
+ * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact.
+ *
+ * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
+ * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
+ * union's crossings are rounded once more. */
 #include "buffer.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void add_sides(const sunder_shape *shape, double sum[2])
 {
@@ -50,5 +56,183 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
               (gis_polygons_shape(&turned, SUNDER_EVEN_ODD, out, &why) == SUNDER_OK ||
                gis_fail(error, "--shape, turned: %s", why.message));
     gis_polygons_clear(&turned);
+    return ok;
+}
+
+/* ---- Blocks ----------------------------------------------------------------------------------------------- */
+
+typedef struct block_box {
+    double box[4]; /* xmin, ymin, xmax, ymax of the outer ring */
+    size_t polygon;
+} block_box;
+
+typedef struct in_block {
+    size_t block, feature;
+} in_block;
+
+static int by_xmin(const void *a, const void *b)
+{
+    const block_box *p = a, *q = b;
+    return (p->box[0] > q->box[0]) - (p->box[0] < q->box[0]);
+}
+
+static int by_block(const void *a, const void *b)
+{
+    const in_block *p = a, *q = b;
+    int order = (p->block > q->block) - (p->block < q->block);
+    return order ? order : (p->feature > q->feature) - (p->feature < q->feature);
+}
+
+static bool is_within(const gis_polygons *set, size_t polygon, const double *at)
+{
+    bool in = false;
+    for (size_t r = polygon ? set->poly_end[polygon - 1] : 0; r < set->poly_end[polygon]; r++)
+        for (size_t first = r ? set->ring_end[r - 1] : 0, i = first; i < set->ring_end[r]; i++) {
+            const double *a = set->xy + 2 * i, *b = set->xy + 2 * (i + 1 < set->ring_end[r] ? i + 1 : first);
+            if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+                in = !in;
+        }
+    return in;
+}
+
+static block_box *boxes_of(const gis_polygons *set)
+{
+    block_box *boxes = malloc((set->polygons + 1) * sizeof *boxes);
+    for (size_t p = 0; boxes && p < set->polygons; p++) {
+        size_t r = p ? set->poly_end[p - 1] : 0;
+        boxes[p] = (block_box){{INFINITY, INFINITY, -INFINITY, -INFINITY}, p};
+        for (size_t i = r ? set->ring_end[r - 1] : 0; i < set->ring_end[r]; i++)
+            for (int k = 0; k < 2; k++) {
+                boxes[p].box[k] = fmin(boxes[p].box[k], set->xy[2 * i + (size_t)k]);
+                boxes[p].box[k + 2] = fmax(boxes[p].box[k + 2], set->xy[2 * i + (size_t)k]);
+            }
+    }
+    if (boxes)
+        qsort(boxes, set->polygons, sizeof *boxes, by_xmin);
+    return boxes;
+}
+
+/* The polygon of the dilation that a feature lies in: it holds the feature's first corner moved by a point well inside
+ * the shape. */
+static size_t block_of(const gis_polygons *set, const block_box *boxes, const double *at)
+{
+    for (size_t k = 0; k < set->polygons && boxes[k].box[0] <= at[0]; k++) {
+        const double *box = boxes[k].box;
+        if (at[0] <= box[2] && at[1] >= box[1] && at[1] <= box[3] && is_within(set, boxes[k].polygon, at))
+            return boxes[k].polygon;
+    }
+    return set->polygons;
+}
+
+/* Deals the members to blocks; *n of them have polygons. */
+static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, in_block *members, size_t *n,
+                        double *deviation, gis_error *error)
+{
+    sunder_shape *joined;
+    sunder_sum *sum = NULL;
+    sunder_error why;
+    gis_rounded grown = {0};
+    if (!gis_buffer_join(buffer, set, &joined, deviation, error))
+        return false;
+    bool ok = sunder_minkowski_sum(joined, buffer->shape, NULL, &sum, &why) == SUNDER_OK ||
+              gis_fail(error, "%s", why.message);
+    ok = ok && gis_round_sum(sum, &grown, error);
+    block_box *boxes = ok ? boxes_of(&grown.set) : NULL;
+    ok = ok && (boxes || gis_no_memory(error));
+    double inner[2];
+    sunder_shape_anchor(buffer->shape, inner);
+    *n = 0;
+    for (size_t i = 0; ok && i < set->members; i++) {
+        const sunder_shape *shape = buffer->input.shape[set->member[i]];
+        if (!shape || sunder_shape_is_empty(shape))
+            continue;
+        size_t corners;
+        const double *corner = sunder_shape_ring(shape, 0, 0, &corners);
+        const double at[2] = {corner[0] + inner[0], corner[1] + inner[1]};
+        members[(*n)++] = (in_block){block_of(&grown.set, boxes, at), set->member[i]};
+    }
+    qsort(members, *n, sizeof *members, by_block);
+    free(boxes);
+    gis_rounded_clear(&grown);
+    sunder_sum_free(sum);
+    sunder_shape_free(joined);
+    return ok;
+}
+
+/* What a block came to, after what others did. */
+static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_polygons *polygons, gis_error *error)
+{
+    const gis_polygons *from = &block->result.set;
+    for (size_t p = 0; p < from->polygons; p++)
+        if (!gis_polygons_append(polygons, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error))
+            return false;
+    all->result.deviation = fmax(all->result.deviation, block->result.deviation);
+    all->result.repaired += block->result.repaired;
+    double *segment = realloc(all->segment, (4 * (all->segments + block->segments) + 1) * sizeof *segment);
+    if (segment)
+        all->segment = segment;
+    double *point = realloc(all->point, (2 * (all->points + block->points) + 1) * sizeof *point);
+    if (point)
+        all->point = point;
+    if (!segment || !point)
+        return gis_no_memory(error);
+    if (block->segments)
+        memcpy(segment + 4 * all->segments, block->segment, 4 * block->segments * sizeof *segment);
+    if (block->points)
+        memcpy(point + 2 * all->points, block->point, 2 * block->points * sizeof *point);
+    all->segments += block->segments;
+    all->points += block->points;
+    return true;
+}
+
+/* The blocks' polygons, which may overlap, as one set. */
+static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, gis_error *error)
+{
+    sunder_shape *shape;
+    sunder_sum *sum = NULL;
+    sunder_error why;
+    gis_rounded united = {0};
+    if (gis_polygons_shape(polygons, SUNDER_STRICT, &shape, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    bool ok = sunder_shape_union(shape, NULL, &sum, &why) == SUNDER_OK || gis_fail(error, "%s", why.message);
+    ok = ok && gis_round_sum(sum, &united, error);
+    if (ok) {
+        united.deviation += all->result.deviation;
+        united.repaired += all->result.repaired;
+        all->result = united;
+        all->area = gis_buffer_area(&united.set);
+    }
+    sunder_sum_free(sum);
+    sunder_shape_free(shape);
+    return ok;
+}
+
+bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                            gis_error *error)
+{
+    size_t n, *feature = malloc((set->members + 1) * sizeof *feature);
+    in_block *members = malloc((set->members + 1) * sizeof *members);
+    gis_polygons polygons = {0};
+    double before = 0;
+    bool ok = ((feature && members) || gis_no_memory(error)) &&
+              find_blocks(buffer, set, members, &n, &before, error);
+    for (size_t i = 0; ok && i < n; i++)
+        feature[i] = members[i].feature;
+    set->none = ok && n == 0;
+    for (size_t i = 0, end; ok && i < n; i = end) {
+        for (end = i + 1; end < n && members[end].block == members[i].block;)
+            end++;
+        gis_buffer_set block = {.member = feature + i, .members = end - i};
+        ok = gis_buffer_make_set(buffer, &block, NULL, error) && append_block(set, &block, &polygons, error);
+        gis_buffer_set_clear(&block);
+        if (ok && how->progress && !how->progress((double)end / (double)n, how->progress_user))
+            ok = gis_fail(error, "interrupted");
+    }
+    ok = ok && (set->none || unite_blocks(set, &polygons, error));
+    if (ok)
+        set->result.deviation += before;
+    gis_polygons_clear(&polygons);
+    free(members);
+    free(feature);
     return ok;
 }

@@ -107,24 +107,48 @@ static bool has_shape(const gis_buffer *buffer, size_t feature)
     return buffer->input.shape[feature] != NULL;
 }
 
-/* Members as they were read, as one shape: each valid by itself, or else all taken as what their rings enclose. */
-static bool join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error)
+/* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of a
+ * whole layer. *deviation is raised to what that moves. */
+static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double *deviation, gis_error *error)
+{
+    sunder_sum *sum;
+    sunder_error why;
+    gis_rounded rounded = {0};
+    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    bool ok = gis_round_sum(sum, &rounded, error);
+    for (size_t p = 0; ok && p < rounded.set.polygons; p++)
+        ok = gis_polygons_append(all, &rounded.set, p ? rounded.set.poly_end[p - 1] : 0, rounded.set.poly_end[p],
+                                 error);
+    *deviation = fmax(*deviation, rounded.deviation);
+    gis_rounded_clear(&rounded);
+    sunder_sum_free(sum);
+    return ok;
+}
+
+static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *rings, gis_polygons *all,
+                          double *deviation, gis_error *error)
+{
+    const sunder_shape *shape = buffer->input.shape[feature];
+    if (sunder_shape_repaired(shape))
+        return append_repaired(shape, all, deviation, error);
+    bool ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error);
+    for (size_t p = 0; ok && p < rings->set.polygons; p++)
+        ok = gis_polygons_append(all, &rings->set, p ? rings->set.poly_end[p - 1] : 0, rings->set.poly_end[p], error);
+    return ok;
+}
+
+bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
+                     gis_error *error)
 {
     gis_rings rings = {0};
     gis_polygons all = {0};
-    bool ok = true, repaired = false;
-    for (size_t i = 0; ok && i < set->members; i++) {
-        size_t feature = set->member[i];
-        if (!has_shape(buffer, feature))
-            continue;
-        repaired = repaired || sunder_shape_repaired(buffer->input.shape[feature]);
-        ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), &rings, error);
-        for (size_t p = 0; ok && p < rings.set.polygons; p++)
-            ok = gis_polygons_append(&all, &rings.set, p ? rings.set.poly_end[p - 1] : 0, rings.set.poly_end[p], error);
-    }
+    bool ok = true;
+    for (size_t i = 0; ok && i < set->members; i++)
+        ok = !has_shape(buffer, set->member[i]) ||
+             append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
-    ok = ok && (gis_polygons_shape(&all, repaired ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
-                gis_fail(error, "%s", why.message));
+    ok = ok && (gis_polygons_shape(&all, SUNDER_STRICT, out, &why) == SUNDER_OK || gis_fail(error, "%s", why.message));
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
     return ok;
@@ -176,7 +200,7 @@ static long double ring_area(const double *xy, size_t n)
 }
 
 /* Outer rings less holes, whichever way they run. */
-static double area_of(const gis_polygons *set)
+double gis_buffer_area(const gis_polygons *set)
 {
     long double area = 0;
     for (size_t p = 0, r = 0; p < set->polygons; p++)
@@ -200,11 +224,12 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
               (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)
-        set->area = area_of(&set->result.set);
+        set->area = gis_buffer_area(&set->result.set);
     return ok;
 }
 
-static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how, gis_error *error)
+bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                         gis_error *error)
 {
     sunder_shape *joined = NULL, *turned = NULL;
     set->none = true;
@@ -212,11 +237,12 @@ static bool make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder
         set->none = !has_shape(buffer, set->member[i]);
     if (set->none)
         return true;
-    bool align = buffer->options->given[OPT_ALIGN];
-    bool ok = (!buffer->dissolve || join(buffer, set, &joined, error)) &&
-              (!align || gis_buffer_turned(buffer, set, &turned, error)) &&
+    double before = 0;
+    bool ok = (!buffer->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
+              (!buffer->options->given[OPT_ALIGN] || gis_buffer_turned(buffer, set, &turned, error)) &&
               make_from(buffer, set, joined ? joined : buffer->input.shape[set->member[0]],
                         turned ? turned : buffer->shape, how, error);
+    set->result.deviation += before;
     sunder_shape_free(joined);
     sunder_shape_free(turned);
     return ok;
@@ -279,7 +305,8 @@ static void *work(void *argument)
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)
             break;
-        if (!make_set(m->buffer, &m->buffer->set[k], &how, &error))
+        bool blocks = m->buffer->dissolve && m->buffer->options->given[OPT_ALIGN];
+        if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
             fail(m, k, &error);
         tell(m);
     }
@@ -330,13 +357,18 @@ bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *erro
     return true;
 }
 
+void gis_buffer_set_clear(gis_buffer_set *set)
+{
+    gis_rounded_clear(&set->result);
+    free(set->segment);
+    free(set->point);
+    set->segment = set->point = NULL;
+}
+
 void gis_buffer_clear(gis_buffer *buffer)
 {
-    for (size_t k = 0; k < buffer->sets; k++) {
-        gis_rounded_clear(&buffer->set[k].result);
-        free(buffer->set[k].segment);
-        free(buffer->set[k].point);
-    }
+    for (size_t k = 0; k < buffer->sets; k++)
+        gis_buffer_set_clear(&buffer->set[k]);
     free(buffer->set);
     free(buffer->member);
     sunder_shape_free(buffer->shape);

@@ -59,6 +59,7 @@ static bool read_input(buffer_run *run, gis_error *error)
         return false;
     if (sunder_shape_is_empty(buffer->shape))
         return gis_fail_usage(error, "--shape %s has no area", options->text[OPT_SHAPE]);
+    gis_layer_warn_of_crs(&buffer->input);
     if (buffer->input.other > 0)
         gis_say_warning("%s: %zu features are no polygons; they are written without geometry",
                         gis_source_name(buffer->input.source), buffer->input.other);

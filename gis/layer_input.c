@@ -238,7 +238,7 @@ static bool open_source(gis_layer_input *input, gis_error *error)
     return gis_layer_field(input, OPT_ID_FIELD, &input->id_field, error);
 }
 
-static void warn_of_crs(const gis_layer_input *input)
+void gis_layer_warn_of_crs(const gis_layer_input *input)
 {
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < input->n; i++) {
@@ -279,10 +279,7 @@ bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis
     if (!start_reading(options, out, error))
         return false;
     out->as_chords = true;
-    if (!make_shapes(out, error))
-        return false;
-    warn_of_crs(out);
-    return true;
+    return make_shapes(out, error);
 }
 
 bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
@@ -298,7 +295,7 @@ bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_
         bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
         out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
     }
-    warn_of_crs(out);
+    gis_layer_warn_of_crs(out);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
            make_layer(out, error);
 }

@@ -27,6 +27,8 @@ typedef struct gis_layer_input {
 bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error);
 /* The source and the shapes alone, arcs as chords: for commands to which features are not in conflict. */
 bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis_error *error);
+/* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
+void gis_layer_warn_of_crs(const gis_layer_input *input);
 void gis_layer_input_clear(gis_layer_input *input);
 
 /* "layer buildings, FID 12", with the user's own id if there is one. */

@@ -68,7 +68,7 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_DISSOLVE_FIELD] = {OPT_DISSOLVE_FIELD, "--dissolve-field", GIS_TYPE_TEXT, GIS_BUFFER, OWN, "FIELD", NULL,
                             "features of equal values as one set each"},
     [OPT_ALIGN] = {OPT_ALIGN, "--align", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,
-                   "turn the shape to each feature's or set's main direction"},
+                   "turn the shape to each feature's or block's main direction"},
     [OPT_DEGENERATE] = {OPT_DEGENERATE, "--degenerate", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,
                         "layers of degenerate segments and points, too"},
 

@@ -58,8 +58,8 @@ static bool same_vertex(const double *a, const double *b)
 }
 
 /* Appends one ring of the sum; repeated vertices once. A ring that has fallen together is not appended. */
-static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, bool *kept,
-                        gis_error *error)
+static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, double *deviation,
+                        bool *kept, gis_error *error)
 {
     size_t n, first = out->set.vertices;
     sunder_error why;
@@ -67,9 +67,9 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
     if (!gis_polygons_reserve(&out->set, n, error))
         return false;
     double *xy = out->set.xy + 2 * first;
-    if (sunder_sum_vertices(sum, vertex, n, xy, &out->deviation, &why) != SUNDER_OK)
+    if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
-    if (!isfinite(out->deviation))
+    if (!isfinite(*deviation))
         return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
                         "`sunder sum --exact` gives it as JSON");
     size_t m = 0;
@@ -94,13 +94,17 @@ bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
     for (size_t p = 0; ok && p < counts.polygons; p++) {
         size_t first = rounded.set.rings, rings = sunder_sum_rings(sum, p);
         bool kept = true;
+        double deviation = 0;
         for (size_t r = 0; ok && kept && r < rings; r++) {
             bool ring_kept = false;
-            ok = append_ring(sum, p, r, &rounded, &ring_kept, error);
+            ok = append_ring(sum, p, r, &rounded, &deviation, &ring_kept, error);
             if (r == 0)
                 kept = ring_kept; /* without its outer ring, a polygon and its holes are gone */
         }
-        if (ok && kept)
+        rounded.deviation = fmax(rounded.deviation, deviation);
+        if (ok && kept && deviation == 0)
+            ok = gis_polygons_end_polygon(&rounded.set, error); /* the exact polygon itself, which is valid */
+        else if (ok && kept)
             ok = gis_end_valid_polygon(&rounded.set, first, &moved, &rounded.repaired, error);
     }
     rounded.deviation += moved;

@@ -1,6 +1,7 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
 #include "minkowski/boundary.h"
 #include "minkowski/cells.h"
+#include "minkowski/convex.h"
 #include "minkowski/minkowski.h"
 #include "minkowski/subsums.h"
 #include "unions/unions.h"
@@ -53,6 +54,12 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
     memcpy(sum->origin[1], placed.origin_q, sizeof sum->origin[1]);
     memset(&placed.lattice, 0, sizeof placed.lattice);
+    if (sunder_i_are_convex(p, q)) {
+        status = sunder_i_convex_build(sum, p, placed.p, q, placed.q, err);
+        sunder_i_placed_free(&placed);
+        sum->seconds[2] = now() - start;
+        return status;
+    }
     sunder_i_subsums subsums;
     status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
     sunder_i_placed_free(&placed);

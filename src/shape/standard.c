@@ -3,6 +3,8 @@
  * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational
  * directions: the corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least
  * the radius away from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps.
+ * Corners of discs with few segments are multiples of a coarse unit, 2^-26 of the radius or so: sums with map coordinates
+ * then fit the narrow lattice, which is several times as fast, and the disc is off by some 10^-8 more at most.
  * Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is symmetric
  * exactly. */
 #include "shape/shape.h"
@@ -46,14 +48,29 @@ typedef struct disc {
     double *xy;
 } disc;
 
+/* With more segments than this the polygon is so near the circle that the coarse unit would show. */
+static const unsigned coarse_segments = 256;
+static const double coarse_give = 0x1p24; /* in ulps: less would not make up for the rounding */
+
+/* The unit that corners are multiples of; 0: any double. At the ends of the range doubles are left alone. */
+static double unit_of(const disc *d)
+{
+    if (d->n > coarse_segments || d->radius < 0x1p-900 || d->radius > 0x1p900) return 0;
+    int exponent;
+    frexp(d->radius, &exponent);
+    return ldexp(1, exponent - 26);
+}
+
 /* Corners at radius * factor. False if one leaves the range of doubles. */
 static bool make_corners(const disc *d, double factor)
 {
+    const double unit = unit_of(d);
     for (unsigned i = 0; i < d->n; i++) {
         double *p = d->xy + 2 * (size_t)i;
         unit_corner(i, d->n, p);
         for (int k = 0; k < 2; k++) {
             p[k] = d->radius * factor * p[k] + 0.0;
+            if (unit > 0) p[k] = round(p[k] / unit) * unit + 0.0; /* odd: mirror images stay such */
             if (!isfinite(p[k])) return false;
         }
     }
@@ -102,7 +119,8 @@ static bool is_proved(const disc *d, sunder_i_arena *arena)
 static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_error *err)
 {
     const double ideal = d->inside ? 1 : 1 / cos(PI / d->n);
-    for (double ulps = 0; ulps < 0x1p40; ulps = ulps > 0 ? 2 * ulps : 1) {
+    const double first = unit_of(d) > 0 ? coarse_give : 1;
+    for (double ulps = 0; ulps < 0x1p40; ulps = ulps > 0 ? 2 * ulps : first) {
         const double give = ulps * DBL_EPSILON;
         if (!make_corners(d, d->inside ? ideal * (1 - give) : ideal * (1 + give)))
             return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g leaves the range of doubles", d->radius);

@@ -1,0 +1,122 @@
+# shellcheck shell=bash disable=SC1091
+# sunder buffer: the four operations on layers, what is kept of features, dissolving, degenerate parts, figures, refusals.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
+
+layer halls.gpkg halls POLYGON <<'CSV'
+WKT,name,rooms,height
+"POLYGON ((0 0, 4 0, 4 10, 0 10, 0 0))",hall,2,4.5
+"POLYGON ((20 0, 22 0, 22 2, 20 2, 20 0))",hut,1,
+"POLYGON ((40 0, 50 0, 50 3, 60 3, 60 7, 50 7, 50 10, 40 10, 40 0))",ballroom,3,7.25
+,ruin,0,
+CSV
+keys='["command","features","empty","vertices","area","max_deviation","repaired"]'
+
+expect 0 buffer halls.gpkg eroded.gpkg --operation erode --shape square:4 --degenerate --id-field name --stats -
+[ ! -s err ] || fail "stderr is not empty"
+same "$(json 'keys_unsorted' out | tr -d ' \n')" "$keys"
+same "$(jq -c '[.[]]' out)" '["buffer",4,2,4,36,0,0]'
+same "$(geometry eroded.gpkg halls 3)" '  POLYGON ((42 2,48 2,48 8,42 8,42 2))'
+ogrinfo -ro -q eroded.gpkg halls -fid 2 | grep -q '^  POLYGON EMPTY' || fail "eroded: what vanishes is not empty"
+same "$(geometry eroded.gpkg halls 4)" '' "a null geometry"
+same "$(count eroded.gpkg halls_degenerate_segments) $(count eroded.gpkg halls_degenerate_points)" '2 0'
+ogrinfo -ro -q eroded.gpkg halls_degenerate_segments >parts
+says parts 'LINESTRING (2 2,2 8)'
+says parts 'LINESTRING (48 5,58 5)'
+says parts 'id (String) = ballroom'
+says parts 'fid (Integer64) = 3'
+
+# Attributes, types, FIDs and the CRS are those of the input.
+ogrinfo -ro -al -geom=NO halls.gpkg | grep -v -e '^INFO' -e using -e Extent >before.txt
+for operation in dilate open close; do
+    expect 0 buffer halls.gpkg $operation.gpkg --operation $operation --shape square:4
+    ogrinfo -ro -al -geom=NO $operation.gpkg halls | grep -v -e '^INFO' -e using -e Extent >after.txt
+    cmp -s before.txt after.txt || fail "$operation: $(diff before.txt after.txt | head -5)"
+    says out 'halls: 4 features, '
+done
+same "$(geometry open.gpkg halls 1)" '  POLYGON ((0 0,4 0,4 10,0 10,0 0))' "a hall opened by a square that just fits"
+ogrinfo -ro -q open.gpkg halls -fid 2 | grep -q '^  POLYGON EMPTY' || fail "open: what vanishes is not empty"
+same "$(geometry dilate.gpkg halls 2)" '  POLYGON ((18 -2,24 -2,24 4,18 4,18 -2))'
+same "$(geometry close.gpkg halls 3)" "$(geometry halls.gpkg halls 3)" "nothing to close"
+
+# A slot as wide as the shape is filled, and is the degenerate hole of the dilation; one that is wider is not.
+layer slots.gpkg slots POLYGON <<'CSV'
+WKT,a
+"POLYGON ((0 0, 10 0, 10 4, 2 4, 2 6, 10 6, 10 10, 0 10, 0 0))",1
+"POLYGON ((0 0, 10 0, 10 4, 2 4, 2 6.0000000000000009, 10 6.0000000000000009, 10 10, 0 10, 0 0))",2
+CSV
+expect 0 buffer slots.gpkg c.gpkg --operation close --shape square:2
+same "$(geometry c.gpkg slots 1)" '  POLYGON ((0 0,10 0,10 10,0 10,0 0))'
+same "$(geometry c.gpkg slots 2)" "$(geometry slots.gpkg slots 2)"
+expect 0 buffer slots.gpkg d.gpkg --shape square:2 --degenerate
+ogrinfo -ro -q d.gpkg slots_degenerate_segments | grep -q 'LINESTRING (3 5,11 5)' || fail "the slide is missing"
+same "$(count d.gpkg slots_degenerate_segments)" 1
+
+# One set of all; or by a field, in the order in which values come, a null by itself.
+layer rows.gpkg rows POLYGON <<'CSV'
+WKT,street,number
+"POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))",b,1
+"POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))",a,2
+"POLYGON ((3 1, 6 1, 6 3, 3 3, 3 1))",b,3
+"POLYGON ((100 0, 104 0, 104 4, 100 4, 100 0))",,4
+"POLYGON ((110 0, 114 0, 114 4, 110 4, 110 0))",,5
+CSV
+expect 0 buffer rows.gpkg all.gpkg --operation close --shape square:2 --dissolve --stats -
+same "$(count all.gpkg rows)" 1
+ogrinfo -ro -q all.gpkg rows | grep -q 'features (Integer64) = 5' || fail "the number of features is not there"
+ogrinfo -q rows.gpkg -sql "UPDATE rows SET street = NULL WHERE street = ''" >/dev/null
+expect 0 buffer rows.gpkg by.gpkg --shape square:2 --dissolve-field street
+ogrinfo -ro -q -geom=NO by.gpkg rows | grep -e features -e street | sed 's/.*= //' | tr '\n' ' ' >sets
+same "$(cat sets)" '2 b 1 a 1 (null) 1 (null) '
+expect 0 buffer rows.gpkg by.shp --operation open --shape square:3 --dissolve-field number
+same "$(count by.shp by)" 5
+
+# The same for every number of threads, and what comes out is valid.
+text() { ogr2ogr -f CSV /vsistdout/ "$1" "$2" -lco GEOMETRY=AS_WKT; }
+valid() { ogrinfo -ro -q -dialect sqlite -sql "SELECT min(ST_IsValid(geom)) AS v FROM $2 WHERE NOT ST_IsEmpty(geom)" "$1" 2>/dev/null | sed -n 's/.*v (.*) = //p'; }
+for operation in dilate erode open close; do
+    expect 0 buffer "$town" one.gpkg --overwrite -l buildings --operation $operation --shape disc:2:12 --threads 1
+    expect 0 buffer "$town" many.gpkg --overwrite -l buildings --operation $operation --shape disc:2:12 --threads 5 --degenerate
+    text one.gpkg buildings >one.csv
+    text many.gpkg buildings >many.csv
+    [ "$(wc -l <one.csv)" -gt 100 ] && cmp -s one.csv many.csv || fail "$operation differs between threads"
+    expect 0 buffer "$town" set.gpkg --overwrite -l buildings --operation $operation --shape 'POLYGON ((0 0, 5 1, 1 2, 0 6))' --dissolve
+    for file in one set; do
+        case $(valid $file.gpkg buildings) in 0) fail "$operation: GEOS finds $file invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
+    done
+done
+
+# Round buffers lie between those by a polygon inside the disc and by one around it; squares united by GEOS have our area.
+# shellcheck disable=SC2016
+area() { ogrinfo -ro -q -dialect sqlite -sql "$2" "$1" 2>/dev/null | sed -n 's/.*a (Real) = //p'; }
+expect 0 buffer "$town" in.gpkg -l buildings --shape inside-disc:3 --stats in.json
+expect 0 buffer "$town" out.gpkg -l buildings --shape disc:3 --stats out.json
+inside=$(jq .area in.json) outside=$(jq .area out.json)
+round=$(area "$town" 'SELECT sum(ST_Area(ST_Buffer(geom, 3, 200))) AS a FROM buildings')
+if [ -n "$round" ]; then
+    awk -v i="$inside" -v r="$round" -v o="$outside" 'BEGIN { exit !(i < r && r < o && o - i < 0.01 * r) }' ||
+        fail "the round buffers' area $round is not between $inside and $outside"
+    expect 0 buffer "$town" each.gpkg -l buildings --shape square:6
+    expect 0 buffer "$town" united.gpkg -l buildings --shape square:6 --dissolve --stats united.json
+    theirs=$(area each.gpkg 'SELECT ST_Area(ST_Union(geom)) AS a FROM buildings')
+    awk -v a="$theirs" -v b="$(jq .area united.json)" 'BEGIN { d = a - b; exit !(d * d < 1e-18 * a * a) }' ||
+        fail "dissolved: GEOS has $theirs, not $(jq .area united.json)"
+else
+    echo "not asked: GEOS areas, since this GDAL is without SpatiaLite"
+fi
+
+# Lengths in other units, on a layer in metres; refusals.
+expect 0 buffer halls.gpkg feet.gpkg --shape square:1000ft --stats -
+jq -e '.area > 3 * 304 * 304' out >/dev/null || fail "feet: $(cat out)"
+refused 2 '--shape is missing' buffer halls.gpkg n.gpkg
+refused 2 'did you mean square:?' buffer halls.gpkg n.gpkg --shape sqare:4
+refused 2 'expected WKT' buffer halls.gpkg n.gpkg --shape round
+refused 2 'has no area' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
+refused 2 'greater than 0' buffer halls.gpkg n.gpkg --shape square:0
+refused 2 'must be one of dilate|erode|open|close' buffer halls.gpkg n.gpkg --shape square:1 --operation grow
+refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolve --dissolve-field name
+refused 1 'no field nam' buffer halls.gpkg n.gpkg --shape square:1 --dissolve-field nam
+refused 1 'exists' buffer halls.gpkg open.gpkg --shape square:1
+refused 1 'input' buffer halls.gpkg halls.gpkg --shape square:1 --overwrite
+refused 1 'degrees' buffer "$town" n.gpkg -l buildings --input-crs EPSG:4326 --shape square:1
+finish
