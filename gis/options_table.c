@@ -57,8 +57,8 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_TO] = {OPT_TO, "--to", GIS_TYPE_TEXT, GIS_ROUTE, OWN, "X,Y", NULL, "where it is to go"},
     [OPT_FREE_SPACE] = {OPT_FREE_SPACE, "--free-space", GIS_TYPE_FLAG, GIS_ROUTE, OWN, NULL, NULL,
                         "layers of obstacles and free space, too"},
-    [OPT_ALLOW_CONFLICTS] = {OPT_ALLOW_CONFLICTS, "--allow-conflicts", GIS_TYPE_FLAG, GIS_LAYERS, OWN, NULL, NULL,
-                             "exit 0, not 3, where conflicts are left or found"},
+    [OPT_ALLOW_CONFLICTS] = {OPT_ALLOW_CONFLICTS, "--allow-conflicts", GIS_TYPE_FLAG, GIS_LAYERS | GIS_ROUTE, OWN, NULL, NULL,
+                             "exit 0, not 3, where conflicts are left or found, or no route"},
 
     [OPT_INPUT_LAYER] = {OPT_INPUT_LAYER, "--input-layer -l --layer", GIS_TYPE_TEXT, GIS_ALL, GIS_GROUP_INPUT, "NAME",
                          NULL, "layer of the input; needed if several are of a fitting kind"},
