@@ -10,7 +10,7 @@ import subprocess
 import sys
 from fractions import Fraction as F
 
-from route_exact import cross, hull, meets
+from route_exact import collides, exact, rings_of
 
 trouble = 0
 
@@ -21,42 +21,8 @@ def fail(words):
     print("FAILED: " + words)
 
 
-def rings_of(wkt):
-    """The only polygon's rings, without closing vertices."""
-    rings = []
-    for ring in wkt[wkt.index("("):].replace("), (", "),(").split("),("):
-        ring = ring.strip("() \n")
-        points = [tuple(map(float, p.split())) for p in ring.split(",")]
-        rings.append(points[:-1] if points[0] == points[-1] else points)
-    return rings
-
-
 def wkt_of(rings):
     return "POLYGON (%s)" % ", ".join("(%s)" % ", ".join("%r %r" % p for p in r + r[:1]) for r in rings)
-
-
-def exact(points):
-    return [(F(x), F(y)) for x, y in points]
-
-
-def inside(rings, p):
-    """Even-odd, for a point on no edge."""
-    odd = False
-    for ring in rings:
-        for a, b in zip(ring, ring[1:] + ring[:1]):
-            if (a[1] > p[1]) != (b[1] > p[1]) and (cross(a, b, p) > 0) == (b[1] > a[1]):
-                odd = not odd
-    return odd
-
-
-def collides(obstacle, robot, p, q):
-    swept = hull([(x + s[0], y + s[1]) for x, y in robot for s in (p, q)])
-    for ring in obstacle:
-        for a, b in zip(ring, ring[1:] + ring[:1]):
-            if meets(swept, a, b):
-                return True
-    n = len(swept)
-    return inside(obstacle, (sum(x for x, _ in swept) / n, sum(y for _, y in swept) / n))
 
 
 def route(obstacles, robot, start, goal, name):
