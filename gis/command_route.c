@@ -144,7 +144,9 @@ int gis_command_route(const gis_options *options)
     ok = ok && gis_route_input_read(options, &run.input, &error);
     ok = ok && (!options->operand[1] || open_sink(&run, options, &error));
     ok = ok && find(&run, &error) && report(&run, taken, &error);
-    int status = !ok ? gis_say_failure(&error) : run.reason[0] ? GIS_CONFLICTS : GIS_DONE;
+    int status = !ok                                                            ? gis_say_failure(&error)
+                 : run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
+                                                                         : GIS_DONE;
     gis_sink_free(run.sink);
     sunder_route_free(run.route);
     gis_route_input_clear(&run.input);

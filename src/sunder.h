@@ -555,6 +555,7 @@ typedef struct sunder_route sunder_route;
  * out        on success, also where there is no route: see sunder_route_reason().
  * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_ERANGE for a place too
  *            far away to be compared.
+ * Source     [LW79] for the graph, [HNR68] for the search; see src/motion/README.
  * Cost       the outline of the union as of a sum; then A* over the corners, of which only edges that may belong to a
  *            shortest path are looked at. */
 SUNDER_API sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,

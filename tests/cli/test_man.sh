@@ -6,7 +6,7 @@ page=$SUNDER_SOURCE/gis/sunder.1
 
 # "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", a line each.
 sed -n '/^\.SH OPTIONS/,/^\.SH LAYERS/ s/^\.B \(\\-.*\)/\1/p' "$page" | sed 's/\\//g' | sort >page.txt
-for command in separate check sum pair buffer; do
+for command in separate check sum pair buffer route; do
     "$SUNDER" $command --help >help
     # A line each, two blanks or more before the words; or several a line, with commas.
     sed -n '/^Options/,/^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
@@ -15,7 +15,7 @@ for command in separate check sum pair buffer; do
         echo "$option$fallback"
     done <own
     # Commas part options, but not within the brackets that hold other spellings.
-    sed -n '/^Which/,/^P, Q\|^SHAPE\|^Lengths/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
+    sed -n '/^Which/,/^P, Q\|^OBSTACLES\|^SHAPE\|^Lengths/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
         depth = 0; entry = ""
         for (i = 1; i <= length($0); i++) {
             c = substr($0, i, 1)
@@ -28,7 +28,7 @@ cmp -s page.txt help.txt || fail "manual page and --help differ: $(diff page.txt
 [ "$(wc -l <page.txt)" -gt 40 ] || fail "only $(wc -l <page.txt) options were compared"
 
 # Every spelling is known to the parser of every command that lists it.
-for command in separate check sum pair buffer; do
+for command in separate check sum pair buffer route; do
     "$SUNDER" $command --help >help
     for name in $(tr ' ,()' '\n\n\n\n' <help | sed -n 's/^\(-[a-z_][a-z_-]*\|--[a-z-]*\)\(\[=plain\]\)\{0,1\}$/\1/p' | sort -u); do
         case $name in --help | -h) continue ;; esac

@@ -6,7 +6,7 @@ expect 0 --version
 grep -qE '^sunder [0-9]+\.[0-9]+\.[0-9]+$' out || fail "--version says $(cat out)"
 expect 0 --help
 mv out commands
-for command in separate check sum pair buffer; do
+for command in separate check sum pair buffer route; do
     says commands "  $command "
     expect 0 $command --help
     [ ! -s err ] || fail "$command --help writes to stderr"
@@ -28,7 +28,6 @@ done
 for option in --decomposition --order --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
 refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' dissolve a b
-refused 2 'unknown command' route a b
 refused 2 'which command'
 refused 2 'unknown option' --nonsense
 

@@ -1,0 +1,152 @@
+"""Routes through passages that the robot exactly fits; one unit in the last place less, and there is none; one more, and
+there is one again. Paths are replayed here, in rationals and with no decomposition: the interior of the hull of the
+robot (convex) at both ends of a leg meets an obstacle exactly when an edge of it passes through, or it lies inside.
+
+    route_tight.py PROGRAM FAMILIES
+"""
+import json
+import math
+import subprocess
+import sys
+from fractions import Fraction as F
+
+from route_exact import collides, exact, rings_of
+
+trouble = 0
+
+
+def fail(words):
+    global trouble
+    trouble += 1
+    print("FAILED: " + words)
+
+
+def wkt_of(rings):
+    return "POLYGON (%s)" % ", ".join("(%s)" % ", ".join("%r %r" % p for p in r + r[:1]) for r in rings)
+
+
+def route(obstacles, robot, start, goal, name):
+    """(found, path); obstacles and robot are in doubles."""
+    call = [sys.argv[1], "route", "@-", "--robot", wkt_of([robot]), "--exact",
+            "--from=%r,%r" % start, "--to=%r,%r" % goal]
+    text = "MULTIPOLYGON (%s)" % ", ".join(wkt_of(o)[8:] for o in obstacles)
+    done = subprocess.run(call, input=text, capture_output=True, text=True)
+    if done.returncode not in (0, 3):
+        fail("%s: status %d: %s" % (name, done.returncode, done.stderr.strip()))
+        return False, []
+    said = json.loads(done.stdout)
+    if said["found"] != (done.returncode == 0):
+        fail("%s: status %d and found %s" % (name, done.returncode, said["found"]))
+    if not said["found"]:
+        at = goal if "at the goal" in said["reason"] else start if "at the start" in said["reason"] else None
+        if at and any(collides([exact(r) for r in o], exact(robot), exact([at])[0], exact([at])[0]) for o in obstacles):
+            return False, []
+        if "different components of free space" not in said["reason"]:
+            fail("%s: reason %s" % (name, said["reason"]))
+        return False, []
+    path = [tuple(map(F, p)) for p in said["path"]]
+    if path[0] != tuple(map(F, start)) or path[-1] != tuple(map(F, goal)):
+        fail("%s: the path leads elsewhere" % name)
+    body, walls = exact(robot), [[exact(r) for r in o] for o in obstacles]
+    for p, q in zip(path, path[1:]):
+        for o in walls:
+            if collides(o, body, p, q):
+                fail("%s: the leg %s to %s collides" % (name, p, q))
+    return True, path
+
+
+def three_widths(obstacles, robot, start, goal, name):
+    """The robot as it is, and with its highest corners raised and lowered by one unit in the last place."""
+    top = max(y for _, y in robot)
+    for towards, wanted in ((None, True), (math.inf, False), (-math.inf, True)):
+        changed = [(x, y if towards is None or y != top else math.nextafter(y, towards)) for x, y in robot]
+        found, path = route(obstacles, changed, start, goal, "%s, robot towards %s" % (name, towards))
+        if found != wanted:
+            fail("%s, robot towards %s: %s" % (name, towards, "found" if found else "not found"))
+        if towards is None:
+            plain = path
+    return plain
+
+
+def family(size, seed, coordinates):
+    """From outside into the last room of the family `tight`: P is the obstacle, -Q the robot."""
+    name = "tight --size %d --seed %d --coordinates %s" % (size, seed, coordinates)
+    lines = subprocess.run([sys.argv[2]] + name.split(), capture_output=True, text=True, check=True).stdout.splitlines()
+    p, q = rings_of(lines[0]), rings_of(lines[1])
+    robot = [(-x, -y) for x, y in q[0]]
+    # A room as wide as high as it is, on its floor and against its right wall: its corner furthest right but for the walls.
+    xs = sorted({x for x, _ in p[0]})
+    high = max(y for _, y in p[0])
+    low = min(y for _, y in p[0])
+    right = next(x for x in reversed(xs) if sum(v[0] == x and low < v[1] < high for v in p[0]) >= 3)
+    floor = min(y for x, y in p[0] if x == right and y > low)
+    goal = (right - max(x for x, _ in robot), floor - min(y for _, y in robot))
+    start = (xs[0] - 4 * (max(x for x, _ in robot) - min(x for x, _ in robot)), goal[1])
+    if F(goal[0]) + F(max(x for x, _ in robot)) != F(right) or F(goal[1]) + F(min(y for _, y in robot)) != F(floor):
+        return False  # the corner is no double: no question to ask
+    path = three_widths([p], robot, start, goal, name)
+    return len(path) > 2
+
+
+def box(x0, y0, x1, y1):
+    return [[(x0, y0), (x1, y0), (x1, y1), (x0, y1)]]
+
+
+def maze(teeth):
+    """A comb maze: corridors of width 1 up and down between walls of width 2, as wide as the robot: all of the way is one
+    chain of degenerate segments."""
+    height = 10.0
+    walls = [box(-5.0, -5.0, 0.0, height + 5), box(3.0 * teeth - 2, -5.0, 3.0 * teeth + 5, height + 5),
+             box(-1.0, -5.0, 3.0 * teeth, 0.0), box(-1.0, height, 3.0 * teeth, height + 5)]
+    for i in range(teeth - 1):
+        y = (0.0, height - 1) if i % 2 == 0 else (1.0, height)
+        walls.append(box(3.0 * i + 1, y[0], 3.0 * i + 3, y[1]))
+    robot = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    goal = (3.0 * (teeth - 1), height - 1 if teeth % 2 else 0.0)
+    path = three_widths(walls, robot, (0.0, 0.0), goal, "maze of %d teeth" % teeth)
+    total = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) for a, b in zip(path, path[1:]))
+    if total != teeth * (height - 1) + 3 * (teeth - 1) or len(path) != 2 * teeth:
+        fail("maze of %d teeth: %d vertices, length %s" % (teeth, len(path), total))
+
+
+def keyhole():
+    """A key with a bit, pushed along a slot that it exactly fits to its one place at the end; and a hole without a way in,
+    where the key's place is a free point by itself."""
+    key = [(0.0, 0.0), (6.0, 0.0), (6.0, 1.0), (0.0, 2.0)]
+    lock = [[(0.0, -3.0), (20.0, -3.0), (20.0, 5.0), (0.0, 5.0), (0.0, 2.0), (8.0, 2.0), (14.0, 1.0), (14.0, 0.0), (0.0, 0.0)]]
+    path = three_widths([lock], key, (-9.0, 0.0), (8.0, 0.0), "key in a keyhole")
+    if path != [(-9, 0), (8, 0)]:
+        fail("key in a keyhole: %s" % path)
+    lock = [[(-9.0, -9.0), (20.0, -9.0), (20.0, 9.0), (-9.0, 9.0)], key[::-1]]
+    if route([lock], key, (-30.0, 0.0), (0.0, 0.0), "key in a hole")[0]:
+        fail("key in a hole: there is no way in")
+    found, path = route([lock], key, (0.0, 0.0), (0.0, 0.0), "key at rest")
+    if not found or path != [(0, 0)]:
+        fail("key at rest: %s" % path)
+
+
+def touching_holes():
+    """Two rooms of free space that meet in a vertex only: the way goes through it."""
+    lock = [[(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)], [(-6.0, -1.0), (-6.0, 1.0), (1.0, 1.0), (1.0, -1.0)],
+            [(1.0, 1.0), (1.0, 6.0), (6.0, 6.0), (6.0, 1.0)]]
+    robot = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+    if route([lock], robot, (-5.0, -1.0), (5.0, 5.0), "rooms that touch in a corner")[0]:
+        fail("rooms that touch in a corner: the robot does not fit through it")
+    # The room (-6, 1) x (-1, 1) and the room (0, 6) x (0, 6) share a square of side 1, the robot's: one free vertex.
+    rooms = [[(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)],
+             [(-6.0, -1.0), (-6.0, 1.0), (0.0, 1.0), (0.0, 6.0), (6.0, 6.0), (6.0, 0.0), (1.0, 0.0), (1.0, -1.0)]]
+    path = three_widths([rooms], robot, (-5.0, -1.0), (5.0, 5.0), "rooms that overlap in a robot")
+    if path and path != [(-5, -1), (0, 0), (5, 5)]:
+        fail("rooms that overlap in a robot: %s" % path)
+
+
+asked = sum(family(size, seed, coordinates) for size in (12, 30, 60) for seed in (1, 2, 3)
+            for coordinates in ("integer", "map"))
+if asked < 6:
+    fail("only %d mazes of the family were asked" % asked)
+for teeth in (2, 3, 8, 20):
+    maze(teeth)
+keyhole()
+touching_holes()
+print("%d of the family tight" % asked)
+sys.exit(trouble > 0)

@@ -1,0 +1,277 @@
+/* Routes through the interface: arguments, reasons, exact answers, places of any size, numbers on every rung, and memory
+ * that runs out anywhere. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "failing.h"
+#include "sunder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A ring of `n` corners as a shape. */
+static sunder_shape *shape_of(const double *xy, size_t n)
+{
+    const size_t poly_end = 1;
+    sunder_shape *s = NULL;
+    assert_int_equal(sunder_shape_from_rings(xy, &n, &poly_end, 1, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    return s;
+}
+
+static const double wall[] = {2, -9, 4, -9, 4, 3, 2, 3}, robot[] = {-1, -1, 1, -1, 1, 1, -1, 1};
+
+static sunder_place at(double x, double y) { return (sunder_place){{x, y}, {NULL, NULL}}; }
+
+static void expect_path(const sunder_route *r, const char *text)
+{
+    char path[1024] = "";
+    for (size_t i = 0; i < sunder_route_vertices(r); i++) {
+        const char *x, *y;
+        sunder_route_vertex_text(r, i, &x, &y);
+        snprintf(path + strlen(path), sizeof path - strlen(path), "%s%s %s", i ? ", " : "", x, y);
+    }
+    assert_string_equal(path, text);
+}
+
+static sunder_route *find(const sunder_obstacle *o, size_t n, const sunder_shape *r, sunder_place from, sunder_place to)
+{
+    sunder_route *route = NULL;
+    sunder_error err;
+    const sunder_status status = sunder_route_find(o, n, r, &from, &to, NULL, &route, &err);
+    if (status != SUNDER_OK) print_message("%s\n", err.message);
+    assert_int_equal(status, SUNDER_OK);
+    return route;
+}
+
+static void round_a_wall(void **state)
+{
+    sunder_shape *p = shape_of(wall, 4), *q = shape_of(robot, 4);
+    const sunder_obstacle o = {p, NULL, NULL, 0};
+    sunder_route *r = find(&o, 1, q, at(0, 0), at(6, 0));
+    size_t obstacle;
+    assert_int_equal(sunder_route_reason(r, &obstacle), SUNDER_ROUTE_FOUND);
+    assert_true(obstacle == SIZE_MAX && sunder_route_rounded_is_free(r));
+    expect_path(r, "0 0, 1 4, 5 4, 6 0");
+    assert_true(sunder_route_length(r) == 4 + 2 * sqrt(17));
+    double xy[2];
+    sunder_route_vertex(r, 2, xy);
+    assert_true(xy[0] == 5 && xy[1] == 4);
+    sunder_route_free(r);
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+}
+
+/* The obstacles united are the sum of the obstacles and the robot turned by half a turn. */
+static void obstacles_are_a_sum(void **state)
+{
+    static const double bent[] = {0, 0, 9, 0, 9, 2, 2, 2, 2, 6, 9, 6, 9, 8, 0, 8}, key[] = {0, 0, 5, 0, 5, 4, 3, 4, 3, 1, 0, 1};
+    sunder_shape *p = shape_of(bent, 8), *q = shape_of(key, 6), *minus;
+    const sunder_obstacle o = {p, NULL, NULL, 0};
+    sunder_sum *sum;
+    assert_int_equal(sunder_shape_reflect(q, &minus, NULL), SUNDER_OK);
+    assert_int_equal(sunder_minkowski_sum(p, minus, NULL, &sum, NULL), SUNDER_OK);
+    sunder_route *r = find(&o, 1, q, at(-20, 0), at(20, 1));
+    const sunder_sum *united = sunder_route_obstacles(r);
+    sunder_sum_counts a, b;
+    sunder_sum_count(sum, &a);
+    sunder_sum_count(united, &b);
+    assert_memory_equal(&a, &b, sizeof a);
+    assert_true(a.degenerate_segments == 1); /* its hook fits the slot exactly */
+    for (size_t p_i = 0; p_i < a.polygons; p_i++)
+        for (size_t k = 0; k < sunder_sum_rings(sum, p_i); k++) {
+            size_t m, n;
+            const uint32_t *u = sunder_sum_ring(sum, p_i, k, &m), *v = sunder_sum_ring(united, p_i, k, &n);
+            assert_true(m == n);
+            for (size_t i = 0; i < n; i++) {
+                double x[2], y[2];
+                sunder_sum_vertex(sum, u[i], x);
+                sunder_sum_vertex(united, v[i], y);
+                assert_memory_equal(x, y, sizeof x);
+            }
+        }
+    sunder_route_free(r);
+    sunder_sum_free(sum);
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+    sunder_shape_free(minus);
+}
+
+/* A tie between above and below, at coordinates that need big integers, from fractions with long terms. */
+static void every_rung(void **state)
+{
+    static const double scale[] = {1, 0x1p-300, 0x1p300, 1e-9};
+    for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
+        const double s = scale[i];
+        double small[8], far[2] = {1e9, 1e-7}; /* a point that is far away, with digits of its own */
+        for (int k = 0; k < 8; k++) small[k] = s * robot[k];
+        const size_t end = 1;
+        sunder_shape *q = shape_of(small, 4);
+        const sunder_obstacle o[] = {{q, NULL, NULL, 0}, {NULL, far, &end, 1}};
+        sunder_route *r = find(o, s == 1 ? 2 : 1, q, at(-5 * s, 0), at(5 * s, 0));
+        double xy[2];
+        assert_true(sunder_route_vertices(r) == 4);
+        sunder_route_vertex(r, 1, xy);
+        assert_true(xy[0] == -2 * s && xy[1] == -2 * s);
+        assert_true(fabs(sunder_route_length(r) / s - (4 + 2 * sqrt(13))) < 1e-14);
+        sunder_route_free(r);
+        sunder_shape_free(q);
+    }
+    sunder_shape *q = shape_of(robot, 4);
+    const sunder_obstacle o = {q, NULL, NULL, 0};
+    /* A third, written long: outside by less than any double could tell. */
+    const sunder_place from = {{0, 0}, {"-200000000000000000000000000000000000000001/100000000000000000000000000000000000000000", "1/3"}};
+    const sunder_place inside = {{0, 0}, {"-199999999999999999999999999999999999999999/100000000000000000000000000000000000000000", "+1/-3"}};
+    sunder_route *r = find(&o, 1, q, from, at(-9, 3));
+    const char *x, *y;
+    assert_true(sunder_route_vertices(r) == 2);
+    sunder_route_vertex_text(r, 0, &x, &y);
+    assert_string_equal(x, from.text[0]);
+    assert_string_equal(y, "1/3");
+    sunder_route_free(r);
+    r = find(&o, 1, q, at(-9, 3), inside);
+    size_t obstacle;
+    assert_int_equal(sunder_route_reason(r, &obstacle), SUNDER_ROUTE_GOAL_COLLIDES);
+    assert_true(obstacle == 0 && sunder_route_vertices(r) == 0 && sunder_route_length(r) == 0);
+    sunder_route_free(r);
+    sunder_shape_free(q);
+}
+
+/* A repaired shape has rational corners, and the lattice a denominator. */
+static void rational_obstacles(void **state)
+{
+    static const double bow[] = {0, 0, 7, 5, 7, 0, 0, 3}; /* crosses itself */
+    const size_t end = 4, one = 1;
+    sunder_shape *p, *q = shape_of(robot, 4);
+    assert_int_equal(sunder_shape_from_rings(bow, &end, &one, 1, SUNDER_EVEN_ODD, &p, NULL), SUNDER_OK);
+    assert_true(sunder_shape_repaired(p));
+    const sunder_obstacle o = {p, NULL, NULL, 0};
+    sunder_route *r = find(&o, 1, q, at(-3, 2), at(10, 2));
+    assert_true(sunder_route_vertices(r) > 2 && sunder_route_length(r) > 13);
+    sunder_route_free(r);
+    /* At the crossing, where the bow has no breadth, a robot still collides. */
+    r = find(&o, 1, q, at(2.625, 1.875), at(10, 2));
+    assert_int_equal(sunder_route_reason(r, NULL), SUNDER_ROUTE_START_COLLIDES);
+    sunder_route_free(r);
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+}
+
+static void arguments(void **state)
+{
+    sunder_shape *q = shape_of(robot, 4), *none;
+    sunder_route *r = NULL;
+    sunder_error err;
+    const sunder_place good = at(0, 0);
+    const sunder_place bad[] = {at(NAN, 0), at(0, INFINITY), {{0, 0}, {"1/0", NULL}}, {{0, 0}, {"", NULL}},
+                                {{0, 0}, {NULL, "1.5"}}, {{0, 0}, {"1/", NULL}}, {{0, 0}, {"-", NULL}}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        assert_int_equal(sunder_route_find(NULL, 0, q, &bad[i], &good, NULL, &r, &err), SUNDER_EARG);
+        assert_int_equal(sunder_route_find(NULL, 0, q, &good, &bad[i], NULL, &r, &err), SUNDER_EARG);
+    }
+    const double gaps[] = {-1, NAN, INFINITY};
+    for (size_t i = 0; i < 3; i++) {
+        const sunder_route_options options = {.gap = gaps[i]};
+        assert_int_equal(sunder_route_find(NULL, 0, q, &good, &good, &options, &r, &err), SUNDER_EARG);
+    }
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &none, NULL), SUNDER_OK);
+    assert_int_equal(sunder_route_find(NULL, 0, none, &good, &good, NULL, &r, &err), SUNDER_EARG);
+    const double line[] = {0, 0, NAN, 1};
+    const size_t end = 2;
+    const sunder_obstacle o = {NULL, line, &end, 1};
+    assert_int_equal(sunder_route_find(&o, 1, q, &good, &good, NULL, &r, &err), SUNDER_EINVALID);
+    char large[400];
+    memset(large, '9', sizeof large - 1);
+    large[sizeof large - 1] = '\0';
+    const sunder_place away = {{0, 0}, {large, NULL}};
+    assert_int_equal(sunder_route_find(NULL, 0, q, &good, &away, NULL, &r, &err), SUNDER_ERANGE);
+    assert_null(r);
+    r = find(NULL, 0, q, at(1, 2), at(4, 6));
+    assert_true(sunder_route_length(r) == 5);
+    sunder_route_free(r);
+    sunder_route_free(NULL);
+    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_FOUND), "found");
+    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_START_COLLIDES), "start_in_collision");
+    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_GOAL_COLLIDES), "goal_in_collision");
+    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_DISCONNECTED), "disconnected");
+    sunder_shape_free(q);
+    sunder_shape_free(none);
+}
+
+static bool refuse(double fraction, void *user)
+{
+    (void)fraction;
+    ++*(int *)user;
+    return false;
+}
+
+/* Enough corners that the progress is asked for. */
+static void stops(void **state)
+{
+    double xy[2 * 4000];
+    size_t end[2000];
+    uint32_t seed = 1;
+    for (size_t i = 0; i < 2000; i++) {
+        for (int k = 0; k < 2; k++) xy[2 * i + (size_t)k] = (double)((seed = seed * 1664525u + 1013904223u) >> 24) * 2;
+        end[i] = i + 1;
+    }
+    sunder_shape *q = shape_of(robot, 4);
+    const sunder_obstacle o = {NULL, xy, end, 2000};
+    int calls = 0;
+    const sunder_route_options options = {.progress = refuse, .progress_user = &calls};
+    const sunder_place from = at(-9, -9), to = at(600, 600);
+    sunder_route *r = NULL;
+    assert_int_equal(sunder_route_find(&o, 1, q, &from, &to, &options, &r, NULL), SUNDER_ECANCEL);
+    assert_true(r == NULL && calls > 0);
+    sunder_shape_free(q);
+}
+
+typedef struct attempt {
+    sunder_obstacle o[2];
+    const sunder_shape *robot;
+    double gap;
+} attempt;
+
+static bool try_route(void *context)
+{
+    const attempt *a = context;
+    const sunder_place from = at(0, 0), to = {{6, 0}, {NULL, "1/7"}};
+    const sunder_route_options options = {.gap = a->gap};
+    sunder_route *r = NULL;
+    const sunder_status status = sunder_route_find(a->o, 2, a->robot, &from, &to, &options, &r, NULL);
+    assert_true(status == SUNDER_OK || status == SUNDER_ENOMEM);
+    assert_true((status == SUNDER_OK) == (r != NULL));
+    if (r) assert_int_equal(sunder_route_reason(r, NULL), SUNDER_ROUTE_FOUND);
+    sunder_route_free(r);
+    return status == SUNDER_OK;
+}
+
+static void memory_runs_out(void **state)
+{
+    static const double line[] = {2, 5, 4, 5, 4, 9, 3, 12}, fine[] = {2, 5, 0x1p-900, 5, 4, 9, 3, 12};
+    const size_t end[] = {3, 4};
+    sunder_shape *p = shape_of(wall, 4), *q = shape_of(robot, 4);
+    attempt a = {{{p, NULL, NULL, 0}, {NULL, line, end, 2}}, q, 0};
+    assert_true(failing_loop(try_route, &a, false));
+    a.gap = 0.25;
+    assert_true(failing_loop(try_route, &a, false));
+    a.gap = 0;
+    a.o[1].xy = fine; /* big integers */
+    assert_true(failing_loop(try_route, &a, false));
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(round_a_wall), cmocka_unit_test(obstacles_are_a_sum), cmocka_unit_test(every_rung),
+        cmocka_unit_test(rational_obstacles), cmocka_unit_test(arguments), cmocka_unit_test(stops),
+        cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
