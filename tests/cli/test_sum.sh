@@ -59,7 +59,7 @@ expect 0 sum "$frame" square:4 o.gpkg --stats o.json
 same "$(count o.gpkg sum) $(count o.gpkg sum_degenerate_segments) $(count o.gpkg sum_degenerate_points)" '1 0 1'
 same "$(geometry o.gpkg sum_degenerate_points 1)" '  POINT (5 5)'
 same "$(jq -c '.result.max_deviation' o.json)" 0
-expect 0 sum "$frame" disc:1.3 o.gpkg -overwrite -nln obstacle --stats o.json
+expect 0 sum "$frame" "POLYGON ((0.1 0.1, 1.3 0.2, 0.7 1.1))" o.gpkg -overwrite -nln obstacle --stats o.json
 same "$(count o.gpkg obstacle) $(count o.gpkg obstacle_degenerate_points) $(count o.gpkg sum)" '1 0 1'
 jq -e '.result.max_deviation > 0 and .result.max_deviation < 4e-15' o.json >/dev/null || fail "max_deviation: $(jq -c .result o.json)"
 refused 1 'o.gpkg' sum "$frame" square:4 o.gpkg
