@@ -4,6 +4,7 @@
 #include "minkowski/convex.h"
 #include "minkowski/minkowski.h"
 #include "minkowski/subsums.h"
+#include "minkowski/traced.h"
 #include "unions/unions.h"
 
 #include <string.h>
@@ -56,6 +57,16 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     memset(&placed.lattice, 0, sizeof placed.lattice);
     if (sunder_i_are_convex(p, q)) {
         status = sunder_i_convex_build(sum, p, placed.p, q, placed.q, err);
+        sunder_i_placed_free(&placed);
+        sum->seconds[2] = now() - start;
+        return status;
+    }
+    bool traced = false;
+    if (q->pieces == 1)
+        status = sunder_i_traced_build(sum, p, placed.p, q, placed.q, &traced, err);
+    else if (p->pieces == 1)
+        status = sunder_i_traced_build(sum, q, placed.q, p, placed.p, &traced, err);
+    if (status != SUNDER_OK || traced) {
         sunder_i_placed_free(&placed);
         sum->seconds[2] = now() - start;
         return status;
