@@ -13,6 +13,7 @@
 #define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
 #define MANY_SIDES 250
+#define RECENT_BITS_MOST 14 /* 128 KB, which stay in the second-level cache; more hardly finds more */
 
 /* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
  * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
@@ -347,7 +348,10 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
     b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
-    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared;
+    for (b.recent_bits = 6; b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits; b.recent_bits++) {}
+    b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
+    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
+    if (ok) memset(b.recent, 0xff, sizeof *b.recent << b.recent_bits);
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);
@@ -357,6 +361,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     sunder_i_free(b.stamp);
     sunder_i_free(b.single);
     sunder_i_free(b.shared);
+    sunder_i_free(b.recent);
     if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
     return status;
 }

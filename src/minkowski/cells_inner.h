@@ -67,6 +67,8 @@ typedef struct builder {
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
     uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
+    uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
+    int recent_bits;
     bool *shared;     /* [lines] somewhere one subsum stands for several along the line */
     uint32_t cells;   /* stamps given out */
     double done;      /* share of the work, for progress */
