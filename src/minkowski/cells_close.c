@@ -33,6 +33,7 @@ void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
         const run r = b->runs[i];
         if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
         const uint32_t first = run_from(b, r), end = run_end(b, r);
+        if (b->before[first] == b->before[end]) continue;
         if (end - first > 1) {
             const approx_side *s = &b->side[first], *t = &b->side[end - 1];
             const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};

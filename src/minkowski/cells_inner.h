@@ -55,6 +55,7 @@ typedef struct builder {
     const sunder_sum_options *options;
     sunder_i_cell_pairs *out;
     approx_side *side;
+    uint32_t *before; /* [sides + 1] how many candidates there are before each side */
     box *reach;     /* [subsums] bounding boxes, widened by the error */
     double error;   /* bound on the distance error of a start point, see filter_subsum() */
     entry *entries; /* lists of all cells on the stack, one after the other */
@@ -107,6 +108,11 @@ static inline void widen(box *b, double by)
 static inline bool apart(const box *a, const box *b)
 {
     return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
+}
+
+static inline bool within(const box *a, const box *b)
+{
+    return a->low[0] >= b->low[0] && a->high[0] <= b->high[0] && a->low[1] >= b->low[1] && a->high[1] <= b->high[1];
 }
 
 /* The part of a box that the segment's own box covers; false if there is none. */

@@ -1,5 +1,6 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
 #include "minkowski/boundary.h"
+#include "minkowski/buried.h"
 #include "minkowski/cells.h"
 #include "minkowski/convex.h"
 #include "minkowski/minkowski.h"
@@ -75,8 +76,11 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
+    /* Members grown by one convex shape overlap as they stand; else few sides are inside a single subsum. */
+    if ((p->polygons > 1 && q->pieces == 1) || (q->polygons > 1 && p->pieces == 1))
+        status = sunder_i_bury_candidates(&subsums, err);
     sum->seconds[1] = now() - start;
-    status = unite(sum, &subsums, options, err);
+    if (status == SUNDER_OK) status = unite(sum, &subsums, options, err);
     sunder_i_subsums_free(&subsums);
     sum->seconds[2] = now() - start - sum->seconds[1];
     return status;
