@@ -1,9 +1,9 @@
 /* Components: stretches of the outline join the vertices at their ends, since the outline belongs to free space. That
  * gives curves; two curves belong together when they bound one face of free space. From the smallest vertex of each
- * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way there
- * is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come outside.
- * Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can be reached
- * is decided exactly, and reaching a farther one would not be wrong. */
+ * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way
+ * there is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come
+ * outside. Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can
+ * be reached is decided exactly, and reaching a farther one would not be wrong. */
 #include "motion/corners.h"
 
 #include "minkowski/coverage.h"
@@ -66,8 +66,8 @@ static bool is_node(const sunder_i_space *s, const sunder_i_corners *c, uint32_t
 {
     if (d->all == 0) return false; /* a degenerate point: no way leads there */
     if (d->all != 2 || d->degenerate == 1) return true;
-    const int turn = sunder_i_place_orient(&s->ground, &c->place[c->beside[v][0]], &c->place[v],
-                                           &c->place[c->beside[v][1]]);
+    const int turn =
+        sunder_i_place_orient(&s->ground, &c->place[c->beside[v][0]], &c->place[v], &c->place[c->beside[v][1]]);
     return d->degenerate ? turn != 0 : turn > 0;
 }
 
@@ -109,8 +109,8 @@ static sunder_i_place_at meeting(sunder_i_lattice *l, const sunder_i_place_at *v
     }
     /* x = a.x / a.w + (rise dx) / (dy v.w a.w) */
     const sunder_i_big w = sunder_i_big_mul(m, sunder_i_big_mul(m, dy, v->w), a->w);
-    const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, sunder_i_big_mul(m, a->x, dy), v->w),
-                                            sunder_i_big_mul(m, rise, dx));
+    const sunder_i_big x =
+        sunder_i_big_add(m, sunder_i_big_mul(m, sunder_i_big_mul(m, a->x, dy), v->w), sunder_i_big_mul(m, rise, dx));
     const sunder_i_big y = sunder_i_big_mul(m, sunder_i_big_mul(m, v->y, dy), a->w);
     return sunder_i_place_make(l, x, y, w);
 }
@@ -152,7 +152,8 @@ static bool meet_left(const sunder_i_space *s, const sunder_i_place_at *v, const
     return sunder_i_place_cmp_x(g, hit, v) <= 0;
 }
 
-/* Stretches by height: which reach into each of n horizontal strips of the plane, in doubles with room for their error. */
+/* Stretches by height: which reach into each of n horizontal strips of the plane, in doubles with room for their error.
+ */
 typedef struct strips {
     double low, per_unit;
     uint32_t n;
@@ -259,6 +260,16 @@ static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
     return ok;
 }
 
+/* Nodes that no way leads to from the start are none. */
+static void keep_reachable(sunder_i_corners *c)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < c->nodes; i++)
+        if (c->node[i] >= c->vertices || sunder_i_corners_connected(c, c->node[i], c->vertices))
+            c->node[n++] = c->node[i];
+    c->nodes = n;
+}
+
 sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_place_at *start,
                                     const sunder_i_place_at *goal, sunder_i_corners *out, sunder_error *err)
 {
@@ -270,14 +281,18 @@ sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_plac
     out->parent = sunder_i_alloc((size_t)n + 3, sizeof *out->parent);
     bool ok = out->place && out->beside && out->node && out->parent;
     if (ok) {
-        for (uint32_t v = 0; v < n; v++) out->place[v] = sunder_i_place_of_vertex(s->ground.lattice, &s->sum->vertex[v]);
+        for (uint32_t v = 0; v < n; v++)
+            out->place[v] = sunder_i_place_of_vertex(s->ground.lattice, &s->sum->vertex[v]);
         out->place[n] = *start;
         out->place[n + 1] = *goal;
         memset(out->beside, 0xff, ((size_t)n + 2) * sizeof *out->beside);
         ok = !s->ground.lattice->arena.failed && find_nodes(s, out) && find_components(s, out) &&
              !s->ground.lattice->arena.failed;
     }
-    if (ok) return SUNDER_OK;
+    if (ok) {
+        keep_reachable(out);
+        return SUNDER_OK;
+    }
     sunder_i_corners_free(out);
     return sunder_i_no_memory(err);
 }
