@@ -372,5 +372,6 @@ void gis_buffer_clear(gis_buffer *buffer)
     free(buffer->set);
     free(buffer->member);
     sunder_shape_free(buffer->shape);
+    gis_source_close(buffer->shape_source);
     gis_layer_input_clear(&buffer->input);
 }

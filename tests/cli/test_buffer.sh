@@ -105,13 +105,30 @@ else
     echo "not asked: GEOS areas, since this GDAL is without SpatiaLite"
 fi
 
+# A shape from a data source: all polygons of its layer, whatever --where and --bbox select from the input.
+layer stamp.gpkg stamp POLYGON <<'CSV'
+WKT,part
+"POLYGON ((-2 -2, 2 -2, 2 0, -2 0, -2 -2))",1
+"POLYGON ((-2 -1, 2 -1, 2 2, -2 2, -2 -1))",2
+CSV
+expect 0 buffer halls.gpkg stamped.gpkg --shape stamp.gpkg --where 'rooms > 1' --bbox 0,0,70,10 --operation erode --stats -
+same "$(jq -c '[.features,.area]' out)" '[2,36]'
+expect 0 buffer halls.gpkg squared.gpkg --shape square:4 --where 'rooms > 1'
+expect 0 buffer halls.gpkg stamped.gpkg --overwrite --shape stamp.gpkg --where 'rooms > 1'
+same "$(geometry stamped.gpkg halls 3)" "$(geometry squared.gpkg halls 3)"
+ogr2ogr -a_srs EPSG:25833 zone33.gpkg stamp.gpkg
+ogr2ogr -where 'part > 2' none.gpkg stamp.gpkg
+refused 1 'another CRS' buffer halls.gpkg n.gpkg --shape zone33.gpkg
+refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape none.gpkg
+refused 1 'stamp.gpkg is an input' buffer halls.gpkg stamp.gpkg --shape stamp.gpkg --overwrite
+
 # Lengths in other units, on a layer in metres; refusals.
 expect 0 buffer halls.gpkg feet.gpkg --shape square:1000ft --stats -
 jq -e '.area > 3 * 304 * 304' out >/dev/null || fail "feet: $(cat out)"
 refused 2 '--shape is missing' buffer halls.gpkg n.gpkg
 refused 2 'did you mean square:?' buffer halls.gpkg n.gpkg --shape sqare:4
-refused 2 'expected WKT' buffer halls.gpkg n.gpkg --shape round
-refused 2 'has no area' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
+refused 1 'round: no such file' buffer halls.gpkg n.gpkg --shape round
+refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
 refused 2 'greater than 0' buffer halls.gpkg n.gpkg --shape square:0
 refused 2 'must be one of dilate|erode|open|close' buffer halls.gpkg n.gpkg --shape square:1 --operation grow
 refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolve --dissolve-field name
