@@ -14,6 +14,17 @@
 #define FEW_LINES 4
 #define MANY_SIDES 250
 
+/* No split tells apart what lies within the error of the doubles: clusters so small beside their distance would be split
+ * for as long as patience lasts, in both halves each time. Eight errors: sides and corners are off by one each, on
+ * either bank, and parts of candidates are widened by as much. */
+#define BLIND_ERRORS 8
+
+static bool is_blind(const builder *b, const box *c)
+{
+    const double least_side = BLIND_ERRORS * b->error;
+    return c->high[0] - c->low[0] <= least_side && c->high[1] - c->low[1] <= least_side;
+}
+
 /* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
  * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
  * sides run against each other is tried. */
@@ -261,7 +272,7 @@ static void settle_half(builder *b, const cell *parent, const half *h)
     const size_t lines = h->sides > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
     const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
-    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience;
+    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience || is_blind(b, &c.b);
     if (lines > 0 && !leaf) {
         b->entries_n = c.entry_to;
         b->runs_n = c.run_to;
