@@ -86,6 +86,23 @@ for operation in dilate erode open close; do
     done
 done
 
+# Rounding brings polygons of one feature into each other that met in a corner, or were nearer than a unit in the last place.
+layer near.gpkg near MULTIPOLYGON <<'CSV'
+WKT,a
+"MULTIPOLYGON (((0.2 0.5, 0.4 0.5, 0.4 1, 0.2 1, 0.2 0.5)), ((0 0, 0.2 0, 0.2 0.1, 0.1 0.1, 0.1 0.30000000000000004, 0 0.30000000000000004, 0 0)), ((0.7000000000000001 0, 0.9 0, 0.7000000000000001 0.2, 0.7000000000000001 0)), ((0.4 0, 0.6000000000000001 0, 0.6000000000000001 0.4, 0.4 0.4, 0.4 0)))",1
+CSV
+layer far.gpkg far MULTIPOLYGON <<'CSV'
+WKT,a
+"MULTIPOLYGON (((10000000.4 10000000.5, 10000000.5 10000000.5, 10000000.4 10000000.9, 10000000.4 10000000.5)), ((10000000.8 10000000.6, 10000000.9 10000000.6, 10000000.9 10000000.7, 10000000.9 10000000.7, 10000000.9 10000000.8, 10000000.8 10000000.8, 10000000.8 10000000.6)), ((10000000.8 10000000.7, 10000001.1 10000000.7, 10000001.1 10000001.2, 10000000.8 10000001.2, 10000000.8 10000000.7)), ((10000000.1 10000000.6, 10000000.2 10000000.6, 10000000.2 10000001.1, 10000000.1 10000001.1, 10000000.1 10000000.6)))",1
+CSV
+expect 0 buffer near.gpkg near_out.gpkg --stats near.json \
+    --shape 'MULTIPOLYGON (((0 0, 0.1 0, 0 0.1)), ((0.30000000000000004 0, 0.4 0, 0.4 0.1)))'
+expect 0 buffer far.gpkg far_out.gpkg --shape square:0.30000000000000004 --stats far.json
+for each in near far; do
+    jq -e '.repaired > 0 and .max_deviation > 0' $each.json >/dev/null || fail "$each: not repaired: $(cat $each.json)"
+    case $(valid ${each}_out.gpkg $each) in 0) fail "GEOS finds $each invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
+done
+
 # Round buffers lie between those by a polygon inside the disc and by one around it; squares united by GEOS have our area.
 # shellcheck disable=SC2016
 area() { ogrinfo -ro -q -dialect sqlite -sql "$2" "$1" 2>/dev/null | sed -n 's/.*a (Real) = //p'; }
