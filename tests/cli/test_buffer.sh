@@ -71,6 +71,40 @@ same "$(cat sets)" '2 b 1 a 1 (null) 1 (null) '
 expect 0 buffer rows.gpkg by.shp --operation open --shape square:3 --dissolve-field number
 same "$(count by.shp by)" 5
 
+# The field keeps its type; values that print alike are told apart, equal ones are not; its name may be that of a column.
+cat >kinds.json <<'JSON'
+{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"features": 0.3, "day": "2020-01-02", "yes": true, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
+{"type": "Feature", "properties": {"features": 0.30000000000000004, "day": "2020-01-02", "yes": true, "geom": "b", "l": [2]}, "geometry": {"type": "Polygon", "coordinates": [[[5, 0], [6, 0], [6, 1], [5, 0]]]}},
+{"type": "Feature", "properties": {"features": -0.0, "day": "2020-01-03", "yes": false, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[9, 0], [10, 0], [10, 1], [9, 0]]]}},
+{"type": "Feature", "properties": {"features": 0.0, "day": "2020-01-03", "yes": false, "geom": "c", "l": [1]}, "geometry": null}]}
+JSON
+by_field() {
+    expect 0 buffer kinds.json kinds.gpkg --input-crs EPSG:25832 --overwrite --shape square:2 --dissolve-field "$1"
+    ogrinfo -ro -q -geom=NO kinds.gpkg kinds | sed -n 's/^  [a-z_]* (\(.*\)) = \(.*\)/\1 \2/p' | tr '\n' ';'
+}
+same "$(by_field features)" 'Integer64 1;Real 0.3;Integer64 1;Real 0.3;Integer64 2;Real 0;'
+same "$(by_field day)" 'Integer64 2;Date 2020/01/02;Integer64 2;Date 2020/01/03;'
+same "$(by_field yes)" 'Integer64 2;Integer(Boolean) 1;Integer64 2;Integer(Boolean) 0;'
+same "$(by_field geom)" 'Integer64 2;String a;Integer64 1;String b;Integer64 1;String c;'
+refused 1 'type IntegerList' buffer kinds.json n.gpkg --input-crs EPSG:25832 --shape square:2 --dissolve-field l
+
+# What a format cannot hold of the attributes is told, and --strict makes it an error; what is empty or null stays so.
+expect 0 buffer kinds.json kinds.shp --input-crs EPSG:25832 --shape square:2
+says err 'field l: not written'
+refused 1 'field l: not written' buffer kinds.json n.shp --input-crs EPSG:25832 --shape square:2 --strict
+layer odd.gpkg odd GEOMETRY <<'CSV'
+WKT,a
+"POLYGON ((0 0, 1 0, 1 1, 0 0))",1
+"LINESTRING (0 0, 5 5)",2
+CSV
+expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
+says err '1 features are no polygons'
+jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
+expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
+same "$(jq -c '[.features,.empty]' out)" '[4,2]'
+same "$(ogrinfo -ro -q still.gpkg halls | grep -c EMPTY)" 2 "what was empty"
+
 # The same for every number of threads, and what comes out is valid.
 text() { ogr2ogr -f CSV /vsistdout/ "$1" "$2" -lco GEOMETRY=AS_WKT; }
 valid() { ogrinfo -ro -q -dialect sqlite -sql "SELECT min(ST_IsValid(geom)) AS v FROM $2 WHERE NOT ST_IsEmpty(geom)" "$1" 2>/dev/null | sed -n 's/.*v (.*) = //p'; }
