@@ -292,11 +292,13 @@ typedef struct making {
     gis_error error;
 } making;
 
-/* The progress of a single large set comes from inside it. */
+/* The progress of a single large set comes from inside it; of several each can be stopped there. */
 static bool tell_inside(double fraction, void *user)
 {
     making *m = user;
-    return gis_progress_call(fraction, m->progress);
+    if (m->buffer->sets == 1)
+        return gis_progress_call(fraction, m->progress);
+    return !gis_interrupted() && !atomic_load(&m->stop);
 }
 
 static void tell(making *m)
@@ -330,9 +332,7 @@ static void *work(void *argument)
 {
     making *m = argument;
     gis_error error;
-    sunder_sum_options how = {0};
-    if (m->buffer->sets == 1)
-        how = (sunder_sum_options){.progress = tell_inside, .progress_user = m};
+    const sunder_sum_options how = {.progress = tell_inside, .progress_user = m};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)

@@ -103,8 +103,10 @@ static sunder_status erode(work *w, double to, sunder_sum **out, sunder_error *e
 {
     sunder_sum *whole = NULL;
     sunder_status status = SUNDER_OK;
-    begin_stage(w, 0, to);
+    const double united = w->p->polygons > 1 ? 0.2 * to : 0;
+    begin_stage(w, 0, united);
     if (w->p->polygons > 1) status = do_stage(w, UNITE, NULL, true, 0, &whole, err);
+    begin_stage(w, united, to);
     if (status == SUNDER_OK) status = do_stage(w, SHRINK, whole, true, -1, out, err);
     sunder_sum_free(whole);
     return status;
