@@ -2,6 +2,8 @@
 
 #include "minkowski/boundary.h"
 #include "minkowski/cells.h"
+#include "motion/diagonals.h"
+#include "motion/whole.h"
 #include "predicate/predicate.h"
 
 #include <float.h>
@@ -20,6 +22,7 @@ typedef struct maker {
     sunder_i_lattice *lattice;
     sunder_i_space *out;
     sunder_i_hulls obstacles, robots, discs;
+    sunder_i_diagonals diagonals; /* none where they make no difference */
 } maker;
 
 /* ---- The lattice ---- */
@@ -84,6 +87,7 @@ static void choose_lattice(maker *m)
             sunder_i_extent_add(&extent[0], o->xy + 2 * from, o->line_end[k] - from);
     }
     extent[1] = m->robot->extent;
+    extent[1].low_bit -= (int)m->diagonals.bits;
     if (m->disc) {
         extent[2] = m->disc->extent;
         grow_extent(&extent[1], &extent[2]);
@@ -98,6 +102,8 @@ static void choose_lattice(maker *m)
             if (extent[i].any && extent[i].low_bit < exponent) exponent = extent[i].low_bit;
         for (size_t i = 0; i < m->n; i++) join_denominator(l, m->obstacle[i].shape, &exponent);
         join_denominator(l, m->robot, &exponent);
+        if (m->robot->rational && m->robot->exponent - (long)m->diagonals.bits < exponent)
+            exponent = m->robot->exponent - (long)m->diagonals.bits;
         l->exponent = exponent;
     }
     memcpy(m->out->sum->origin[0], origin[0], sizeof origin[0]);
@@ -161,6 +167,22 @@ static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const doub
     list->end[list->n++] = list->corners;
 }
 
+/* The robot turned by half a turn, and what its pieces leave out. */
+static bool add_robot(maker *m)
+{
+    const sunder_shape *robot = m->robot;
+    const sunder_i_diagonals *diagonals = &m->diagonals;
+    const double origin[2] = {-m->out->sum->origin[1][0], -m->out->sum->origin[1][1]};
+    add_shape(m->lattice, robot, origin, true, &m->robots);
+    if (diagonals->n == 0) return true;
+    sunder_i_point *at = sunder_i_alloc(robot->vertices, sizeof *at);
+    for (uint32_t v = 0; at && v < robot->vertices; v++)
+        at[v] = sunder_i_point_neg(m->lattice, put_vertex(m->lattice, robot, v, origin));
+    if (at) sunder_i_diagonals_add(diagonals, m->lattice, at, &m->robots);
+    sunder_i_free(at);
+    return at != NULL;
+}
+
 static size_t piece_corners(const sunder_shape *s) { return s->pieces ? s->piece_end[s->pieces - 1] : 0; }
 
 static bool make_pieces(maker *m)
@@ -175,7 +197,8 @@ static bool make_pieces(maker *m)
     sunder_i_space *out = m->out;
     out->piece_obstacle = sunder_i_alloc(pieces, sizeof *out->piece_obstacle);
     if (!out->piece_obstacle || !sunder_i_hulls_init(&m->obstacles, pieces, corners) ||
-        !sunder_i_hulls_init(&m->robots, m->robot->pieces, piece_corners(m->robot)))
+        !sunder_i_hulls_init(&m->robots, m->robot->pieces + m->diagonals.n,
+                             piece_corners(m->robot) + 4 * m->diagonals.n))
         return false;
     sunder_i_lattice *l = m->lattice;
     const double *origin = out->sum->origin[0];
@@ -187,8 +210,7 @@ static bool make_pieces(maker *m)
             add_line(l, o->xy + 2 * from, o->line_end[k] - from, origin, &m->obstacles);
         for (; before < m->obstacles.n; before++) out->piece_obstacle[before] = (uint32_t)i;
     }
-    const double robot_origin[2] = {-out->sum->origin[1][0], -out->sum->origin[1][1]};
-    add_shape(l, m->robot, robot_origin, true, &m->robots);
+    if (!add_robot(m)) return false;
     if (m->disc) {
         static const double zero[2] = {0, 0};
         if (!sunder_i_hulls_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
@@ -227,7 +249,8 @@ static void measure(maker *m)
     }
     double most = 1;
     for (uint32_t i = 0; i < part->corners; i++)
-        most = fmax(most, fmax(fabs(sunder_i_approx(l, part->corner[i].x)), fabs(sunder_i_approx(l, part->corner[i].y))));
+        most =
+            fmax(most, fmax(fabs(sunder_i_approx(l, part->corner[i].x)), fabs(sunder_i_approx(l, part->corner[i].y))));
     /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
      * (predicate/hpoint.c), a lattice point's within 2^-53. */
     m->out->ground = (sunder_i_ground){l, 0x1p-48 * most};
@@ -240,8 +263,7 @@ static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_
     out->stretch = sunder_i_alloc(coverage->pieces, sizeof *out->stretch);
     if (!out->stretch) return sunder_i_no_memory(err);
     for (size_t i = 0; i < coverage->pieces; i++)
-        out->stretch[i] =
-            (sunder_i_stretch){coverage->piece[i].from, coverage->piece[i].to, coverage->piece[i].banks};
+        out->stretch[i] = (sunder_i_stretch){coverage->piece[i].from, coverage->piece[i].to, coverage->piece[i].banks};
     out->stretches = coverage->pieces;
     return SUNDER_OK;
 }
@@ -265,8 +287,8 @@ static sunder_status find_outline(maker *m, sunder_i_point *direction, uint32_t 
 {
     const sunder_i_hulls *part = &m->out->part;
     if (part->n == 0) return SUNDER_OK;
-    const sunder_i_subsums subsums = {m->lattice, classes, direction, part->n, part->corners,
-                                      part->end, part->corner, part->rank, part->edge};
+    const sunder_i_subsums subsums = {m->lattice, classes,      direction,  part->n,   part->corners,
+                                      part->end,  part->corner, part->rank, part->edge};
     sunder_i_lines lines;
     sunder_status status = sunder_i_lines_group(&subsums, &lines, err);
     if (status != SUNDER_OK) return status;
@@ -292,6 +314,33 @@ static sunder_status make(maker *m, sunder_error *err)
     return status;
 }
 
+static sunder_status build(maker *m, sunder_error *err)
+{
+    m->out->sum = sunder_i_calloc(1, sizeof *m->out->sum);
+    if (!m->out->sum) return sunder_i_no_memory(err);
+    m->out->sum->method.algorithm = SUNDER_CONVOLUTION;
+    m->lattice = &m->out->sum->lattice;
+    const sunder_status status = make(m, err);
+    sunder_i_hulls_free(&m->obstacles);
+    sunder_i_hulls_free(&m->robots);
+    sunder_i_hulls_free(&m->discs);
+    return status;
+}
+
+/* What the interiors of the robot's pieces leave out of its own makes a difference to obstacles without area, unless a
+ * disc covers it. */
+static sunder_status build_with_lines(maker *m, sunder_error *err)
+{
+    sunder_shape *whole;
+    sunder_status status = sunder_i_whole(m->robot, &whole, err);
+    if (status != SUNDER_OK) return status;
+    if (whole) m->robot = whole;
+    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_no_memory(err);
+    sunder_i_diagonals_free(&m->diagonals);
+    sunder_shape_free(whole);
+    return status;
+}
+
 sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot, double gap,
                                    const sunder_sum_options *options, sunder_i_space *out, sunder_error *err)
 {
@@ -301,17 +350,10 @@ sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, c
         const sunder_status status = sunder_shape_disc(gap, GAP_SEGMENTS, false, &disc, err);
         if (status != SUNDER_OK) return status;
     }
-    out->sum = sunder_i_calloc(1, sizeof *out->sum);
-    sunder_status status = out->sum ? SUNDER_OK : sunder_i_no_memory(err);
-    if (status == SUNDER_OK) {
-        out->sum->method.algorithm = SUNDER_CONVOLUTION;
-        maker m = {.obstacle = obstacles, .n = n, .robot = robot, .disc = disc, .options = options,
-                   .lattice = &out->sum->lattice, .out = out};
-        status = make(&m, err);
-        sunder_i_hulls_free(&m.obstacles);
-        sunder_i_hulls_free(&m.robots);
-        sunder_i_hulls_free(&m.discs);
-    }
+    maker m = {.obstacle = obstacles, .n = n, .robot = robot, .disc = disc, .options = options, .out = out};
+    bool lines = false;
+    for (size_t i = 0; i < n && !lines; i++) lines = obstacles[i].lines > 0;
+    const sunder_status status = lines && !disc ? build_with_lines(&m, err) : build(&m, err);
     sunder_shape_free(disc);
     if (status != SUNDER_OK) sunder_i_space_free(out);
     return status;
