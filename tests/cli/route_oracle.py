@@ -224,6 +224,7 @@ def coordinate(v):
 
 def one_scene(program, rng, number):
     size = rng.choice([4, 6, 8])
+    robot_wkt = None
     if number % 40 == 39:
         robot, obstacles = town(rng)
         size = 36
@@ -250,8 +251,7 @@ def one_scene(program, rng, number):
         body, piece = rng.choice(robot), rng.choice(obstacles)
         r, s, o = rng.choice(body), rng.choice(rng.choice(robot)), rng.choice(piece)
         start = (o[0] - F(r[0] + s[0]) / 2, o[1] - F(r[1] + s[1]) / 2)
-    if number % 4 < 2:
-        robot_wkt = members(robot)
+    robot_wkt = robot_wkt or members(robot)
     call = [program, "route", wkt_of(obstacles), "--robot", robot_wkt, "--exact", "--quiet",
             "--from=" + ",".join(map(coordinate, start)), "--to=" + ",".join(map(coordinate, goal))]
     done = subprocess.run(call, capture_output=True, text=True)

@@ -306,7 +306,7 @@ static void memory_runs_out(void **state)
     sunder_shape *m;
     assert_int_equal(sunder_shape_from_rings(members, rings, polygons, 2, SUNDER_STRICT, &m, NULL), SUNDER_OK);
     a.robot = m;
-    a.o[1].xy = line;
+    a.o[1] = (sunder_obstacle){NULL, line, end, 2};
     assert_true(failing_loop(try_route, &a, false));
     sunder_shape_free(m);
     sunder_shape_free(p);
