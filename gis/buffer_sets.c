@@ -250,6 +250,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
+              (!buffer->options->given[OPT_ALIGN] || gis_buffer_straighten(&set->result, error)) &&
               (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)
