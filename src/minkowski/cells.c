@@ -14,9 +14,9 @@
 #define FEW_LINES 4
 #define MANY_SIDES 250
 
-/* No split tells apart what lies within the error of the doubles: clusters so small beside their distance would be split
- * for as long as patience lasts, in both halves each time. Eight errors: sides and corners are off by one each, on
- * either bank, and parts of candidates are widened by as much. */
+/* No split tells apart what lies within the error of the doubles: clusters so small beside their distance would be
+ * split for as long as patience lasts, in both halves each time. Eight errors: sides and corners are off by one each,
+ * on either bank, and parts of candidates are widened by as much. */
 #define BLIND_ERRORS 8
 
 static bool is_blind(const builder *b, const box *c)
