@@ -148,7 +148,7 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
                         in_block *members, size_t *n, double *deviation, gis_error *error)
 {
     part first = {how, 0, 0.2};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first, .threads = how->threads};
     sunder_shape *joined;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -211,7 +211,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
                          gis_error *error)
 {
     part last = {how, 0.8, 1};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last, .threads = how->threads};
     sunder_shape *shape;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -249,7 +249,7 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
             end++;
         gis_buffer_set block = {.member = feature + i, .members = end - i};
         part middle = {how, 0.2 + 0.6 * (double)i / (double)n, 0.2 + 0.6 * (double)end / (double)n};
-        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle};
+        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle, .threads = how->threads};
         ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
         gis_buffer_set_clear(&block);
     }

@@ -135,10 +135,7 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
             }
             if (is_convex(l, quad)) break;
         }
-        for (int k = 0; k < 4; k++) {
-            list->corner[list->corners] = quad[k];
-            list->edge[list->corners++] = false;
-        }
+        for (int k = 0; k < 4; k++) sunder_i_hulls_add_corner(list, quad[k], false);
         list->end[list->n++] = list->corners;
     }
 }

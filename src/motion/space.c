@@ -1,7 +1,6 @@
 #include "motion/space.h"
 
-#include "minkowski/boundary.h"
-#include "minkowski/cells.h"
+#include "minkowski/stages.h"
 #include "motion/diagonals.h"
 #include "motion/whole.h"
 #include "predicate/predicate.h"
@@ -130,25 +129,24 @@ static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape,
 
 /* ---- Pieces ---- */
 
-static void add_corner(sunder_i_hulls *list, sunder_i_point at, bool edge)
+/* All vertices of a shape on the lattice, turned by half a turn if asked; to be freed. NULL if memory is out. */
+static sunder_i_point *put_vertices(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2],
+                                    bool reflect)
 {
-    list->corner[list->corners] = at;
-    list->edge[list->corners++] = edge;
+    sunder_i_point *at = sunder_i_alloc(shape->vertices, sizeof *at);
+    for (uint32_t v = 0; at && v < shape->vertices; v++) {
+        at[v] = put_vertex(l, shape, v, origin);
+        if (reflect) at[v] = sunder_i_point_neg(l, at[v]);
+    }
+    return at;
 }
 
-static void add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], bool reflect,
-                      sunder_i_hulls *list)
+static bool add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], sunder_i_hulls *list)
 {
-    for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
-        const uint32_t first = k;
-        for (; k < shape->piece_end[i]; k++) {
-            const uint32_t u = shape->piece_vertex[k];
-            const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
-            const sunder_i_point at = put_vertex(l, shape, u, origin);
-            add_corner(list, reflect ? sunder_i_point_neg(l, at) : at, sunder_i_is_boundary(shape, u, v));
-        }
-        list->end[list->n++] = list->corners;
-    }
+    sunder_i_point *at = put_vertices(l, shape, origin, false);
+    if (at) sunder_i_hulls_add_shape(list, shape, at);
+    sunder_i_free(at);
+    return at != NULL;
 }
 
 /* A line of obstacle: its segments, repeated points once; a point alone is a piece of its own. */
@@ -158,29 +156,25 @@ static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const doub
     for (size_t i = 0; i + 1 < n; i++) {
         const double *a = xy + 2 * i, *b = a + 2;
         if (a[0] == b[0] && a[1] == b[1]) continue;
-        add_corner(list, put_double(l, a, origin), true);
-        add_corner(list, put_double(l, b, origin), true);
+        sunder_i_hulls_add_corner(list, put_double(l, a, origin), true);
+        sunder_i_hulls_add_corner(list, put_double(l, b, origin), true);
         list->end[list->n++] = list->corners;
     }
     if (n == 0 || list->n > before) return;
-    add_corner(list, put_double(l, xy, origin), true);
+    sunder_i_hulls_add_corner(list, put_double(l, xy, origin), true);
     list->end[list->n++] = list->corners;
 }
 
 /* The robot turned by half a turn, and what its pieces leave out. */
 static bool add_robot(maker *m)
 {
-    const sunder_shape *robot = m->robot;
-    const sunder_i_diagonals *diagonals = &m->diagonals;
     const double origin[2] = {-m->out->sum->origin[1][0], -m->out->sum->origin[1][1]};
-    add_shape(m->lattice, robot, origin, true, &m->robots);
-    if (diagonals->n == 0) return true;
-    sunder_i_point *at = sunder_i_alloc(robot->vertices, sizeof *at);
-    for (uint32_t v = 0; at && v < robot->vertices; v++)
-        at[v] = sunder_i_point_neg(m->lattice, put_vertex(m->lattice, robot, v, origin));
-    if (at) sunder_i_diagonals_add(diagonals, m->lattice, at, &m->robots);
+    sunder_i_point *at = put_vertices(m->lattice, m->robot, origin, true);
+    if (!at) return false;
+    sunder_i_hulls_add_shape(&m->robots, m->robot, at);
+    sunder_i_diagonals_add(&m->diagonals, m->lattice, at, &m->robots);
     sunder_i_free(at);
-    return at != NULL;
+    return true;
 }
 
 static size_t piece_corners(const sunder_shape *s) { return s->pieces ? s->piece_end[s->pieces - 1] : 0; }
@@ -205,7 +199,7 @@ static bool make_pieces(maker *m)
     for (size_t i = 0; i < m->n; i++) {
         const sunder_obstacle *o = &m->obstacle[i];
         uint32_t before = m->obstacles.n;
-        if (o->shape) add_shape(l, o->shape, origin, false, &m->obstacles);
+        if (o->shape && !add_shape(l, o->shape, origin, &m->obstacles)) return false;
         for (size_t k = 0, from = 0; k < o->lines; from = o->line_end[k++])
             add_line(l, o->xy + 2 * from, o->line_end[k] - from, origin, &m->obstacles);
         for (; before < m->obstacles.n; before++) out->piece_obstacle[before] = (uint32_t)i;
@@ -214,7 +208,7 @@ static bool make_pieces(maker *m)
     if (m->disc) {
         static const double zero[2] = {0, 0};
         if (!sunder_i_hulls_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
-        add_shape(l, m->disc, zero, false, &m->discs);
+        if (!add_shape(l, m->disc, zero, &m->discs)) return false;
     }
     return !l->arena.failed;
 }
@@ -258,8 +252,9 @@ static void measure(maker *m)
 
 /* ---- The outline ---- */
 
-static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_space *out, sunder_error *err)
+static sunder_status keep_stretches(const sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
+    sunder_i_space *out = user;
     out->stretch = sunder_i_alloc(coverage->pieces, sizeof *out->stretch);
     if (!out->stretch) return sunder_i_no_memory(err);
     for (size_t i = 0; i < coverage->pieces; i++)
@@ -268,33 +263,12 @@ static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_
     return SUNDER_OK;
 }
 
-static sunder_status trace(maker *m, const sunder_i_subsums *subsums, const sunder_i_lines *lines, sunder_error *err)
-{
-    sunder_i_cell_pairs pairing;
-    sunder_i_coverage coverage;
-    sunder_status status = sunder_i_cells_pair(subsums, lines, m->options, &pairing, err);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_coverage_find(subsums, lines, &pairing, &coverage, err);
-    sunder_i_cell_pairs_free(&pairing);
-    if (status != SUNDER_OK) return status;
-    status = keep_stretches(&coverage, m->out, err);
-    if (status == SUNDER_OK) status = sunder_i_boundary_build(subsums, lines, &coverage, m->out->sum, err);
-    sunder_i_coverage_free(&coverage);
-    return status;
-}
-
 static sunder_status find_outline(maker *m, sunder_i_point *direction, uint32_t classes, sunder_error *err)
 {
     const sunder_i_hulls *part = &m->out->part;
     if (part->n == 0) return SUNDER_OK;
-    const sunder_i_subsums subsums = {m->lattice, classes,      direction,  part->n,   part->corners,
-                                      part->end,  part->corner, part->rank, part->edge};
-    sunder_i_lines lines;
-    sunder_status status = sunder_i_lines_group(&subsums, &lines, err);
-    if (status != SUNDER_OK) return status;
-    status = trace(m, &subsums, &lines, err);
-    sunder_i_lines_free(&lines);
-    return status;
+    const sunder_i_subsums subsums = sunder_i_hulls_parts(part, m->lattice, direction, classes);
+    return sunder_i_stages_run(&subsums, m->options, keep_stretches, m->out, m->out->sum, err);
 }
 
 static sunder_status make(maker *m, sunder_error *err)
