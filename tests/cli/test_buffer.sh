@@ -100,6 +100,8 @@ WKT,a
 CSV
 expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
 says err '1 features are no polygons'
+ogr2ogr -lco GEOMETRY_NULLABLE=NO full.gpkg odd.gpkg
+expect 0 buffer full.gpkg null.gpkg -l odd --shape square:2 --stats -
 jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
 expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
 same "$(jq -c '[.features,.empty]' out)" '[4,2]'
