@@ -34,6 +34,13 @@ bool gis_shape_is_text(const char *text);
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error);
 
+/* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)", where
+ * long texts are cut at the end of a character. */
+bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error);
+bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
+                      gis_error *error);
+void gis_shape_name(const char *who, const char *text, char *name, size_t size);
+
 /* The standard shape ("disc:") that a text with a misspelt one was probably to be; NULL: none. */
 const char *gis_shape_prefix_meant(const char *text);
 
