@@ -2,7 +2,8 @@
  *
  * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a quarter
  * of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin and its
- * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact.
+ * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that this leaves
+ * in straight walls are taken out in the end (buffer_straight.c).
  *
  * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
  * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
@@ -147,7 +148,7 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
                         in_block *members, size_t *n, double *deviation, gis_error *error)
 {
     part first = {how, 0, 0.2};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first, .threads = how->threads};
     sunder_shape *joined;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -210,7 +211,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
                          gis_error *error)
 {
     part last = {how, 0.8, 1};
-    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last, .threads = how->threads};
     sunder_shape *shape;
     sunder_sum *sum = NULL;
     sunder_error why;
@@ -248,7 +249,7 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
             end++;
         gis_buffer_set block = {.member = feature + i, .members = end - i};
         part middle = {how, 0.2 + 0.6 * (double)i / (double)n, 0.2 + 0.6 * (double)end / (double)n};
-        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle};
+        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle, .threads = how->threads};
         ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
         gis_buffer_set_clear(&block);
     }

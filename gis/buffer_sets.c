@@ -250,6 +250,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
+              (!buffer->options->given[OPT_ALIGN] || gis_buffer_straighten(&set->result, error)) &&
               (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)
@@ -333,8 +334,9 @@ static void *work(void *argument)
 {
     making *m = argument;
     gis_error error;
-    const sunder_sum_options how = {
-        .progress = tell_inside, .progress_user = m, .threads = m->buffer->sets == 1 ? m->threads : 1};
+    const sunder_sum_options how = {.progress = tell_inside,
+                                    .progress_user = m,
+                                    .threads = m->buffer->sets == 1 ? m->threads : 1};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)

@@ -108,7 +108,8 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
         options = offer(layer, options, "GEOMETRY_NAME",
                         free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
-        if (!OGR_GFld_IsNullable(geometry))
+        /* What is made of a geometry may be null where that was not. */
+        if (layer->request.as_source && !OGR_GFld_IsNullable(geometry))
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
     return layer->request.as_source ? offer_texts(layer, options) : options;

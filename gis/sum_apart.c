@@ -110,17 +110,15 @@ static bool grid_make(const gis_polygons *set, grid *g, gis_error *error)
     return true;
 }
 
-/* Numbers that overflow count as near. */
-static bool is_near(const double *a, const double *b, const double *c, double reach)
+static bool is_near(const double *a, const double *b, const double *c, const double reach[2])
 {
-    double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-    double t = length2 > 0 ? ((c[0] - a[0]) * dx + (c[1] - a[1]) * dy) / length2 : 0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    return !(hypot(c[0] - (a[0] + t * dx), c[1] - (a[1] + t * dy)) > reach);
+    double off;
+    gis_place_along(a, b, c, reach, &off);
+    return !(off > 1); /* a number that is none would be near */
 }
 
 static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, const double *a, const double *b,
-                         size_t polygon, double reach, size_t *parent)
+                         size_t polygon, const double reach[2], size_t *parent)
 {
     for (size_t i = cell ? g->cell_end[cell - 1] : 0; i < g->cell_end[cell]; i++) {
         size_t v = g->vertex[i];
@@ -134,10 +132,11 @@ static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, co
 static void join_along(const gis_polygons *set, const grid *g, const double *a, const double *b, size_t polygon,
                        double moved, size_t *parent)
 {
-    double ulp = gis_ulp(fmax(fmax(fabs(a[0]), fabs(a[1])), fmax(fabs(b[0]), fabs(b[1]))));
-    double reach = near_ulps * ulp + 4 * moved;
+    double ulp[2], reach[2];
     size_t pieces = 1;
     for (int k = 0; k < 2; k++) {
+        ulp[k] = gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
+        reach[k] = near_ulps * ulp[k] + 4 * moved;
         size_t from = cell_along(g, k, fmin(a[k], b[k])), to = cell_along(g, k, fmax(a[k], b[k]));
         pieces = to - from + 1 > pieces ? to - from + 1 : pieces;
     }
@@ -147,8 +146,8 @@ static void join_along(const gis_polygons *set, const grid *g, const double *a, 
         size_t low[2], high[2];
         for (int k = 0; k < 2; k++) {
             to[k] = i < pieces ? (1 - t) * a[k] + t * b[k] : b[k];
-            low[k] = cell_along(g, k, fmin(from[k], to[k]) - reach - near_ulps * ulp);
-            high[k] = cell_along(g, k, fmax(from[k], to[k]) + reach + near_ulps * ulp);
+            low[k] = cell_along(g, k, fmin(from[k], to[k]) - reach[k] - near_ulps * ulp[k]);
+            high[k] = cell_along(g, k, fmax(from[k], to[k]) + reach[k] + near_ulps * ulp[k]);
             from[k] = to[k];
         }
         for (size_t row = low[1]; row <= high[1]; row++)

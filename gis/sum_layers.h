@@ -50,6 +50,9 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
 /* Ends the polygon of rings [first, set->rings), which are not one yet, as what it is or, if that is not valid in the sense
  * of OGC, as the polygons that it is mended to; those are counted. */
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error);
+/* Where the point of the segment ab that is next to c lies, from 0 to 1 (beyond: outside), and how far c is *off, where
+ * lengths along each axis are measured in its own unit. */
+double gis_place_along(const double *a, const double *b, const double *c, const double unit[2], double *off);
 /* The unit in the last place of a double. */
 double gis_ulp(double x);
 

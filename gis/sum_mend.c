@@ -17,7 +17,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. At first: both ends of
+/* How near a vertex must be to an edge to bend it, in units in the last place, which are those of x
+ * along x and those of y along y: that makes squares of the cells that round to one vertex, whatever the place. At first: both ends of
  * the edge and the vertex have moved by half a unit in each coordinate, and the sum of the three is below this. Later: what
  * passes through the square that rounds to the vertex, as in snap rounding; where features are no larger than a few units
  * the first would throw everything into everything, again and again. */
@@ -136,25 +137,36 @@ static int by_place(const void *a, const void *b)
     return (ta > tb) - (ta < tb);
 }
 
-/* Is c so near to the inside of the edge ab that rounding may have put it on the wrong side? */
-static bool is_near(const double *a, const double *b, const double *c, double reach, bend *found)
+double gis_place_along(const double *a, const double *b, const double *c, const double unit[2], double *off)
 {
-    double dx = b[0] - a[0], dy = b[1] - a[1], length2 = dx * dx + dy * dy;
-    if (!(length2 > 0) || same_vertex(a, c) || same_vertex(b, c))
+    double dx = (b[0] - a[0]) / unit[0], dy = (b[1] - a[1]) / unit[1], length2 = dx * dx + dy * dy;
+    double cx = (c[0] - a[0]) / unit[0], cy = (c[1] - a[1]) / unit[1];
+    double t = length2 > 0 ? (cx * dx + cy * dy) / length2 : 0;
+    double inside = t < 0 ? 0 : t > 1 ? 1 : t;
+    *off = hypot(cx - inside * dx, cy - inside * dy);
+    return t;
+}
+
+/* Is c so near to the inside of the edge ab that rounding may have put it on the wrong side? */
+static bool is_near(const double *a, const double *b, const double *c, const double reach[2], bend *found)
+{
+    double off, t;
+    if (same_vertex(a, c) || same_vertex(b, c))
         return false;
-    double t = ((c[0] - a[0]) * dx + (c[1] - a[1]) * dy) / length2;
+    t = gis_place_along(a, b, c, reach, &off);
     if (!(t > 0 && t < 1))
         return false;
-    *found = (bend){t, hypot(c[0] - (a[0] + t * dx), c[1] - (a[1] + t * dy)), {c[0], c[1]}};
-    return found->distance <= reach;
+    double x = a[0] + t * (b[0] - a[0]), y = a[1] + t * (b[1] - a[1]);
+    *found = (bend){t, hypot(c[0] - x, c[1] - y), {c[0], c[1]}};
+    return off <= 1;
 }
 
 /* The vertices near to ab, in their order along it; bends has room for all vertices. */
 static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, double ulps, bend *bends)
 {
-    double reach = ulps * gis_ulp(fmax(fmax(fabs(a[0]), fabs(a[1])), fmax(fabs(b[0]), fabs(b[1]))));
-    double xmin = fmin(a[0], b[0]) - reach, xmax = fmax(a[0], b[0]) + reach;
-    double ymin = fmin(a[1], b[1]) - reach, ymax = fmax(a[1], b[1]) + reach;
+    const double reach[2] = {ulps * gis_ulp(fmax(fabs(a[0]), fabs(b[0]))), ulps * gis_ulp(fmax(fabs(a[1]), fabs(b[1])))};
+    double xmin = fmin(a[0], b[0]) - reach[0], xmax = fmax(a[0], b[0]) + reach[0];
+    double ymin = fmin(a[1], b[1]) - reach[1], ymax = fmax(a[1], b[1]) + reach[1];
     size_t low = 0, high = n, found = 0;
     while (low < high) {
         size_t middle = low + (high - low) / 2;

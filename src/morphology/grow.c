@@ -92,9 +92,8 @@ static uint32_t *successors(const sunder_i_figure *f)
 
 /* The sides of the figure, the interior on their left, in a map of their own, marked. Counts of vertices are not kept
  * up (rings may touch there): only faces are ever asked. */
-static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice,
-                                 const sunder_sum_options *options, const share *part, uint64_t *random,
-                                 sunder_i_planar_map **out, sunder_error *err)
+static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice, const sunder_sum_options *options,
+                                 const share *part, uint64_t *random, sunder_i_planar_map **out, sunder_error *err)
 {
     sunder_i_planar_map *map;
     sunder_status status = sunder_i_planar_map_new(lattice, sunder_i_draw(random), &map, err);

@@ -100,6 +100,8 @@ WKT,a
 CSV
 expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
 says err '1 features are no polygons'
+ogr2ogr -lco GEOMETRY_NULLABLE=NO full.gpkg odd.gpkg
+expect 0 buffer full.gpkg null.gpkg -l odd --shape square:2 --stats -
 jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
 expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
 same "$(jq -c '[.features,.empty]' out)" '[4,2]'
@@ -119,6 +121,34 @@ for operation in dilate erode open close; do
         case $(valid $file.gpkg buildings) in 0) fail "$operation: GEOS finds $file invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
     done
 done
+
+# --align: each feature by a shape turned to its walls, of which a rectangle stays one; dissolved, block by block, and what
+# does not hang together has directions of its own.
+layer turned.gpkg turned POLYGON <<'CSV'
+WKT,a
+"POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))",1
+"POLYGON ((100 0, 108 6, 102 14, 94 8, 100 0))",2
+"POLYGON ((112 9, 120 15, 114 23, 106 17, 112 9))",3
+"POLYGON ((200 0, 216 12, 213 16, 201 7, 195 15, 191 12, 200 0))",4
+"POLYGON ((300 0, 310 0, 305 9, 300 0))",5
+CSV
+for operation in dilate erode open close; do
+    expect 0 buffer turned.gpkg $operation.json --lco COORDINATE_PRECISION=9 --operation $operation --shape square:2 --align -q
+done
+ring() { jq -c ".features[$2].geometry.coordinates[0]" "$1"; }
+same "$(ring dilate.json 0)" '[[-1,-1],[11,-1],[11,11],[-1,11],[-1,-1]]'
+same "$(ring dilate.json 1)" '[[92.6,8.2],[99.8,-1.4],[109.4,5.8],[102.2,15.4],[92.6,8.2]]'
+same "$(ring erode.json 1)" '[[95.4,7.8],[100.2,1.4],[106.6,6.2],[101.8,12.6],[95.4,7.8]]'
+same "$(ring open.json 1)" '[[94,8],[100,0],[108,6],[102,14],[94,8]]'
+same "$(ring open.json 3)" '[[191,12],[200,0],[216,12],[213,16],[201,7],[195,15],[191,12]]'
+for feature in 0 1 2 3 4; do
+    same "$(ring close.json $feature)" "$(ogr2ogr -f GeoJSON /vsistdout/ turned.gpkg -lco COORDINATE_PRECISION=9 | jq -c "[.features[$feature].geometry.coordinates[0] | (min as \$m | index([\$m])) as \$i | (.[\$i:-1] + .[:\$i])[] ] | . + [.[0]]")"
+done
+# Two houses of one direction, 5 apart, are merged by a square of 5.1 turned to it, and not by one of 4.9.
+expect 0 buffer turned.gpkg merged.json --lco COORDINATE_PRECISION=9 --operation close --shape square:5.1 --align --dissolve -q
+same "$(jq -c '.features[0].geometry.coordinates | map(.[0] | length - 1)' merged.json)" '[4,4,6,3]'
+expect 0 buffer turned.gpkg apart.json --lco COORDINATE_PRECISION=9 --operation close --shape square:4.9 --align --dissolve -q
+same "$(jq -c '.features[0].geometry.coordinates | map(.[0] | length - 1)' apart.json)" '[4,4,4,6,3]'
 
 # Rounding brings polygons of one feature into each other that met in a corner, or were nearer than a unit in the last place.
 layer near.gpkg near MULTIPOLYGON <<'CSV'
