@@ -196,17 +196,19 @@ static double box_distance(const double box[4], const double p[2])
     return hypot(fmax(0, fmax(box[0] - p[0], p[0] - box[2])), fmax(0, fmax(box[1] - p[1], p[1] - box[3])));
 }
 
-/* Is nothing of the box (from the start) of interest? *gap: how far away it is. */
-static bool is_out(const look *k, const double box[4], double *gap)
+/* Is nothing of the box (from the start) of interest? *gap: how far away it is. For those who cast shadows, besides:
+ * that is too narrow for one. */
+static bool is_out(const look *k, const double box[4], bool casts, double *gap)
 {
     const double near[4] = {box[0] - k->eye[0] - k->error, box[1] - k->eye[1] - k->error, box[2] - k->eye[0] + k->error,
                             box[3] - k->eye[1] + k->error};
     *gap = gap_of(near);
     if (!(box[0] <= box[2])) return true; /* nothing in it */
-    if (box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
+    if (isfinite(k->room) && box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
     const double corner[4][2] = {{near[0], near[1]}, {near[2], near[1]}, {near[2], near[3]}, {near[0], near[3]}};
     sunder_i_span span;
-    return *gap > 0 && sunder_i_span_of(corner, 4, OFF * *gap, false, &span) &&
+    if (*gap <= 0 || !sunder_i_span_of(corner, 4, OFF * *gap, false, &span)) return false;
+    return (casts && !sunder_i_shadow_takes(&k->view->shadow, span)) ||
            sunder_i_shadow_hides(&k->view->shadow, span, *gap);
 }
 
@@ -253,7 +255,7 @@ static void cast_shadows(look *k)
         bool out[2];
         for (size_t side = 0; side < 2; side++) {
             part_box(k, 2 * i + side, box);
-            out[side] = is_out(k, box, &gap[side]);
+            out[side] = is_out(k, box, true, &gap[side]);
         }
         const size_t far = gap[0] > gap[1] ? 0 : 1;
         if (!out[far]) stack[n++] = 2 * i + far;
@@ -282,7 +284,7 @@ static void see_nodes(look *k, uint32_t v)
     while (n) {
         const size_t i = stack[--n];
         double gap;
-        if (is_out(k, view->box[i], &gap)) continue;
+        if (is_out(k, view->box[i], false, &gap)) continue;
         if (i < view->leaves) {
             stack[n++] = 2 * i + 1;
             stack[n++] = 2 * i;
