@@ -253,6 +253,7 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
 typedef struct making {
     gis_buffer *buffer;
     gis_progress *progress; /* told by whoever holds the lock */
+    unsigned threads;       /* for a single set */
     atomic_size_t next;
     atomic_bool stop;
     pthread_mutex_t lock; /* of what follows */
@@ -300,7 +301,7 @@ static void *work(void *argument)
     gis_error error;
     sunder_sum_options how = {0};
     if (m->buffer->sets == 1)
-        how = (sunder_sum_options){.progress = tell_inside, .progress_user = m};
+        how = (sunder_sum_options){.progress = tell_inside, .progress_user = m, .threads = m->threads};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)
@@ -317,8 +318,7 @@ static size_t thread_count(const gis_buffer *buffer)
 {
     double asked = buffer->options->given[OPT_THREADS] ? buffer->options->number[OPT_THREADS] : 0;
     long there = sysconf(_SC_NPROCESSORS_ONLN);
-    size_t n = asked > 0 ? (size_t)fmin(asked, 4096) : there > 0 ? (size_t)there : 1;
-    return n < buffer->sets ? n : buffer->sets;
+    return asked > 0 ? (size_t)fmin(asked, 4096) : there > 0 ? (size_t)there : 1;
 }
 
 static void add_up(gis_buffer *buffer)
@@ -336,8 +336,8 @@ static void add_up(gis_buffer *buffer)
 /* This thread works, too: where no other can be started it does everything. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error)
 {
-    making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets};
-    size_t threads = thread_count(buffer), started = 0;
+    size_t asked = thread_count(buffer), threads = asked < buffer->sets ? asked : buffer->sets, started = 0;
+    making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets, .threads = (unsigned)asked};
     pthread_t *thread = calloc(threads + 1, sizeof *thread);
     if (!thread)
         return gis_no_memory(error);

@@ -192,6 +192,7 @@ typedef struct sunder_sum_options {
     sunder_order order;
     uint64_t seed; /* of the random order, and of what is drawn besides */
     bool keep_map; /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
+    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. The result is the same */
 } sunder_sum_options;
 
 typedef struct sunder_sum_counts {
@@ -271,7 +272,7 @@ SUNDER_API const char *sunder_operation_string(sunder_operation operation);
 /* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
  *
  * p, b  not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
- * opts  progress and seed; the dilation takes all of them. NULL for defaults.
+ * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL for defaults.
  * out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior. Segments and
  *       points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts without
  *       area; an opening has none.

@@ -3,6 +3,7 @@
 #ifndef SUNDER_I_DISPLACEMENT_H
 #define SUNDER_I_DISPLACEMENT_H
 
+#include "number/parallel.h"
 #include "separation/separation.h"
 
 #include <pthread.h>
@@ -48,15 +49,6 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
     return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
 }
-
-/* ---- Independent work, in parallel ------------------------------------------------------------------------------ */
-
-/* Does items [begin, end). Results go where the index says, so that the order of work cannot show. */
-typedef sunder_status (*sunder_i_work)(void *context, size_t begin, size_t end, sunder_error *err);
-
-/* Runs work over [0, n) in pieces of `grain` on that many threads. The error of the first failing piece is returned. */
-sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder_i_work work, void *context,
-                                sunder_error *err);
 
 /* ---- Broad phase ------------------------------------------------------------------------------------------------ */
 

@@ -60,11 +60,9 @@ static void big_vertex(sunder_i_arena *arena, const sunder_sum *sum, const sunde
 {
     const sunder_i_lattice *l = &sum->lattice;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const sunder_i_big w = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
-    for (int k = 0; k < 2; k++) {
-        const sunder_i_i256 n = k ? p->y : p->x;
-        big_double(arena, sum, k, l->narrow ? sunder_i_big_i256(arena, n) : l->pool[n.limb[0]], w, &xy[k], &off[k]);
-    }
+    sunder_i_big xyw[3];
+    sunder_i_hpoint_read(arena, l, p, xyw);
+    for (int k = 0; k < 2; k++) big_double(arena, sum, k, xyw[k], xyw[2], &xy[k], &off[k]);
     sunder_i_arena_release(arena, mark);
 }
 

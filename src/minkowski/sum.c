@@ -1,8 +1,7 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
-#include "minkowski/boundary.h"
-#include "minkowski/cells.h"
 #include "minkowski/convex.h"
 #include "minkowski/minkowski.h"
+#include "minkowski/stages.h"
 #include "minkowski/subsums.h"
 #include "unions/unions.h"
 
@@ -14,32 +13,6 @@ static double now(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static sunder_status unite_along(sunder_sum *sum, const sunder_i_subsums *subsums, const sunder_i_lines *lines,
-                                 const sunder_sum_options *options, sunder_error *err)
-{
-    sunder_i_cell_pairs pairing;
-    sunder_i_coverage coverage;
-    sunder_status status = sunder_i_cells_pair(subsums, lines, options, &pairing, err);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_coverage_find(subsums, lines, &pairing, &coverage, err);
-    sunder_i_cell_pairs_free(&pairing);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_boundary_build(subsums, lines, &coverage, sum, err);
-    sunder_i_coverage_free(&coverage);
-    return status;
-}
-
-static sunder_status unite(sunder_sum *sum, const sunder_i_subsums *subsums, const sunder_sum_options *options,
-                           sunder_error *err)
-{
-    sunder_i_lines lines;
-    sunder_status status = sunder_i_lines_group(subsums, &lines, err);
-    if (status != SUNDER_OK) return status;
-    status = unite_along(sum, subsums, &lines, options, err);
-    sunder_i_lines_free(&lines);
-    return status;
 }
 
 static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
@@ -65,7 +38,7 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
     sum->seconds[1] = now() - start;
-    status = unite(sum, &subsums, options, err);
+    status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
     sunder_i_subsums_free(&subsums);
     sum->seconds[2] = now() - start - sum->seconds[1];
     return status;

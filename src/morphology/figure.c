@@ -44,24 +44,38 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
     return ok;
 }
 
-bool sunder_i_figure_of_sum(sunder_sum *sum, bool regular, sunder_i_figure *out)
+/* Vertices of the sum, one after the other, as corners from number `corner` on. */
+static void read_corners(sunder_i_figure *f, size_t corner, const sunder_sum *sum, const uint32_t *vertex, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        sunder_i_hpoint_read(&f->arena, &sum->lattice, &sum->vertex[vertex[i]], f->at[corner + i]);
+}
+
+/* Numbers first, first + 1, ... in the arena. */
+static const uint32_t *count_from(sunder_i_arena *arena, size_t first, size_t n)
+{
+    uint32_t *number = sunder_i_arena_alloc(arena, n + 1, sizeof *number);
+    for (size_t i = 0; number && i < n; i++) number[i] = (uint32_t)(first + i);
+    return number;
+}
+
+bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bool regular, sunder_i_figure *out)
 {
     sunder_i_figure f = {0};
-    const size_t sides = sum->rings ? sum->ring_end[sum->rings - 1] : 0;
-    if (make_room(&f, sum->vertices, sides, sum->rings)) {
-        for (uint32_t v = 0; v < sum->vertices; v++) {
-            sunder_i_big xyw[3];
-            sunder_i_hpoint_big(&sum->lattice, &sum->vertex[v], &xyw[0], &xyw[1], &xyw[2]);
-            for (int i = 0; i < 3; i++) f.at[v][i] = sunder_i_big_copy(&f.arena, xyw[i]);
-        }
-        for (size_t i = 0; i < sides; i++) f.ring[i] = sum->ring_vertex[i];
-        for (size_t r = 0; r < sum->rings; r++) f.ring_end[r] = sum->ring_end[r];
-        f.segment = sum->segment;
-        f.point = sum->point;
-        f.segments = regular ? 0 : sum->segments;
-        f.points = regular ? 0 : sum->points;
+    const size_t ring = first ? sum->poly_end[first - 1] : 0, ring_end = last ? sum->poly_end[last - 1] : 0;
+    const size_t start = ring ? sum->ring_end[ring - 1] : 0, end = ring_end ? sum->ring_end[ring_end - 1] : 0;
+    f.segments = regular ? 0 : sum->segments;
+    f.points = regular ? 0 : sum->points;
+    if (make_room(&f, end - start + 2 * f.segments + f.points, end - start, ring_end - ring)) {
+        read_corners(&f, 0, sum, sum->ring_vertex + start, f.sides);
+        read_corners(&f, f.sides, sum, sum->segment, 2 * f.segments);
+        read_corners(&f, f.sides + 2 * f.segments, sum, sum->point, f.points);
+        for (size_t i = 0; i < f.sides; i++) f.ring[i] = (uint32_t)i;
+        for (size_t r = 0; r < f.rings; r++) f.ring_end[r] = sum->ring_end[ring + r] - start;
+        f.segment = count_from(&f.arena, f.sides, 2 * f.segments);
+        f.point = count_from(&f.arena, f.sides + 2 * f.segments, f.points);
     }
-    const bool ok = !f.arena.failed && !sum->lattice.arena.failed;
+    const bool ok = !f.arena.failed;
     if (ok)
         *out = f;
     else

@@ -20,8 +20,8 @@
  *     shrink: a cell is in   if not covered, and in F + c for every piece: in no F^c + c.
  *
  * Every corner that is compared is on the lines of two sides: of F, of B moved to a corner of F, or of F moved by a
- * corner of B. All have lattice directions, and none is made from more than one corner of F: so numbers do not grow with
- * the figure, only with what its own corners were made from.
+ * corner of B. All have lattice directions, and none is made from more than one corner of F: so numbers do not grow
+ * with the figure, only with what its own corners were made from.
  *
  * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
 #include "minkowski/minkowski.h"
@@ -293,28 +293,4 @@ sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_prob
 {
     growth g = {.figure = figure, .probe = probe, .options = options, .shrink = true};
     return grow_or_shrink(&g, sum, err);
-}
-
-/* ---- Members that overlap ---- */
-
-sunder_status sunder_i_unite_figure(const sunder_i_figure *figure, const sunder_sum_options *options, sunder_sum *sum,
-                                    sunder_error *err)
-{
-    uint64_t random = options ? options->seed : 0;
-    sunder_i_planar_map *map;
-    sunder_status status = draw_figure(figure, &sum->lattice, &random, &map, err);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_planar_map_faces(map, err);
-    bool *face = NULL;
-    if (status == SUNDER_OK) {
-        face = sunder_i_calloc(sunder_i_planar_map_face_end(map), sizeof *face);
-        if (!face) status = sunder_i_no_memory(err);
-    }
-    for (uint32_t f = 1; status == SUNDER_OK && f < sunder_i_planar_map_face_end(map); f++)
-        face[f] = sunder_i_planar_map_face_covered(map, f) != 0;
-    const sunder_i_inside inside = {face, NULL, NULL};
-    if (status == SUNDER_OK) status = sunder_i_outline_of(map, &inside, sum, err);
-    sunder_i_free(face);
-    sunder_i_planar_map_free(map);
-    return status;
 }

@@ -5,87 +5,60 @@
  *     open     the erosion, degenerate parts and all, + B
  *     close    the erosion of the closed P + B
  *
- * All sets here are closed. Each stage reads the corners of the one before as they are, as rationals; nothing is rounded
- * in between. P's members may overlap: an erosion takes their union first. */
-#include "minkowski/minkowski.h"
+ * All sets here are closed. Each stage reads the corners of the one before as they are, as rationals; nothing is
+ * rounded in between. P's members may overlap: an erosion takes their union first. */
 #include "morphology/morphology.h"
+#include "minkowski/minkowski.h"
 
-#include <string.h>
-
-typedef enum stage_kind { UNITE, SHRINK, GROW } stage_kind;
-
-typedef struct work {
-    const sunder_shape *p, *b;
-    sunder_sum_options options; /* of the stage at hand */
+/* A stage of several, as the caller's options see it. */
+typedef struct stage {
     const sunder_sum_options *asked;
     double from, to; /* the part of the whole that the stage is */
-} work;
+    sunder_sum_options options;
+} stage;
 
-static bool stage_progress(double fraction, void *user)
+static bool tell(double fraction, void *user)
 {
-    const work *w = user;
-    return w->asked->progress(w->from + (w->to - w->from) * fraction, w->asked->progress_user);
+    const stage *s = user;
+    return s->asked->progress(s->from + (s->to - s->from) * fraction, s->asked->progress_user);
 }
 
-static void begin_stage(work *w, double from, double to)
+static const sunder_sum_options *begin(stage *s, const sunder_sum_options *asked, double from, double to)
 {
-    w->from = from;
-    w->to = to;
-    w->options = (sunder_sum_options){.seed = w->asked->seed};
-    if (!w->asked->progress) return;
-    w->options.progress = stage_progress;
-    w->options.progress_user = w;
+    *s = (stage){asked, from, to, {.seed = asked->seed, .threads = asked->threads}};
+    if (asked->progress) {
+        s->options.progress = tell;
+        s->options.progress_user = s;
+    }
+    return &s->options;
 }
 
-static sunder_status run_stage(const work *w, stage_kind kind, const sunder_i_figure *figure,
-                               const sunder_i_probe *probe, sunder_sum *sum, sunder_error *err)
+/* What is shrunk: NULL for P itself, if it has one member. */
+static sunder_status first_stage(const sunder_shape *p, const sunder_shape *b, bool close,
+                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
-    switch (kind) {
-    case UNITE:
-        return sunder_i_unite_figure(figure, &w->options, sum, err);
-    case SHRINK:
-        return sunder_i_shrink(figure, probe, &w->options, sum, err);
-    case GROW:
-        break;
-    }
-    return sunder_i_grow(figure, probe, &w->options, sum, err);
+    *out = NULL;
+    if (close) return sunder_minkowski_sum(p, b, options, out, err);
+    return p->polygons > 1 ? sunder_i_union_of_members(p, b, options, out, err) : SUNDER_OK;
 }
 
-/* One stage on what `from` bounds (NULL: P itself). P and B are placed as often as stages need them, always in the same
- * way: units and origins agree, and what one stage leaves on its lattice another finds. Wide always: corners of the later
- * stages fit no narrow lattice. `moved` says how many times B's origin the result's coordinates are off P's. */
-static sunder_status do_stage(const work *w, stage_kind kind, sunder_sum *from, bool regular, int moved,
-                              sunder_sum **out, sunder_error *err)
+/* Erode, open and close. */
+static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
+                            const sunder_sum_options *asked, sunder_sum **out, sunder_error *err)
 {
-    sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
-    if (!sum) return sunder_i_no_memory(err);
-    sunder_i_placed placed;
-    const sunder_i_place_options how = {.force_wide = true};
-    sunder_status status = sunder_i_place(w->p, w->b, &how, &placed, err);
-    if (status != SUNDER_OK) {
-        sunder_i_free(sum);
-        return status;
+    const double ready = 0.2;
+    const bool connected = b->polygons == 1;
+    stage s;
+    sunder_sum *whole;
+    sunder_i_seat seat;
+    sunder_status status = first_stage(p, b, operation == SUNDER_CLOSE, begin(&s, asked, 0, ready), &whole, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_seat_make(p, b, &seat, err);
+    if (status == SUNDER_OK) {
+        status = sunder_i_islands(&seat, whole, connected, operation, begin(&s, asked, ready, 1), out, err);
+        sunder_i_seat_free(&seat);
     }
-    sum->lattice = placed.lattice; /* moved */
-    memset(&placed.lattice, 0, sizeof placed.lattice);
-    sum->method.algorithm = SUNDER_INCREMENTAL;
-    for (int k = 0; k < 2; k++) {
-        sum->origin[0][k] = placed.origin_p[k];
-        sum->origin[1][k] = moved ? moved * placed.origin_q[k] : 0;
-    }
-    sunder_i_figure figure = {0};
-    sunder_i_probe probe = {0};
-    const bool ok = (from ? sunder_i_figure_of_sum(from, regular, &figure)
-                          : sunder_i_figure_of_shape(&sum->lattice, w->p, placed.p, &figure)) &&
-                    (!w->b || sunder_i_probe_of_shape(&sum->lattice, w->b, placed.q, kind == SHRINK, &probe));
-    status = ok ? run_stage(w, kind, &figure, &probe, sum, err) : sunder_i_no_memory(err);
-    sunder_i_figure_free(&figure);
-    sunder_i_probe_free(&probe);
-    sunder_i_placed_free(&placed);
-    if (status == SUNDER_OK)
-        *out = sum;
-    else
-        sunder_sum_free(sum);
+    sunder_sum_free(whole);
     return status;
 }
 
@@ -93,64 +66,17 @@ sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_opt
                                  sunder_error *err)
 {
     static const sunder_sum_options defaults;
-    work w = {.p = shape, .asked = options ? options : &defaults};
-    begin_stage(&w, 0, 1);
-    return do_stage(&w, UNITE, NULL, true, 0, out, err);
-}
-
-/* The erosion of P, in the part of the whole from 0 to `to`. */
-static sunder_status erode(work *w, double to, sunder_sum **out, sunder_error *err)
-{
-    sunder_sum *whole = NULL;
-    sunder_status status = SUNDER_OK;
-    begin_stage(w, 0, to);
-    if (w->p->polygons > 1) status = do_stage(w, UNITE, NULL, true, 0, &whole, err);
-    if (status == SUNDER_OK) status = do_stage(w, SHRINK, whole, true, -1, out, err);
-    sunder_sum_free(whole);
-    return status;
-}
-
-static sunder_status open_by(work *w, sunder_sum **out, sunder_error *err)
-{
-    sunder_sum *eroded;
-    sunder_status status = erode(w, 0.5, &eroded, err);
-    if (status != SUNDER_OK) return status;
-    begin_stage(w, 0.5, 1);
-    status = do_stage(w, GROW, eroded, false, 0, out, err);
-    sunder_sum_free(eroded);
-    return status;
-}
-
-static sunder_status close_by(work *w, sunder_sum **out, sunder_error *err)
-{
-    sunder_sum *dilated;
-    begin_stage(w, 0, 0.2);
-    sunder_status status = sunder_minkowski_sum(w->p, w->b, &w->options, &dilated, err);
-    if (status != SUNDER_OK) return status;
-    begin_stage(w, 0.2, 1);
-    status = do_stage(w, SHRINK, dilated, true, 0, out, err);
-    sunder_sum_free(dilated);
-    return status;
+    return sunder_i_union_of_members(shape, NULL, options ? options : &defaults, out, err);
 }
 
 sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
     static const sunder_sum_options defaults;
-    work w = {.p = p, .b = b, .asked = options ? options : &defaults};
-    if (b->polygons == 0)
-        return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
-    switch (operation) {
-    case SUNDER_DILATE:
-        return sunder_minkowski_sum(p, b, options, out, err);
-    case SUNDER_ERODE:
-        return erode(&w, 1, out, err);
-    case SUNDER_OPEN:
-        return open_by(&w, out, err);
-    case SUNDER_CLOSE:
-        return close_by(&w, out, err);
-    }
-    return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
+    if (b->polygons == 0) return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
+    if ((unsigned)operation > SUNDER_CLOSE) return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
+    if (operation == SUNDER_DILATE) return sunder_minkowski_sum(p, b, options, out, err);
+    return shrink(p, b, operation, options ? options : &defaults, out, err);
 }
 
 const char *sunder_operation_string(sunder_operation operation)

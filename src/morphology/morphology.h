@@ -2,6 +2,10 @@
  *
  * figure.c      a shape or a sum as rings, segments and points with rational corners
  * grow.c        one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
+ * stages.c      what all stages of one operation share: the lattice, and B as a probe
+ * islands.c     polygon by polygon, on several threads
+ * gather.c      results of that in one
+ * union.c       members that overlap
  * morphology.c  dilate, erode, open, close */
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
@@ -23,21 +27,22 @@ typedef struct sunder_i_figure {
     size_t segments, points;
 } sunder_i_figure;
 
-/* All members of a shape, whose vertices stand at these places of the lattice. Members may overlap. */
+/* All members of a shape, whose vertices stand at these places of the lattice; they are disjoint. */
 bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
                               sunder_i_figure *out);
-/* A sum, which must outlive the figure; without its degenerate parts if `regular`. */
-bool sunder_i_figure_of_sum(sunder_sum *sum, bool regular, sunder_i_figure *out);
+/* Polygons first to last - 1 of a sum, and, unless `regular`, all its degenerate parts. The sum may be shared by
+ * threads. */
+bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bool regular, sunder_i_figure *out);
 void sunder_i_figure_free(sunder_i_figure *figure);
 
 /* What a figure is summed with: convex pieces with lattice corners, counter-clockwise, and a point inside each. */
 typedef struct sunder_i_probe {
     sunder_i_arena arena;
     uint32_t pieces;
-    size_t *end;              /* [pieces] index past the last corner of each */
+    size_t *end; /* [pieces] index past the last corner of each */
     sunder_i_big (*corner)[2];
-    sunder_i_big (*side)[2];  /* from each corner to the next of its piece */
-    sunder_i_xyw *inner;      /* [pieces] */
+    sunder_i_big (*side)[2]; /* from each corner to the next of its piece */
+    sunder_i_xyw *inner;     /* [pieces] */
 } sunder_i_probe;
 
 /* The pieces of a shape, or of its reflection. */
@@ -48,13 +53,47 @@ void sunder_i_probe_free(sunder_i_probe *probe);
 /* Fills the outline of an empty sum, which owns the lattice that all stands on:
  *   grow    the closure of F + probe, without degenerate parts (that set is closed, and they are inside)
  *   shrink  the complement of F^c + int probe, parts without area included; F is regular
- *   unite   the closure of the union of what the rings of F bound, which may overlap (grow and shrink need it so)
  * Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; the caller frees the sum. */
 sunder_status sunder_i_grow(const sunder_i_figure *figure, const sunder_i_probe *probe,
                             const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
 sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_probe *probe,
                               const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
-sunder_status sunder_i_unite_figure(const sunder_i_figure *figure, const sunder_sum_options *options, sunder_sum *sum,
-                                    sunder_error *err);
+
+/* ---- stages.c: P and B on one lattice ---- */
+
+/* Units and origins as sunder_minkowski_sum() has them; wide always: corners of later stages fit no narrow lattice. */
+typedef struct sunder_i_seat {
+    sunder_i_lattice lattice; /* empty, to be copied; owns its denominator */
+    double origin_p[2], origin_q[2];
+    sunder_i_probe probe, reflected; /* B and -B */
+    sunder_i_figure figure;          /* P, if it has one member only; else empty */
+} sunder_i_seat;
+
+sunder_status sunder_i_seat_make(const sunder_shape *p, const sunder_shape *b, sunder_i_seat *out, sunder_error *err);
+void sunder_i_seat_free(sunder_i_seat *seat);
+/* An empty sum on such a lattice; B's origin counts `moved` times. NULL if memory is out. */
+sunder_sum *sunder_i_seat_sum(const sunder_i_seat *seat, int moved);
+
+/* ---- islands.c ---- */
+
+/* The last stages: the erosion of a set (open: grown again by B, parts without area and all; close: the set is P + B),
+ * which is the union of those of its polygons where B's interior is connected. whole: the set, on a lattice of these
+ * units, its degenerate parts filled; NULL: the seat's figure. */
+sunder_status sunder_i_islands(const sunder_i_seat *seat, const sunder_sum *whole, bool connected,
+                               sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
+                               sunder_error *err);
+
+/* ---- gather.c ---- */
+
+/* Appends n sums to an empty one in canonical order. Their polygons, segments and points are disjoint or touch in
+ * points. False if memory is out. */
+bool sunder_i_gather(sunder_sum *const *part, size_t n, sunder_sum *out);
+
+/* ---- union.c ---- */
+
+/* The union of the members of a shape; with b, placed beside it, so that units and origins agree with those of its
+ * sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
+sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_shape *b,
+                                        const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
 
 #endif

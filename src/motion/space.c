@@ -1,7 +1,8 @@
 #include "motion/space.h"
 
-#include "minkowski/boundary.h"
-#include "minkowski/cells.h"
+#include "minkowski/stages.h"
+#include "motion/diagonals.h"
+#include "motion/whole.h"
 #include "predicate/predicate.h"
 
 #include <float.h>
@@ -20,6 +21,7 @@ typedef struct maker {
     sunder_i_lattice *lattice;
     sunder_i_space *out;
     sunder_i_hulls obstacles, robots, discs;
+    sunder_i_diagonals diagonals; /* none where they make no difference */
 } maker;
 
 /* ---- The lattice ---- */
@@ -84,6 +86,7 @@ static void choose_lattice(maker *m)
             sunder_i_extent_add(&extent[0], o->xy + 2 * from, o->line_end[k] - from);
     }
     extent[1] = m->robot->extent;
+    extent[1].low_bit -= (int)m->diagonals.bits;
     if (m->disc) {
         extent[2] = m->disc->extent;
         grow_extent(&extent[1], &extent[2]);
@@ -98,6 +101,8 @@ static void choose_lattice(maker *m)
             if (extent[i].any && extent[i].low_bit < exponent) exponent = extent[i].low_bit;
         for (size_t i = 0; i < m->n; i++) join_denominator(l, m->obstacle[i].shape, &exponent);
         join_denominator(l, m->robot, &exponent);
+        if (m->robot->rational && m->robot->exponent - (long)m->diagonals.bits < exponent)
+            exponent = m->robot->exponent - (long)m->diagonals.bits;
         l->exponent = exponent;
     }
     memcpy(m->out->sum->origin[0], origin[0], sizeof origin[0]);
@@ -124,25 +129,24 @@ static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape,
 
 /* ---- Pieces ---- */
 
-static void add_corner(sunder_i_hulls *list, sunder_i_point at, bool edge)
+/* All vertices of a shape on the lattice, turned by half a turn if asked; to be freed. NULL if memory is out. */
+static sunder_i_point *put_vertices(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2],
+                                    bool reflect)
 {
-    list->corner[list->corners] = at;
-    list->edge[list->corners++] = edge;
+    sunder_i_point *at = sunder_i_alloc(shape->vertices, sizeof *at);
+    for (uint32_t v = 0; at && v < shape->vertices; v++) {
+        at[v] = put_vertex(l, shape, v, origin);
+        if (reflect) at[v] = sunder_i_point_neg(l, at[v]);
+    }
+    return at;
 }
 
-static void add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], bool reflect,
-                      sunder_i_hulls *list)
+static bool add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], sunder_i_hulls *list)
 {
-    for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
-        const uint32_t first = k;
-        for (; k < shape->piece_end[i]; k++) {
-            const uint32_t u = shape->piece_vertex[k];
-            const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
-            const sunder_i_point at = put_vertex(l, shape, u, origin);
-            add_corner(list, reflect ? sunder_i_point_neg(l, at) : at, sunder_i_is_boundary(shape, u, v));
-        }
-        list->end[list->n++] = list->corners;
-    }
+    sunder_i_point *at = put_vertices(l, shape, origin, false);
+    if (at) sunder_i_hulls_add_shape(list, shape, at);
+    sunder_i_free(at);
+    return at != NULL;
 }
 
 /* A line of obstacle: its segments, repeated points once; a point alone is a piece of its own. */
@@ -152,13 +156,25 @@ static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const doub
     for (size_t i = 0; i + 1 < n; i++) {
         const double *a = xy + 2 * i, *b = a + 2;
         if (a[0] == b[0] && a[1] == b[1]) continue;
-        add_corner(list, put_double(l, a, origin), true);
-        add_corner(list, put_double(l, b, origin), true);
+        sunder_i_hulls_add_corner(list, put_double(l, a, origin), true);
+        sunder_i_hulls_add_corner(list, put_double(l, b, origin), true);
         list->end[list->n++] = list->corners;
     }
     if (n == 0 || list->n > before) return;
-    add_corner(list, put_double(l, xy, origin), true);
+    sunder_i_hulls_add_corner(list, put_double(l, xy, origin), true);
     list->end[list->n++] = list->corners;
+}
+
+/* The robot turned by half a turn, and what its pieces leave out. */
+static bool add_robot(maker *m)
+{
+    const double origin[2] = {-m->out->sum->origin[1][0], -m->out->sum->origin[1][1]};
+    sunder_i_point *at = put_vertices(m->lattice, m->robot, origin, true);
+    if (!at) return false;
+    sunder_i_hulls_add_shape(&m->robots, m->robot, at);
+    sunder_i_diagonals_add(&m->diagonals, m->lattice, at, &m->robots);
+    sunder_i_free(at);
+    return true;
 }
 
 static size_t piece_corners(const sunder_shape *s) { return s->pieces ? s->piece_end[s->pieces - 1] : 0; }
@@ -175,24 +191,24 @@ static bool make_pieces(maker *m)
     sunder_i_space *out = m->out;
     out->piece_obstacle = sunder_i_alloc(pieces, sizeof *out->piece_obstacle);
     if (!out->piece_obstacle || !sunder_i_hulls_init(&m->obstacles, pieces, corners) ||
-        !sunder_i_hulls_init(&m->robots, m->robot->pieces, piece_corners(m->robot)))
+        !sunder_i_hulls_init(&m->robots, m->robot->pieces + m->diagonals.n,
+                             piece_corners(m->robot) + 4 * m->diagonals.n))
         return false;
     sunder_i_lattice *l = m->lattice;
     const double *origin = out->sum->origin[0];
     for (size_t i = 0; i < m->n; i++) {
         const sunder_obstacle *o = &m->obstacle[i];
         uint32_t before = m->obstacles.n;
-        if (o->shape) add_shape(l, o->shape, origin, false, &m->obstacles);
+        if (o->shape && !add_shape(l, o->shape, origin, &m->obstacles)) return false;
         for (size_t k = 0, from = 0; k < o->lines; from = o->line_end[k++])
             add_line(l, o->xy + 2 * from, o->line_end[k] - from, origin, &m->obstacles);
         for (; before < m->obstacles.n; before++) out->piece_obstacle[before] = (uint32_t)i;
     }
-    const double robot_origin[2] = {-out->sum->origin[1][0], -out->sum->origin[1][1]};
-    add_shape(l, m->robot, robot_origin, true, &m->robots);
+    if (!add_robot(m)) return false;
     if (m->disc) {
         static const double zero[2] = {0, 0};
         if (!sunder_i_hulls_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
-        add_shape(l, m->disc, zero, false, &m->discs);
+        if (!add_shape(l, m->disc, zero, &m->discs)) return false;
     }
     return !l->arena.failed;
 }
@@ -243,8 +259,9 @@ static bool measure(maker *m)
 
 /* ---- The outline ---- */
 
-static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_space *out, sunder_error *err)
+static sunder_status keep_stretches(const sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
+    sunder_i_space *out = user;
     out->stretch = sunder_i_alloc(coverage->pieces, sizeof *out->stretch);
     if (!out->stretch) return sunder_i_no_memory(err);
     for (size_t i = 0; i < coverage->pieces; i++)
@@ -253,33 +270,12 @@ static sunder_status keep_stretches(const sunder_i_coverage *coverage, sunder_i_
     return SUNDER_OK;
 }
 
-static sunder_status trace(maker *m, const sunder_i_subsums *subsums, const sunder_i_lines *lines, sunder_error *err)
-{
-    sunder_i_cell_pairs pairing;
-    sunder_i_coverage coverage;
-    sunder_status status = sunder_i_cells_pair(subsums, lines, m->options, &pairing, err);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_coverage_find(subsums, lines, &pairing, &coverage, err);
-    sunder_i_cell_pairs_free(&pairing);
-    if (status != SUNDER_OK) return status;
-    status = keep_stretches(&coverage, m->out, err);
-    if (status == SUNDER_OK) status = sunder_i_boundary_build(subsums, lines, &coverage, m->out->sum, err);
-    sunder_i_coverage_free(&coverage);
-    return status;
-}
-
 static sunder_status find_outline(maker *m, sunder_i_point *direction, uint32_t classes, sunder_error *err)
 {
     const sunder_i_hulls *part = &m->out->part;
     if (part->n == 0) return SUNDER_OK;
-    const sunder_i_subsums subsums = {m->lattice, classes,      direction,  part->n,   part->corners,
-                                      part->end,  part->corner, part->rank, part->edge};
-    sunder_i_lines lines;
-    sunder_status status = sunder_i_lines_group(&subsums, &lines, err);
-    if (status != SUNDER_OK) return status;
-    status = trace(m, &subsums, &lines, err);
-    sunder_i_lines_free(&lines);
-    return status;
+    const sunder_i_subsums subsums = sunder_i_hulls_parts(part, m->lattice, direction, classes);
+    return sunder_i_stages_run(&subsums, m->options, keep_stretches, m->out, m->out->sum, err);
 }
 
 static sunder_status make(maker *m, sunder_error *err)
@@ -296,6 +292,33 @@ static sunder_status make(maker *m, sunder_error *err)
     return status;
 }
 
+static sunder_status build(maker *m, sunder_error *err)
+{
+    m->out->sum = sunder_i_calloc(1, sizeof *m->out->sum);
+    if (!m->out->sum) return sunder_i_no_memory(err);
+    m->out->sum->method.algorithm = SUNDER_CONVOLUTION;
+    m->lattice = &m->out->sum->lattice;
+    const sunder_status status = make(m, err);
+    sunder_i_hulls_free(&m->obstacles);
+    sunder_i_hulls_free(&m->robots);
+    sunder_i_hulls_free(&m->discs);
+    return status;
+}
+
+/* What the interiors of the robot's pieces leave out of its own makes a difference to obstacles without area, unless a
+ * disc covers it. */
+static sunder_status build_with_lines(maker *m, sunder_error *err)
+{
+    sunder_shape *whole;
+    sunder_status status = sunder_i_whole(m->robot, &whole, err);
+    if (status != SUNDER_OK) return status;
+    if (whole) m->robot = whole;
+    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_no_memory(err);
+    sunder_i_diagonals_free(&m->diagonals);
+    sunder_shape_free(whole);
+    return status;
+}
+
 sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot, double gap,
                                    const sunder_sum_options *options, sunder_i_space *out, sunder_error *err)
 {
@@ -305,22 +328,10 @@ sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, c
         const sunder_status status = sunder_shape_disc(gap, GAP_SEGMENTS, false, &disc, err);
         if (status != SUNDER_OK) return status;
     }
-    out->sum = sunder_i_calloc(1, sizeof *out->sum);
-    sunder_status status = out->sum ? SUNDER_OK : sunder_i_no_memory(err);
-    if (status == SUNDER_OK) {
-        out->sum->method.algorithm = SUNDER_CONVOLUTION;
-        maker m = {.obstacle = obstacles,
-                   .n = n,
-                   .robot = robot,
-                   .disc = disc,
-                   .options = options,
-                   .lattice = &out->sum->lattice,
-                   .out = out};
-        status = make(&m, err);
-        sunder_i_hulls_free(&m.obstacles);
-        sunder_i_hulls_free(&m.robots);
-        sunder_i_hulls_free(&m.discs);
-    }
+    maker m = {.obstacle = obstacles, .n = n, .robot = robot, .disc = disc, .options = options, .out = out};
+    bool lines = false;
+    for (size_t i = 0; i < n && !lines; i++) lines = obstacles[i].lines > 0;
+    const sunder_status status = lines && !disc ? build_with_lines(&m, err) : build(&m, err);
     sunder_shape_free(disc);
     if (status != SUNDER_OK) sunder_i_space_free(out);
     return status;

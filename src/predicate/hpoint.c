@@ -81,13 +81,27 @@ sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_big x, sunder
     return p;
 }
 
+void sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_hpoint *p,
+                          sunder_i_big xyw[3])
+{
+    if (l->narrow) {
+        xyw[0] = sunder_i_big_i256(arena, p->x);
+        xyw[1] = sunder_i_big_i256(arena, p->y);
+        xyw[2] = sunder_i_big_i128(arena, p->w);
+        return;
+    }
+    xyw[0] = sunder_i_big_copy(arena, l->pool[(int64_t)p->x.limb[0]]);
+    xyw[1] = sunder_i_big_copy(arena, l->pool[(int64_t)p->y.limb[0]]);
+    xyw[2] = sunder_i_big_copy(arena, l->pool[(int64_t)p->w]);
+}
+
 void sunder_i_hpoint_big(sunder_i_lattice *l, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
                          sunder_i_big *w)
 {
     if (l->narrow) {
-        *x = sunder_i_big_i256(&l->arena, p->x);
-        *y = sunder_i_big_i256(&l->arena, p->y);
-        *w = sunder_i_big_i128(&l->arena, p->w);
+        sunder_i_big xyw[3];
+        sunder_i_hpoint_read(&l->arena, l, p, xyw);
+        *x = xyw[0], *y = xyw[1], *w = xyw[2];
         return;
     }
     *x = sunder_i_lattice_get(l, (int64_t)p->x.limb[0]);

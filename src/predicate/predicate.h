@@ -72,7 +72,10 @@ int sunder_i_hpoint_cmp_y(sunder_i_lattice *lattice, const sunder_i_hpoint *a, c
 bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 /* Side of c to line ab. Degree 4. */
 int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c);
-/* The three integers, in the lattice's arena. */
+/* The three integers, in that arena: the lattice stays as it is, and threads may ask at once. */
+void sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, const sunder_i_hpoint *p,
+                          sunder_i_big xyw[3]);
+/* The same in the lattice's arena. */
 void sunder_i_hpoint_big(sunder_i_lattice *lattice, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
                          sunder_i_big *w);
 

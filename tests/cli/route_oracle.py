@@ -140,17 +140,32 @@ def random_piece(rng, size):
             return hull(points)
 
 
+def members(bodies):
+    return "MULTIPOLYGON (%s)" % ", ".join("((%s))" % ", ".join("%d %d" % p for p in b + b[:1]) for b in bodies)
+
+
 def random_robot(rng):
-    kind = rng.randrange(5)
+    """Open convex pieces that cover the robot's interior, overlapping, and the robot as it is given to the program."""
+    kind = rng.randrange(9)
+    ell, frame = [box(0, 0, 3, 1), box(0, 0, 1, 3)], [box(0, 0, 3, 1), box(0, 2, 3, 1), box(0, 0, 1, 3), box(2, 0, 1, 3)]
     if kind == 0:
-        return [box(-1, -1, 2, 2)]
+        return [box(-1, -1, 2, 2)], members([box(-1, -1, 2, 2)])
     if kind == 1:
-        return [box(0, 0, 3, 1), box(0, 0, 1, 3)]  # an L with its corner as reference
+        return [hull([(0, 0), (3, 1), (1, 2)])], members([hull([(0, 0), (3, 1), (1, 2)])])
     if kind == 2:
-        return [hull([(0, 0), (3, 1), (1, 2)])]
+        return [box(0, 0, 1, 1), box(2, 2, 1, 2)], members([box(0, 0, 1, 1), box(2, 2, 1, 2)])  # two parts
     if kind == 3:
-        return [box(0, 0, 1, 1), box(2, 2, 1, 2)]  # two parts
-    return [box(0, 0, 3, 1), box(0, 2, 3, 1), box(0, 0, 1, 3), box(2, 0, 1, 3)]  # with a hole
+        return ell, members(ell)  # members that overlap
+    if kind == 4:
+        return frame, members(frame)
+    if kind == 5:
+        return ell, "POLYGON ((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))"
+    if kind == 6:
+        return frame, "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0), (1 1, 1 2, 2 2, 2 1, 1 1))"
+    if kind == 7:  # members that share a wall
+        return [box(-1, 0, 3, 1)], members([box(-1, 0, 1, 1), box(0, 0, 2, 1)])
+    dart = [[(0, 0), (4, 1), (F(8, 5), F(8, 5))], [(F(8, 5), F(2, 5)), (4, 1), (0, 2)]]
+    return dart, "POLYGON ((0 0, 4 1, 0 2, 1 1, 0 0))"
 
 
 def corridor(rng):
@@ -211,13 +226,16 @@ def one_scene(program, rng, number):
     size = rng.choice([4, 6, 8])
     if number % 40 == 39:
         robot, obstacles = town(rng)
-        size = 36
+        robot_wkt, size = members(robot), 36
     elif number % 4 == 0:
         robot, obstacles = corridor(rng)
+        robot_wkt = members(robot)
     elif number % 4 == 1:
         robot, obstacles = cage(rng)
+        robot_wkt = members(robot)
     else:
-        robot, obstacles = random_robot(rng), [random_piece(rng, size) for _ in range(rng.randrange(0, 5))]
+        robot, robot_wkt = random_robot(rng)
+        obstacles = [random_piece(rng, size) for _ in range(rng.randrange(0, 5))]
     parts = [hull([(o[0] - r[0], o[1] - r[1]) for o in piece for r in body]) for piece in obstacles for body in robot]
     den = rng.choice([1, 1, 2, 3, 7])
     start, goal = [(F(rng.randrange(-12 * den, 13 * den), den), F(rng.randrange(-12 * den, 13 * den), den)) for _ in "ab"]
@@ -230,7 +248,10 @@ def one_scene(program, rng, number):
         if corners:
             start = tuple(map(F, rng.choice(corners)))
             goal = tuple(map(F, rng.choice(corners)))
-    robot_wkt = "MULTIPOLYGON (%s)" % ", ".join("((%s))" % ", ".join("%d %d" % p for p in b + b[:1]) for b in robot)
+    elif obstacles and rng.randrange(3) == 0:  # where a point of the robot, a corner or between two, is on an obstacle
+        body, piece = rng.choice(robot), rng.choice(obstacles)
+        r, s, o = rng.choice(body), rng.choice(rng.choice(robot)), rng.choice(piece)
+        start = (o[0] - F(r[0] + s[0]) / 2, o[1] - F(r[1] + s[1]) / 2)
     call = [program, "route", wkt_of(obstacles), "--robot", robot_wkt, "--exact", "--quiet",
             "--from=" + ",".join(map(coordinate, start)), "--to=" + ",".join(map(coordinate, goal))]
     done = subprocess.run(call, capture_output=True, text=True)

@@ -26,10 +26,11 @@
 
 static sunder_sum *answer(const polyset *p, const polyset *b, sunder_operation operation)
 {
+    static const sunder_sum_options how = {.threads = 2};
     sunder_shape *sp = polyset_shape(p), *sb = polyset_shape(b);
     sunder_sum *sum = NULL;
     sunder_error err = {0};
-    if (!sp || !sb || sunder_morphology(sp, sb, operation, NULL, &sum, &err) != SUNDER_OK)
+    if (!sp || !sb || sunder_morphology(sp, sb, operation, &how, &sum, &err) != SUNDER_OK)
         print_message("%s: %s\n", sunder_operation_string(operation), err.message);
     sunder_shape_free(sp);
     sunder_shape_free(sb);
@@ -205,7 +206,7 @@ static void ask_all(probing *p, const polyset *d, const polyset *b, rng *r, doub
     const integer_set *s = p->set;
     const size_t own = s->polygons.vertices + 2 * s->counts.degenerate_segments + s->counts.degenerate_points;
     p->at = test_alloc(2 * (own + d->vertices * b->vertices), sizeof *p->at);
-    memcpy(p->at, s->polygons.xy, 2 * s->polygons.vertices * sizeof *p->at);
+    if (s->polygons.vertices) memcpy(p->at, s->polygons.xy, 2 * s->polygons.vertices * sizeof *p->at);
     p->n = s->polygons.vertices;
     memcpy(p->at + 2 * p->n, s->segments, 4 * s->counts.degenerate_segments * sizeof *p->at);
     p->n += 2 * s->counts.degenerate_segments;

@@ -1,5 +1,5 @@
-/* Routes through the interface: arguments, reasons, exact answers, places of any size, numbers on every rung, and memory
- * that runs out anywhere. */
+/* Routes through the interface: arguments, reasons, exact answers, places of any size, numbers on every rung, and
+ * memory that runs out anywhere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -69,7 +69,8 @@ static void round_a_wall(void **state)
 /* The obstacles united are the sum of the obstacles and the robot turned by half a turn. */
 static void obstacles_are_a_sum(void **state)
 {
-    static const double bent[] = {0, 0, 9, 0, 9, 2, 2, 2, 2, 6, 9, 6, 9, 8, 0, 8}, key[] = {0, 0, 5, 0, 5, 4, 3, 4, 3, 1, 0, 1};
+    static const double bent[] = {0, 0, 9, 0, 9, 2, 2, 2, 2, 6, 9, 6, 9, 8, 0, 8},
+                        key[] = {0, 0, 5, 0, 5, 4, 3, 4, 3, 1, 0, 1};
     sunder_shape *p = shape_of(bent, 8), *q = shape_of(key, 6), *minus;
     const sunder_obstacle o = {p, NULL, NULL, 0};
     sunder_sum *sum;
@@ -124,8 +125,10 @@ static void every_rung(void **state)
     sunder_shape *q = shape_of(robot, 4);
     const sunder_obstacle o = {q, NULL, NULL, 0};
     /* A third, written long: outside by less than any double could tell. */
-    const sunder_place from = {{0, 0}, {"-200000000000000000000000000000000000000001/100000000000000000000000000000000000000000", "1/3"}};
-    const sunder_place inside = {{0, 0}, {"-199999999999999999999999999999999999999999/100000000000000000000000000000000000000000", "+1/-3"}};
+    const sunder_place from = {
+        {0, 0}, {"-200000000000000000000000000000000000000001/100000000000000000000000000000000000000000", "1/3"}};
+    const sunder_place inside = {
+        {0, 0}, {"-199999999999999999999999999999999999999999/100000000000000000000000000000000000000000", "+1/-3"}};
     sunder_route *r = find(&o, 1, q, from, at(-9, 3));
     const char *x, *y;
     assert_true(sunder_route_vertices(r) == 2);
@@ -161,14 +164,44 @@ static void rational_obstacles(void **state)
     sunder_shape_free(q);
 }
 
+/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members is inside. */
+static void lines_inside_the_robot(void **state)
+{
+    static const double ell[] = {0, 0, 4, 0, 4, 2, 2, 2, 2, 4, 0, 4}, dart[] = {0, 0, 8, 2, 0, 4, 2, 2};
+    static const double bow[] = {0, 0, 8, 0, 1, 5, 8, 7, 0, 7, 5, 2}; /* crosses itself: rational corners */
+    static const double two[] = {0, 0, 2, 0, 2, 4, 0, 4, 2, 0, 4, 0, 4, 4, 2, 4};
+    static const double inside[][2] = {{1, 1}, {4, 2}, {3, 1}, {2, 3}};
+    static const size_t rings[][2] = {{6, 0}, {4, 0}, {6, 0}, {4, 8}}, polygons[][2] = {{1, 0}, {1, 0}, {1, 0}, {1, 2}};
+    const double *const xy[] = {ell, dart, bow, two};
+    const double scale[] = {1, 0x1p-1060, 0x1p1000};
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 3; k++) {
+            double scaled[16], line[4] = {0, 0, scale[k] / 64 * inside[i][0], scale[k] / 64 * inside[i][1]};
+            const size_t corners = i == 3 ? 8 : rings[i][0], n = i == 3 ? 2 : 1;
+            for (size_t j = 0; j < 2 * corners; j++) scaled[j] = scale[k] * xy[i][j];
+            sunder_shape *q;
+            assert_int_equal(sunder_shape_from_rings(scaled, rings[i], polygons[i], n, SUNDER_EVEN_ODD, &q, NULL),
+                             SUNDER_OK);
+            for (size_t end = 1; end <= 2; end++) {
+                const sunder_obstacle o = {NULL, line, &end, 1};
+                const sunder_place in = at(-scale[k] * inside[i][0], -scale[k] * inside[i][1]);
+                sunder_route *r = find(&o, 1, q, in, at(-20 * scale[k], 0));
+                assert_int_equal(sunder_route_reason(r, NULL), SUNDER_ROUTE_START_COLLIDES);
+                sunder_route_free(r);
+            }
+            sunder_shape_free(q);
+        }
+}
+
 static void arguments(void **state)
 {
     sunder_shape *q = shape_of(robot, 4), *none;
     sunder_route *r = NULL;
     sunder_error err;
     const sunder_place good = at(0, 0);
-    const sunder_place bad[] = {at(NAN, 0), at(0, INFINITY), {{0, 0}, {"1/0", NULL}}, {{0, 0}, {"", NULL}},
-                                {{0, 0}, {NULL, "1.5"}}, {{0, 0}, {"1/", NULL}}, {{0, 0}, {"-", NULL}}};
+    const sunder_place bad[] = {at(NAN, 0),           at(0, INFINITY),         {{0, 0}, {"1/0", NULL}},
+                                {{0, 0}, {"", NULL}}, {{0, 0}, {NULL, "1.5"}}, {{0, 0}, {"1/", NULL}},
+                                {{0, 0}, {"-", NULL}}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         assert_int_equal(sunder_route_find(NULL, 0, q, &bad[i], &good, NULL, &r, &err), SUNDER_EARG);
         assert_int_equal(sunder_route_find(NULL, 0, q, &good, &bad[i], NULL, &r, &err), SUNDER_EARG);
@@ -267,6 +300,15 @@ static void memory_runs_out(void **state)
     const size_t fence_end[] = {5, 10};
     a.o[1] = (sunder_obstacle){NULL, fences, fence_end, 2};
     assert_true(failing_loop(try_route, &a, false));
+    /* Two members that touch, one of them not convex, among lines and points. */
+    static const double members[] = {-1, -1, 0, -1, 0, 1, -1, 1, 0, -1, 1, -1, 0.5, 0, 1, 1, 0, 1};
+    const size_t rings[] = {4, 9}, polygons[] = {1, 2};
+    sunder_shape *m;
+    assert_int_equal(sunder_shape_from_rings(members, rings, polygons, 2, SUNDER_STRICT, &m, NULL), SUNDER_OK);
+    a.robot = m;
+    a.o[1] = (sunder_obstacle){NULL, line, end, 2};
+    assert_true(failing_loop(try_route, &a, false));
+    sunder_shape_free(m);
     sunder_shape_free(p);
     sunder_shape_free(q);
 }
@@ -274,8 +316,13 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_a_wall), cmocka_unit_test(obstacles_are_a_sum), cmocka_unit_test(every_rung),
-        cmocka_unit_test(rational_obstacles), cmocka_unit_test(arguments), cmocka_unit_test(stops),
+        cmocka_unit_test(round_a_wall),
+        cmocka_unit_test(obstacles_are_a_sum),
+        cmocka_unit_test(every_rung),
+        cmocka_unit_test(rational_obstacles),
+        cmocka_unit_test(lines_inside_the_robot),
+        cmocka_unit_test(arguments),
+        cmocka_unit_test(stops),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-#include "motion/hulls.h"
+#include "minkowski/hulls.h"
 
 #include "number/sort.h"
 #include "predicate/predicate.h"
@@ -27,6 +27,19 @@ void sunder_i_hulls_free(sunder_i_hulls *list)
     memset(list, 0, sizeof *list);
 }
 
+void sunder_i_hulls_add_shape(sunder_i_hulls *list, const sunder_shape *shape, const sunder_i_point *at)
+{
+    for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
+        const uint32_t first = k;
+        for (; k < shape->piece_end[i]; k++) {
+            const uint32_t u = shape->piece_vertex[k];
+            const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
+            sunder_i_hulls_add_corner(list, at[u], sunder_i_is_boundary(shape, u, v));
+        }
+        list->end[list->n++] = list->corners;
+    }
+}
+
 /* ---- Ranks ---- */
 
 typedef struct ranking {
@@ -49,8 +62,7 @@ static void add_vectors(ranking *r, const sunder_i_hulls *list)
     for (uint32_t i = 0; i < list->n; i++) {
         const uint32_t first = sunder_i_hulls_first(list, i), end = list->end[i];
         for (uint32_t k = first; k < end && end - first > 1; k++) {
-            const sunder_i_point d =
-                sunder_i_point_sub(l, list->corner[k + 1 < end ? k + 1 : first], list->corner[k]);
+            const sunder_i_point d = sunder_i_point_sub(l, list->corner[k + 1 < end ? k + 1 : first], list->corner[k]);
             r->flipped[r->n] = sunder_i_half_plane(l, d) == 1;
             r->key[r->n] = r->flipped[r->n] ? sunder_i_point_neg(l, d) : d;
             r->n++;
@@ -97,12 +109,16 @@ static bool assign(ranking *r, sunder_i_point *direction, uint32_t *classes)
 }
 
 bool sunder_i_hulls_rank(sunder_i_lattice *lattice, sunder_i_hulls *const *list, size_t lists,
-                          sunder_i_point **direction, uint32_t *classes)
+                         sunder_i_point **direction, uint32_t *classes)
 {
     size_t sides = 0;
     for (size_t i = 0; i < lists; i++) sides += list[i]->corners;
-    ranking r = {lattice, sunder_i_alloc(sides, sizeof *r.key), sunder_i_alloc(sides, sizeof *r.flipped),
-                 sunder_i_alloc(sides, sizeof *r.order), sunder_i_alloc(sides, sizeof *r.rank), 0};
+    ranking r = {lattice,
+                 sunder_i_alloc(sides, sizeof *r.key),
+                 sunder_i_alloc(sides, sizeof *r.flipped),
+                 sunder_i_alloc(sides, sizeof *r.order),
+                 sunder_i_alloc(sides, sizeof *r.rank),
+                 0};
     sunder_i_point *room = sunder_i_alloc(sides, sizeof *room), *made = sunder_i_alloc(sides, sizeof *made);
     bool *edges = sunder_i_alloc(sides, sizeof *edges);
     bool ok = r.key && r.flipped && r.order && r.rank && room && made && edges;
@@ -153,7 +169,7 @@ static void merge(sunder_i_lattice *l, const sunder_i_hulls *a, uint32_t i, cons
 }
 
 bool sunder_i_hulls_sum(sunder_i_lattice *lattice, const sunder_i_hulls *a, const sunder_i_hulls *b,
-                         sunder_i_hulls *out)
+                        sunder_i_hulls *out)
 {
     const size_t m = a->n, n = b->n;
     if (m && n && (m > UINT32_MAX / 2 / n || (size_t)a->corners * n + (size_t)b->corners * m > UINT32_MAX / 2))

@@ -1,5 +1,5 @@
 /* Independent work on several threads. Which thread does what is left to chance; where the result goes is not. */
-#include "displacement/displacement.h"
+#include "number/parallel.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -1,0 +1,145 @@
+/* An erosion, or an opening, polygon by polygon.
+ *
+ * The polygons of a set in canonical form have disjoint interiors and touch in points at most. Let the interior of B be
+ * connected. Where B + x lies in the set, its interior lies in the interior of the set, of which the components are the
+ * interiors of the polygons: so it lies in one of them, and the closed B + x in that polygon. The erosion is the union
+ * of the erosions of the polygons, each a closed set, and no two have a point in common. What B reaches in them, the
+ * opening, stays in its polygon, too.
+ *
+ * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
+#include "morphology/morphology.h"
+#include "number/parallel.h"
+
+#include <math.h>
+#include <pthread.h>
+
+typedef struct islands {
+    const sunder_i_seat *seat;
+    const sunder_sum *whole;
+    const sunder_sum_options *asked;
+    bool connected, open, dilated;
+    sunder_sum **part;    /* [n] */
+    size_t n, sides;      /* of all */
+    pthread_mutex_t lock; /* of the caller's progress, and what follows */
+    size_t done;          /* sides of islands that are ready */
+    double told;
+    bool stopped;
+} islands;
+
+/* One island's progress as the whole's. Fractions told never fall, whoever tells them. */
+typedef struct teller {
+    islands *all;
+    size_t sides;
+    double from, to; /* of the island: the stage at hand */
+} teller;
+
+static bool tell(double fraction, void *user)
+{
+    const teller *t = user;
+    islands *all = t->all;
+    pthread_mutex_lock(&all->lock);
+    const double part = (t->from + (t->to - t->from) * fraction) * (double)t->sides;
+    all->told = fmax(all->told, ((double)all->done + part) / (double)(all->sides + 1));
+    if (!all->stopped) all->stopped = !all->asked->progress(all->told, all->asked->progress_user);
+    const bool go_on = !all->stopped;
+    pthread_mutex_unlock(&all->lock);
+    return go_on;
+}
+
+static sunder_status grow_again(const islands *all, const sunder_sum_options *options, sunder_sum *eroded,
+                                sunder_sum **out, sunder_error *err)
+{
+    sunder_i_figure figure;
+    sunder_sum *sum = sunder_i_seat_sum(all->seat, 0);
+    if (!sum) return sunder_i_no_memory(err);
+    sunder_status status = SUNDER_ENOMEM;
+    if (sunder_i_figure_of_sum(eroded, 0, eroded->polygons, false, &figure)) {
+        status = sunder_i_grow(&figure, &all->seat->probe, options, sum, err);
+        sunder_i_figure_free(&figure);
+    } else
+        sunder_i_no_memory(err);
+    if (status == SUNDER_OK)
+        *out = sum;
+    else
+        sunder_sum_free(sum);
+    return status;
+}
+
+static sunder_status one_island(islands *all, const sunder_i_figure *figure, sunder_sum **out, sunder_error *err)
+{
+    teller t = {all, figure->sides, 0, all->open ? 0.5 : 1};
+    sunder_sum_options options = {.seed = all->asked->seed};
+    if (all->asked->progress) {
+        options.progress = tell;
+        options.progress_user = &t;
+    }
+    sunder_sum *eroded = sunder_i_seat_sum(all->seat, -1);
+    if (!eroded) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_shrink(figure, &all->seat->reflected, &options, eroded, err);
+    if (status == SUNDER_OK && !all->open) {
+        *out = eroded;
+        return SUNDER_OK;
+    }
+    t.from = 0.5;
+    t.to = 1;
+    if (status == SUNDER_OK) status = grow_again(all, &options, eroded, out, err);
+    sunder_sum_free(eroded);
+    return status;
+}
+
+static sunder_status work(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    islands *all = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t i = begin; i < end && status == SUNDER_OK; i++) {
+        if (!all->whole) {
+            status = one_island(all, &all->seat->figure, &all->part[i], err);
+            continue;
+        }
+        sunder_i_figure figure;
+        const size_t last = all->connected ? i + 1 : all->whole->polygons;
+        if (!sunder_i_figure_of_sum(all->whole, i, last, true, &figure)) return sunder_i_no_memory(err);
+        status = one_island(all, &figure, &all->part[i], err);
+        pthread_mutex_lock(&all->lock);
+        all->done += figure.sides;
+        pthread_mutex_unlock(&all->lock);
+        sunder_i_figure_free(&figure);
+    }
+    return status;
+}
+
+static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
+{
+    all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
+    /* Of a closing, the dilation has added B's origin already. */
+    sunder_sum *sum = sunder_i_seat_sum(all->seat, all->open || all->dilated ? 0 : -1);
+    sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
+    if (status == SUNDER_OK) {
+        pthread_mutex_init(&all->lock, NULL);
+        status = sunder_i_parallel(all->asked->threads, all->n, 1, work, all, err);
+        pthread_mutex_destroy(&all->lock);
+    }
+    if (status == SUNDER_OK && !sunder_i_gather(all->part, all->n, sum)) status = sunder_i_no_memory(err);
+    for (size_t i = 0; all->part && i < all->n; i++) sunder_sum_free(all->part[i]);
+    sunder_i_free(all->part);
+    if (status == SUNDER_OK)
+        *out = sum;
+    else
+        sunder_sum_free(sum);
+    return status;
+}
+
+sunder_status sunder_i_islands(const sunder_i_seat *seat, const sunder_sum *whole, bool connected,
+                               sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
+                               sunder_error *err)
+{
+    islands all = {.seat = seat,
+                   .whole = whole,
+                   .asked = options,
+                   .connected = connected,
+                   .open = operation == SUNDER_OPEN,
+                   .dilated = operation == SUNDER_CLOSE};
+    all.n = whole && connected ? whole->polygons : 1;
+    all.sides = !whole ? seat->figure.sides : whole->rings ? whole->ring_end[whole->rings - 1] : 0;
+    return run(&all, out, err);
+}

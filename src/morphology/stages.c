@@ -1,0 +1,60 @@
+/* P and B on one lattice, once for all stages of an operation. */
+#include "morphology/morphology.h"
+
+#include <string.h>
+
+/* The denominator in memory of the lattice's own, and nothing else: placing left all corners of P in its pool. */
+static bool keep_units(sunder_i_lattice *from, sunder_i_lattice *to)
+{
+    *to = (sunder_i_lattice){.exponent = from->exponent, .scale = from->scale, .approx_shift = from->approx_shift};
+    to->denominator = sunder_i_big_copy(&to->arena, from->denominator);
+    return !to->arena.failed;
+}
+
+static bool fill(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *placed, sunder_i_seat *seat)
+{
+    memcpy(seat->origin_p, placed->origin_p, sizeof seat->origin_p);
+    memcpy(seat->origin_q, placed->origin_q, sizeof seat->origin_q);
+    sunder_i_lattice *l = &placed->lattice;
+    return keep_units(l, &seat->lattice) && sunder_i_probe_of_shape(l, b, placed->q, false, &seat->probe) &&
+           sunder_i_probe_of_shape(l, b, placed->q, true, &seat->reflected) &&
+           (p->polygons > 1 || sunder_i_figure_of_shape(l, p, placed->p, &seat->figure));
+}
+
+sunder_status sunder_i_seat_make(const sunder_shape *p, const sunder_shape *b, sunder_i_seat *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    sunder_i_placed placed;
+    const sunder_i_place_options how = {.force_wide = true};
+    sunder_status status = sunder_i_place(p, b, &how, &placed, err);
+    if (status != SUNDER_OK) return status;
+    if (!fill(p, b, &placed, out)) status = sunder_i_no_memory(err);
+    sunder_i_placed_free(&placed);
+    if (status != SUNDER_OK) sunder_i_seat_free(out);
+    return status;
+}
+
+void sunder_i_seat_free(sunder_i_seat *seat)
+{
+    sunder_i_lattice_free(&seat->lattice);
+    sunder_i_probe_free(&seat->probe);
+    sunder_i_probe_free(&seat->reflected);
+    sunder_i_figure_free(&seat->figure);
+}
+
+sunder_sum *sunder_i_seat_sum(const sunder_i_seat *seat, int moved)
+{
+    sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
+    if (!sum) return NULL;
+    const sunder_i_lattice *l = &seat->lattice;
+    sum->lattice = (sunder_i_lattice){.exponent = l->exponent, .scale = l->scale, .approx_shift = l->approx_shift};
+    sum->lattice.denominator = sunder_i_big_copy(&sum->lattice.arena, l->denominator);
+    sum->method.algorithm = SUNDER_INCREMENTAL;
+    for (int k = 0; k < 2; k++) {
+        sum->origin[0][k] = seat->origin_p[k];
+        sum->origin[1][k] = moved ? moved * seat->origin_q[k] : 0;
+    }
+    if (!sum->lattice.arena.failed) return sum;
+    sunder_sum_free(sum);
+    return NULL;
+}

@@ -1,0 +1,141 @@
+#include "motion/diagonals.h"
+
+#include "number/sort.h"
+#include "predicate/predicate.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Which ---- */
+
+/* The sides of pieces that are no edges of the shape: from u to v, then w. */
+typedef struct side {
+    uint32_t u, v, w;
+} side;
+
+static int compare_sides(void *context, uint32_t a, uint32_t b)
+{
+    const side *s = context;
+    const uint32_t low_a = s[a].u < s[a].v ? s[a].u : s[a].v, low_b = s[b].u < s[b].v ? s[b].u : s[b].v;
+    if (low_a != low_b) return low_a < low_b ? -1 : 1;
+    const uint32_t high_a = s[a].u ^ s[a].v ^ low_a, high_b = s[b].u ^ s[b].v ^ low_b;
+    if (high_a != high_b) return high_a < high_b ? -1 : 1;
+    return s[a].u < s[a].v ? -1 : 1;
+}
+
+static size_t inner_sides(const sunder_shape *shape, side *out)
+{
+    size_t n = 0;
+    for (uint32_t i = 0, first = 0; i < shape->pieces; first = shape->piece_end[i++]) {
+        const uint32_t *corner = shape->piece_vertex + first, m = shape->piece_end[i] - first;
+        for (uint32_t k = 0; k < m; k++) {
+            const uint32_t u = corner[k], v = corner[(k + 1) % m];
+            if (!sunder_i_is_boundary(shape, u, v)) out[n++] = (side){u, v, corner[(k + 2) % m]};
+        }
+    }
+    return n;
+}
+
+/* ---- How fine ---- */
+
+/* The exponent e of |b - a| < 2^e, and >= 2^(e - 1) but for rounding; doubles of any size, overflow kept off. */
+static int span(const double *a, const double *b)
+{
+    int e;
+    const double d = hypot(b[0] / 4 - a[0] / 4, b[1] / 4 - a[1] / 4);
+    frexp(d > 0 ? d : 0x1p-1074, &e);
+    return e + 2;
+}
+
+/* Enough for both corners that the diagonal adds: |w - m| <= |w - u| + |uv|. */
+static unsigned bits_of(const double *xy, const uint32_t corner[4])
+{
+    const double *u = xy + 2 * (size_t)corner[0], *v = xy + 2 * (size_t)corner[2];
+    int most = span(u, v);
+    const int least = most;
+    for (int k = 1; k < 4; k += 2) {
+        const int far = span(u, xy + 2 * (size_t)corner[k]);
+        if (far > most) most = far;
+    }
+    return (unsigned)(most - least) + 6;
+}
+
+/* Nearest doubles do not tell how near rational corners are: they differ by a lattice unit at least. */
+static unsigned bits_of_rational(const sunder_shape *shape)
+{
+    unsigned long most = 0;
+    for (size_t i = 0; i < 2 * (size_t)shape->vertices; i++) {
+        const unsigned long bits = sunder_i_big_bits(shape->num[i]);
+        if (bits > most) most = bits;
+    }
+    return (unsigned)most + 6;
+}
+
+bool sunder_i_diagonals_find(const sunder_shape *shape, sunder_i_diagonals *out)
+{
+    memset(out, 0, sizeof *out);
+    const size_t corners = shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
+    side *sides = sunder_i_alloc(corners, sizeof *sides);
+    uint32_t *order = sunder_i_alloc(corners, sizeof *order);
+    out->corner = sunder_i_alloc(corners, sizeof *out->corner);
+    bool ok = sides && order && out->corner;
+    const size_t n = ok ? inner_sides(shape, sides) : 0;
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
+    ok = ok && sunder_i_sort_indices(order, n, compare_sides, sides);
+    for (size_t i = 0; ok && i + 1 < n; i += 2) { /* each diagonal is a side of two pieces */
+        const side *left = &sides[order[i]], *right = &sides[order[i + 1]];
+        const uint32_t corner[4] = {left->u, right->w, left->v, left->w};
+        memcpy(out->corner[out->n++], corner, sizeof corner);
+        const unsigned bits = shape->rational ? 0 : bits_of(shape->xy, corner);
+        if (bits > out->bits) out->bits = bits;
+    }
+    if (shape->rational && out->n) out->bits = bits_of_rational(shape);
+    sunder_i_free(sides);
+    sunder_i_free(order);
+    if (!ok) sunder_i_diagonals_free(out);
+    return ok;
+}
+
+void sunder_i_diagonals_free(sunder_i_diagonals *diagonals)
+{
+    sunder_i_free(diagonals->corner);
+    memset(diagonals, 0, sizeof *diagonals);
+}
+
+/* ---- The quadrilaterals ---- */
+
+/* u + uv / 2 + (w - m) / 2^j for one coordinate; w - m = (2 uw - uv) / 2. */
+static int64_t towards(sunder_i_lattice *l, int64_t u, int64_t v, int64_t w, unsigned j)
+{
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_big from = sunder_i_lattice_get(l, u);
+    const sunder_i_big uv = sunder_i_big_sub(m, sunder_i_lattice_get(l, v), from);
+    const sunder_i_big uw = sunder_i_big_sub(m, sunder_i_lattice_get(l, w), from);
+    const sunder_i_big off = sunder_i_big_shr(m, sunder_i_big_sub(m, sunder_i_big_shl(m, uw, 1), uv), j + 1);
+    return sunder_i_lattice_big(l, sunder_i_big_add(m, sunder_i_big_add(m, from, sunder_i_big_shr(m, uv, 1)), off));
+}
+
+/* Is the quadrilateral strictly convex where the diagonal ends? Elsewhere it is: its other corners are beside it. */
+static bool is_convex(sunder_i_lattice *l, const sunder_i_point q[4])
+{
+    return sunder_i_orient(l, q[3], q[0], q[1]) > 0 && sunder_i_orient(l, q[1], q[2], q[3]) > 0;
+}
+
+void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *l, const sunder_i_point *at,
+                            sunder_i_hulls *list)
+{
+    for (size_t i = 0; i < diagonals->n; i++) {
+        const uint32_t *corner = diagonals->corner[i];
+        const sunder_i_point u = at[corner[0]], v = at[corner[2]];
+        sunder_i_point quad[4] = {u, u, v, u};
+        for (unsigned j = 1; j < diagonals->bits && !l->arena.failed; j++) {
+            for (int k = 1; k < 4; k += 2) {
+                const sunder_i_point w = at[corner[k]];
+                quad[k] = (sunder_i_point){towards(l, u.x, v.x, w.x, j), towards(l, u.y, v.y, w.y, j)};
+            }
+            if (is_convex(l, quad)) break;
+        }
+        for (int k = 0; k < 4; k++) sunder_i_hulls_add_corner(list, quad[k], false);
+        list->end[list->n++] = list->corners;
+    }
+}

@@ -1,0 +1,10 @@
+/* Canonical forms of equal sets are equal. */
+#ifndef SUNDER_TEST_FUZZ_EQUAL_H
+#define SUNDER_TEST_FUZZ_EQUAL_H
+
+#include "sunder.h"
+
+/* Ends the process unless the two sums have the same rings, segments and points, vertex for vertex. */
+void fuzz_demand_equal(const sunder_sum *a, const sunder_sum *b);
+
+#endif

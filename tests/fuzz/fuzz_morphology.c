@@ -1,0 +1,62 @@
+/* Growing and shrinking hostile shapes: an opening has no more area than the set and a closing no less; the random order of
+ * work, and threads, change nothing. */
+#include <stdlib.h>
+
+#include "bytes.h"
+#include "equal.h"
+
+#include <gmp.h>
+
+/* The exact area; false if memory is out. */
+static bool area_of(const sunder_sum *sum, mpq_t area)
+{
+    char *text = NULL;
+    if (sunder_sum_area_text(sum, &text, NULL) != SUNDER_OK) return false;
+    FUZZ_DEMAND(mpq_set_str(area, text, 10) == 0);
+    sunder_free(text);
+    return true;
+}
+
+static void demand_less(const sunder_sum *less, const sunder_sum *more)
+{
+    mpq_t a, b;
+    mpq_init(a);
+    mpq_init(b);
+    if (area_of(less, a) && area_of(more, b)) FUZZ_DEMAND(mpq_cmp(a, b) <= 0);
+    mpq_clear(a);
+    mpq_clear(b);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_bytes bytes = {data, size};
+    const unsigned fail = fuzz_byte(&bytes), seed = fuzz_byte(&bytes);
+    const fuzz_scale scale = fuzz_choose_scale(&bytes);
+    fuzz_fail_allocations(0);
+    sunder_shape *p = fuzz_shape(&bytes, scale, 14), *b = fuzz_shape(&bytes, scale, 8);
+    sunder_sum *result[4] = {NULL, NULL, NULL, NULL}, *whole = NULL, *again = NULL;
+    if (p && b && !sunder_shape_is_empty(b)) {
+        const sunder_sum_options options = {.seed = seed}, other = {.seed = seed + 1, .threads = 2};
+        sunder_error error;
+        for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; ++op) {
+            fuzz_fail_allocations(fail < 128 && fail % 4 == (unsigned)op ? fail * 8 : 0);
+            const sunder_status status = sunder_morphology(p, b, (sunder_operation)op, &options, &result[op], &error);
+            FUZZ_DEMAND((result[op] != NULL) == (status == SUNDER_OK));
+            FUZZ_DEMAND(status == SUNDER_OK || status == SUNDER_ENOMEM);
+        }
+        fuzz_fail_allocations(0);
+        FUZZ_DEMAND(sunder_shape_union(p, &options, &whole, &error) == SUNDER_OK);
+        if (result[SUNDER_OPEN]) demand_less(result[SUNDER_OPEN], whole);
+        if (result[SUNDER_CLOSE]) demand_less(whole, result[SUNDER_CLOSE]);
+        const sunder_operation op = (sunder_operation)(seed % 4);
+        FUZZ_DEMAND(sunder_morphology(p, b, op, &other, &again, &error) == SUNDER_OK);
+        if (result[op]) fuzz_demand_equal(result[op], again);
+    }
+    for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; ++op) sunder_sum_free(result[op]);
+    sunder_sum_free(whole);
+    sunder_sum_free(again);
+    sunder_shape_free(b);
+    sunder_shape_free(p);
+    return 0;
+}

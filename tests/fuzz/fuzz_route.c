@@ -1,0 +1,70 @@
+/* Routes among hostile obstacles: there and back are equally long, and the same is in the way. That no leg collides is
+ * proved inside; a path that failed its proof would be an error that is not allowed here. */
+#include <stdlib.h>
+
+#include "bytes.h"
+
+#include <math.h>
+
+#define MOST_POINTS 8
+
+static sunder_place choose_place(fuzz_bytes *bytes, fuzz_scale scale)
+{
+    const double x = fuzz_coordinate(bytes, scale), y = fuzz_coordinate(bytes, scale);
+    return (sunder_place){{x, y}, {NULL, NULL}};
+}
+
+/* Far places are refused; nothing else is. */
+static bool allowed(sunder_status status, bool failing)
+{
+    return status == SUNDER_OK || status == SUNDER_ERANGE || (failing && status == SUNDER_ENOMEM);
+}
+
+static void demand_same(const sunder_route *there, const sunder_route *back)
+{
+    const sunder_no_route one = sunder_route_reason(there, NULL), other = sunder_route_reason(back, NULL);
+    const bool found = one == SUNDER_ROUTE_FOUND;
+    FUZZ_DEMAND(found == (other == SUNDER_ROUTE_FOUND));
+    FUZZ_DEMAND((one == SUNDER_ROUTE_DISCONNECTED) == (other == SUNDER_ROUTE_DISCONNECTED));
+    FUZZ_DEMAND(found == (sunder_route_vertices(there) > 0));
+    if (!found) return;
+    const double a = sunder_route_length(there), b = sunder_route_length(back);
+    FUZZ_DEMAND(a == b || fabs(a - b) <= 0x1p-51 * a);
+    for (size_t i = 0; i < sunder_route_vertices(there); ++i) {
+        double xy[2];
+        sunder_route_vertex(there, i, xy);
+        FUZZ_DEMAND(!isnan(xy[0]) && !isnan(xy[1]));
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_bytes bytes = {data, size};
+    const unsigned fail = fuzz_byte(&bytes), kind = fuzz_byte(&bytes);
+    const fuzz_scale scale = fuzz_choose_scale(&bytes);
+    fuzz_fail_allocations(0);
+    const sunder_place from = choose_place(&bytes, scale), to = choose_place(&bytes, scale);
+    double xy[2 * MOST_POINTS];
+    size_t points = kind % MOST_POINTS, line_end[2] = {points / 2, points};
+    for (size_t i = 0; i < 2 * points; ++i) xy[i] = fuzz_coordinate(&bytes, scale);
+    sunder_shape *p = fuzz_shape(&bytes, scale, 14), *robot = fuzz_shape(&bytes, scale, 8);
+    sunder_route *there = NULL, *back = NULL;
+    if (p && robot && !sunder_shape_is_empty(robot)) {
+        const sunder_obstacle obstacle[] = {{p, NULL, NULL, 0}, {NULL, xy, line_end, points ? 2 : 0}};
+        const sunder_route_options options = {.gap = kind & 64 ? ldexp(1, (int)(kind % 5)) : 0};
+        sunder_error error;
+        fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);
+        sunder_status status = sunder_route_find(obstacle, 2, robot, &from, &to, &options, &there, &error);
+        FUZZ_DEMAND((there != NULL) == (status == SUNDER_OK) && allowed(status, fail > 0 && fail < 128));
+        fuzz_fail_allocations(0);
+        status = sunder_route_find(obstacle, 2, robot, &to, &from, &options, &back, &error);
+        FUZZ_DEMAND((back != NULL) == (status == SUNDER_OK) && allowed(status, false));
+        if (there && back) demand_same(there, back);
+    }
+    sunder_route_free(there);
+    sunder_route_free(back);
+    sunder_shape_free(robot);
+    sunder_shape_free(p);
+    return 0;
+}
