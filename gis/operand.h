@@ -49,6 +49,14 @@ const char *gis_shape_prefix_meant(const char *text);
 bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
                            sunder_shape **out, double *building, gis_error *error);
 
+/* The SHAPE of an option, in any form; it must enclose something. A data source is read whole (--where and the like select
+ * from the operands), is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to *source, else
+ * untouched. Lengths inside a text are converted by the ruler. */
+bool gis_shape_of_option(const gis_options *options, gis_option_id id, const gis_ruler *rule, OGRSpatialReferenceH crs,
+                         gis_source **source, sunder_shape **out, gis_error *error);
+/* False, with an error, if writing the output would replace this source (NULL: there is none). */
+bool gis_source_spare(const gis_source *source, const gis_options *options, const char *output, gis_error *error);
+
 /* P and Q of sum and pair. */
 typedef struct gis_operands {
     sunder_shape *p, *q;

@@ -195,34 +195,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     return ok;
 }
 
-/* ---- Robot, start, goal --------------------------------------------------------------------------------------- */
-
-/* A data source for the robot is read whole: --where and the like select obstacles. */
-static bool read_robot(gis_route_input *input, gis_error *error)
-{
-    const char *text = input->options->text[OPT_ROBOT];
-    if (!text)
-        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
-    if (gis_shape_is_text(text)) {
-        if (!gis_shape_from_text(text, "--robot", &input->rule, gis_options_invalid(input->options), &input->robot,
-                                 NULL, error))
-            return false;
-    } else {
-        static const gis_option_id selecting[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX,
-                                                  OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
-        gis_options plain = *input->options;
-        for (size_t i = 0; i < sizeof selecting / sizeof *selecting; i++) {
-            plain.given[selecting[i]] = false;
-            plain.text[selecting[i]] = NULL;
-            plain.list[selecting[i]] = NULL;
-        }
-        if (!gis_shape_from_source(&plain, text, "--robot", &input->robot_source, &input->robot, NULL, error))
-            return false;
-    }
-    if (sunder_shape_is_empty(input->robot))
-        return gis_fail_usage(error, "--robot %s: it encloses nothing", text);
-    return true;
-}
+/* ---- Start and goal ---------------------------------------------------------------------------------------------- */
 
 /* One coordinate: a decimal, taken as the nearest double, or a fraction of whole numbers, taken as it is. */
 static bool read_coordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
@@ -298,7 +271,7 @@ bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_
     if (text && !read_text(out, obstacles, error))
         return false;
     warn_of_crs(out);
-    if (!read_robot(out, error))
+    if (!gis_shape_of_option(options, OPT_ROBOT, &out->rule, out->crs, &out->robot_source, &out->robot, error))
         return false;
     if (options->given[OPT_GAP] &&
         !gis_length_in_layer_units(&options->length[OPT_GAP], &out->rule, "--gap", &out->gap, error))

@@ -13,6 +13,7 @@
 #define STUBBORN_SPLITS_MANY 12
 #define FEW_LINES 4
 #define MANY_SIDES 250
+#define RECENT_BITS_MOST 14 /* 128 KB, which stay in the second-level cache; more hardly finds more */
 
 /* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
  * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
@@ -191,6 +192,24 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
     settle_entry(b, h, source->subsum, n, n + more);
 }
 
+/* A subsum that is in one half with all that it has: every side passes. In the upper cells that are nearly all. */
+static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
+{
+    const box *reach = &b->reach[source->subsum];
+    const int k = apart(reach, &h[0].b);
+    if (h[k].held || !within(reach, &h[k].b) || !apart(reach, &h[1 - k].b)) return false;
+    run *out = h[k].runs + h[k].runs_n;
+    uint32_t sides = 0;
+    for (uint32_t i = 0; i < source->runs; i++) {
+        sides += run_end(b, runs[i]) - run_from(b, runs[i]);
+        out[i] = runs[i];
+    }
+    h[k].entries[h[k].entries_n++] = *source;
+    h[k].runs_n += source->runs;
+    h[k].sides += sides;
+    return true;
+}
+
 /* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
  * half. */
 static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
@@ -315,7 +334,8 @@ static void split(builder *b, const cell *c)
     const double hy = most_of(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
     size_t from = c->run_from;
     for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
-        filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
+        if (!keep_whole(b, h, b->runs + from, &b->entries[i]))
+            filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
         from += b->entries[i].runs;
     }
     settle_half(b, c, &h[0]);
@@ -357,16 +377,21 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
     b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
-    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared;
+    for (b.recent_bits = 6; b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits; b.recent_bits++) {}
+    b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
+    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
+    if (ok) memset(b.recent, 0xff, sizeof *b.recent << b.recent_bits);
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);
+    sunder_i_free(b.before);
     sunder_i_free(b.entries);
     sunder_i_free(b.runs);
     sunder_i_free(b.stack);
     sunder_i_free(b.stamp);
     sunder_i_free(b.single);
     sunder_i_free(b.shared);
+    sunder_i_free(b.recent);
     if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
     return status;
 }

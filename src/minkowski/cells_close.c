@@ -2,9 +2,20 @@
  * candidates. */
 #include "minkowski/cells_inner.h"
 
+/* Neighbouring leaves have most of their pairs in common (features that overlap: nine of ten). Those pushed of late are
+ * known again, by their slot; what has been driven out of it comes in twice, which does no harm. */
+static bool is_known(builder *b, uint64_t pair)
+{
+    uint64_t *slot = &b->recent[(pair * 0x9e3779b97f4a7c15u) >> (64 - b->recent_bits)];
+    if (*slot == pair) return true;
+    *slot = pair;
+    return false;
+}
+
 static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
 {
     sunder_i_cell_pairs *p = b->out;
+    if (is_known(b, (uint64_t)line << 32 | subsum)) return true;
     if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
         b->no_memory = true;
         return false;
@@ -22,6 +33,7 @@ void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
         const run r = b->runs[i];
         if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
         const uint32_t first = run_from(b, r), end = run_end(b, r);
+        if (b->before[first] == b->before[end]) continue;
         if (end - first > 1) {
             const approx_side *s = &b->side[first], *t = &b->side[end - 1];
             const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};

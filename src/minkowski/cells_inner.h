@@ -55,6 +55,7 @@ typedef struct builder {
     const sunder_sum_options *options;
     sunder_i_cell_pairs *out;
     approx_side *side;
+    uint32_t *before; /* [sides + 1] how many candidates there are before each side */
     box *reach;     /* [subsums] bounding boxes, widened by the error */
     double error;   /* bound on the distance error of a start point, see filter_subsum() */
     entry *entries; /* lists of all cells on the stack, one after the other */
@@ -67,6 +68,8 @@ typedef struct builder {
     size_t stack_n, stack_capacity;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
     uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
+    uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
+    int recent_bits;
     bool *shared;     /* [lines] somewhere one subsum stands for several along the line */
     uint32_t cells;   /* stamps given out */
     double done;      /* share of the work, for progress */
@@ -105,6 +108,11 @@ static inline void widen(box *b, double by)
 static inline bool apart(const box *a, const box *b)
 {
     return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
+}
+
+static inline bool within(const box *a, const box *b)
+{
+    return a->low[0] >= b->low[0] && a->high[0] <= b->high[0] && a->low[1] >= b->low[1] && a->high[1] <= b->high[1];
 }
 
 /* The part of a box that the segment's own box covers; false if there is none. */

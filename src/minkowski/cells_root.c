@@ -14,6 +14,14 @@ static bool make_room(builder *b)
     if (!b->side) return false;
     b->crossing = (crossing *)(void *)(b->side + s->sides);
     b->reach = (box *)(void *)(b->crossing + s->sides);
+    b->before = sunder_i_alloc(s->sides + 1, sizeof *b->before);
+    if (!b->before) return false;
+    uint32_t n = 0;
+    for (size_t k = 0; k < s->sides; k++) {
+        b->before[k] = n;
+        n += b->lines->of[k] != SUNDER_I_NO_LINE;
+    }
+    b->before[s->sides] = n;
     return true;
 }
 

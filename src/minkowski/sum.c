@@ -1,8 +1,10 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
+#include "minkowski/buried.h"
 #include "minkowski/convex.h"
 #include "minkowski/minkowski.h"
 #include "minkowski/stages.h"
 #include "minkowski/subsums.h"
+#include "minkowski/traced.h"
 #include "unions/unions.h"
 
 #include <string.h>
@@ -33,12 +35,25 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
         sum->seconds[2] = now() - start;
         return status;
     }
+    bool traced = false;
+    if (q->pieces == 1)
+        status = sunder_i_traced_build(sum, p, placed.p, q, placed.q, &traced, err);
+    else if (p->pieces == 1)
+        status = sunder_i_traced_build(sum, q, placed.q, p, placed.p, &traced, err);
+    if (status != SUNDER_OK || traced) {
+        sunder_i_placed_free(&placed);
+        sum->seconds[2] = now() - start;
+        return status;
+    }
     sunder_i_subsums subsums;
     status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
+    /* Members grown by one convex shape overlap as they stand; else few sides are inside a single subsum. */
+    if ((p->polygons > 1 && q->pieces == 1) || (q->polygons > 1 && p->pieces == 1))
+        status = sunder_i_bury_candidates(&subsums, err);
     sum->seconds[1] = now() - start;
-    status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
+    if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
     sunder_i_subsums_free(&subsums);
     sum->seconds[2] = now() - start - sum->seconds[1];
     return status;

@@ -224,15 +224,14 @@ def coordinate(v):
 
 def one_scene(program, rng, number):
     size = rng.choice([4, 6, 8])
+    robot_wkt = None
     if number % 40 == 39:
         robot, obstacles = town(rng)
-        robot_wkt, size = members(robot), 36
+        size = 36
     elif number % 4 == 0:
         robot, obstacles = corridor(rng)
-        robot_wkt = members(robot)
     elif number % 4 == 1:
         robot, obstacles = cage(rng)
-        robot_wkt = members(robot)
     else:
         robot, robot_wkt = random_robot(rng)
         obstacles = [random_piece(rng, size) for _ in range(rng.randrange(0, 5))]
@@ -252,6 +251,7 @@ def one_scene(program, rng, number):
         body, piece = rng.choice(robot), rng.choice(obstacles)
         r, s, o = rng.choice(body), rng.choice(rng.choice(robot)), rng.choice(piece)
         start = (o[0] - F(r[0] + s[0]) / 2, o[1] - F(r[1] + s[1]) / 2)
+    robot_wkt = robot_wkt or members(robot)
     call = [program, "route", wkt_of(obstacles), "--robot", robot_wkt, "--exact", "--quiet",
             "--from=" + ",".join(map(coordinate, start)), "--to=" + ",".join(map(coordinate, goal))]
     done = subprocess.run(call, capture_output=True, text=True)

@@ -1,0 +1,221 @@
+/* Sums with a convex operand, traced along the outline, against the oracle byte for byte: polygons of all kinds, with holes
+ * and bays that close, by convex shapes from small to larger than they are. The tracing is called by itself, so that
+ * the general road cannot answer for it; where it declines there is nothing to compare, but it may not always do so. */
+#include "failing.h"
+#include "generate.h"
+#include "minkowski/traced.h"
+#include "oracle.h"
+#include "sum_text.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef enum subject { SIMPLE, STAR, COMB, FORK, BUILDING, BOARD, PATCHES, SLANTED, SUBJECTS } subject;
+
+static const char *const subject_name[SUBJECTS] = {"simple polygons", "stars",     "combs",          "forks",
+                                                   "buildings",       "boards",    "half squares",   "slanted boards"};
+
+static void random_subject(polyset *p, rng *r, subject kind)
+{
+    cells board;
+    switch (kind) {
+    case SIMPLE: random_simple(p, r, (int)rng_int(r, 4, 8), 12); return;
+    case STAR: random_star(p, r, (int)rng_int(r, 5, 14), 40); return;
+    case COMB: random_comb(p, r, (int)rng_int(r, 2, 5), 60, rng_once_in(r, 2)); return;
+    case FORK: random_fork(p, r, (int)rng_int(r, 2, 4), 40, rng_once_in(r, 2)); return;
+    case BUILDING: random_building(p, r); return;
+    default: break;
+    }
+    /* Maps of coordinates with decimals are rounded, and break. */
+    const spacing lines = kind == SLANTED || rng_once_in(r, 2) ? SPACING_SMALL : SPACING_MAP;
+    random_cells(&board, r, (int)rng_int(r, 2, 6), (int)rng_int(r, 2, 5), lines, kind != BOARD, 80);
+    cells_outline(p, &board, false, true);
+    if (kind == SLANTED) polyset_map(p, 3, 1, -1, 2);
+}
+
+/* Convex, about as large as `size`; sides of the subjects' own directions among them. */
+static void random_brush(polyset *q, rng *r, double size)
+{
+    if (rng_once_in(r, 3)) {
+        const double w = rint(size * rng_unit(r)) + 1, h = rng_once_in(r, 2) ? w : rint(size * rng_unit(r)) + 1;
+        polyset_rectangle(q, 0, 0, w, h);
+    } else
+        random_convex(q, r, (int)rng_int(r, 3, 12), size + 2);
+    if (rng_once_in(r, 4)) polyset_map(q, 3, 1, -1, 2);
+    polyset_move(q, (double)rng_int(r, -9, 9), (double)rng_int(r, -9, 9));
+}
+
+static double width_of(const polyset *p)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < p->vertices; i++) {
+        low = fmin(low, p->xy[2 * i]);
+        high = fmax(high, p->xy[2 * i]);
+    }
+    return high - low;
+}
+
+/* The text of the traced sum; NULL where tracing declines. */
+static char *traced_text(const polyset *p, const polyset *q)
+{
+    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
+    sunder_sum *sum = NULL;
+    sunder_i_placed placed;
+    const sunder_i_place_options how = {0};
+    bool done = false;
+    char *text = NULL;
+    assert_non_null(a);
+    assert_non_null(b);
+    assert_int_equal(sunder_minkowski_sum(a, b, NULL, &sum, NULL), SUNDER_OK); /* for its origins */
+    sunder_sum *traced = calloc(1, sizeof *traced);
+    assert_non_null(traced);
+    assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
+    traced->lattice = placed.lattice;
+    memset(&placed.lattice, 0, sizeof placed.lattice);
+    memcpy(traced->origin, sum->origin, sizeof traced->origin);
+    assert_int_equal(sunder_i_traced_build(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
+    if (done)
+        text = sum_text(traced);
+    else {
+        assert_null(traced->vertex);
+        assert_int_equal(traced->polygons, 0);
+    }
+    sunder_i_placed_free(&placed);
+    sunder_sum_free(traced);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return text;
+}
+
+/* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
+static int trace_one(subject kind, uint64_t seed, size_t i)
+{
+    static const double share[] = {0.02, 0.1, 0.2, 0.4, 1.5};
+    rng r = rng_start(seed * 29 + (uint64_t)kind, i);
+    polyset p, q;
+    polyset_init(&p);
+    polyset_init(&q);
+    random_subject(&p, &r, kind);
+    random_brush(&q, &r, width_of(&p) * share[i % (sizeof share / sizeof *share)]);
+    char *ours = p.polygons == 1 ? traced_text(&p, &q) : NULL;
+    int verdict = 0;
+    if (ours) {
+        char *expected = oracle_sum_text(&p, &q, false);
+        verdict = strcmp(ours, expected) == 0 ? 1 : -1;
+        if (verdict < 0) {
+            char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
+            print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  traced %.2000s\n  oracle %.2000s\n", subject_name[kind],
+                          (unsigned long long)seed, i, a, b, ours, expected);
+            free(a);
+            free(b);
+        }
+        free(expected);
+    }
+    free(ours);
+    polyset_free(&p);
+    polyset_free(&q);
+    return verdict;
+}
+
+static void test_subject(void **state)
+{
+    const subject kind = *(const subject *)*state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(150);
+    size_t traced = 0, bad = 0;
+    for (size_t i = 0; i < n && bad < 2; i++) {
+        const int verdict = trace_one(kind, seed, i);
+        traced += verdict > 0;
+        bad += verdict < 0;
+    }
+    print_message("SUNDER_SEED=%llu, %zu of %zu traced\n", (unsigned long long)seed, traced, n);
+    assert_int_equal(bad, 0);
+    assert_true(bad > 0 || traced >= n / 20);
+}
+
+/* What is to be traced and what is not, one case for each. */
+static void test_cases(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *p, *q;
+        bool traced;
+    } cases[] = {
+        /* a jog that the shape swallows */
+        {"POLYGON ((0 0, 40 0, 40 20, 21 20, 20 21, 0 21))", "POLYGON ((-9 0, 0 -8, 8 0, 0 9))", true},
+        /* a bay that stays open, and one whose mouth closes on a hole */
+        {"POLYGON ((0 0, 40 0, 40 30, 30 30, 30 10, 10 10, 10 30, 0 30))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 31, 0 31))",
+         "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        /* a mouth that just closes: a degenerate segment */
+        {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 30, 0 30))",
+         "POLYGON ((-2 -2, 2 -2, 2 2, -2 2))", false},
+        /* a courtyard that remains, and one into which the shape's box would go */
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 12 29, 30 30, 28 11))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        polyset p, q;
+        assert_true(polyset_read_wkt(&p, cases[i].p, NULL) && polyset_read_wkt(&q, cases[i].q, NULL));
+        char *ours = traced_text(&p, &q), *expected = oracle_sum_text(&p, &q, false);
+        assert_int_equal(ours != NULL, cases[i].traced);
+        if (ours) assert_string_equal(ours, expected);
+        free(ours);
+        free(expected);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+}
+
+static sunder_status make_shape(const polyset *s, sunder_shape **out)
+{
+    return sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, out, NULL);
+}
+
+static bool attempt(void *context)
+{
+    const polyset *operand = context;
+    sunder_shape *a = NULL, *b = NULL;
+    sunder_sum *sum = NULL;
+    sunder_status status = make_shape(&operand[0], &a);
+    if (!status) status = make_shape(&operand[1], &b);
+    if (!status) status = sunder_minkowski_sum(a, b, NULL, &sum, NULL);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return status == SUNDER_OK;
+}
+
+/* A jog, a mouth that closes, a courtyard, and no memory at any place. */
+static void test_memory(void **state)
+{
+    (void)state;
+    polyset operand[2];
+    assert_true(polyset_read_wkt(&operand[0], "POLYGON ((0 -50, 40 -50, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, "
+                                              "18 31, 1 31, 1 30, 0 30), (10 -20, 28 -19, 30 -40, 12 -39))", NULL));
+    assert_true(polyset_read_wkt(&operand[1], "POLYGON ((-3.125 0.25, 0.375 -4.5, 5.75 0.125, 0.25 3.25))", NULL));
+    char *text = traced_text(&operand[0], &operand[1]);
+    assert_non_null(text);
+    free(text);
+    assert_true(failing_loop(attempt, operand, false));
+    polyset_free(&operand[0]);
+    polyset_free(&operand[1]);
+}
+
+int main(void)
+{
+    subject kinds[SUBJECTS];
+    struct CMUnitTest tests[SUBJECTS + 2];
+    for (int k = 0; k < SUBJECTS; k++) {
+        kinds[k] = (subject)k;
+        tests[k] = (struct CMUnitTest){subject_name[k], test_subject, NULL, NULL, &kinds[k]};
+    }
+    tests[SUBJECTS] = (struct CMUnitTest)cmocka_unit_test(test_cases);
+    tests[SUBJECTS + 1] = (struct CMUnitTest)cmocka_unit_test(test_memory);
+    return cmocka_run_group_tests_name("sums traced along the outline", tests, NULL, NULL);
+}
