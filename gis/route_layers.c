@@ -4,6 +4,7 @@
 #include "geometry.h"
 #include "sum_layers.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -115,7 +116,7 @@ static void grow_box(double box[4], const double xy[2])
     }
 }
 
-/* Around everything, with a tenth of its size as margin. */
+/* Around everything, with a tenth of its size as margin, as far as doubles reach. */
 static void frame(const route_writer *w, const gis_polygons *obstacles, double box[4])
 {
     box[0] = box[1] = INFINITY;
@@ -133,8 +134,8 @@ static void frame(const route_writer *w, const gis_polygons *obstacles, double b
     sunder_shape_box(w->input->robot, robot);
     const double margin = fmax(box[2] - box[0], box[3] - box[1]) / 10 + (robot[2] - robot[0]) + (robot[3] - robot[1]);
     for (int k = 0; k < 2; k++) {
-        box[k] -= margin;
-        box[k + 2] += margin;
+        box[k] = fmax(box[k] - margin, -DBL_MAX);
+        box[k + 2] = fmin(box[k + 2] + margin, DBL_MAX);
     }
 }
 

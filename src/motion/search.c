@@ -43,6 +43,7 @@ typedef struct search {
     double haste, limit, slack;
     uint32_t start, goal; /* nodes */
     unsigned tried;
+    bool all_round; /* edges go everywhere, not only where shortest paths can go on */
     bool no_memory, cancelled;
 } search;
 
@@ -92,7 +93,7 @@ static edge pop(search *s)
 static void expand(search *s, uint32_t v)
 {
     const double so_far = s->at[v].length;
-    const uint32_t before = s->haste > 1 || v == s->start ? SUNDER_I_NO_NODE : s->at[v].before;
+    const uint32_t before = s->all_round || v == s->start ? SUNDER_I_NO_NODE : s->at[v].before;
     sunder_i_view_look(&s->view, v, before, s->limit - so_far);
     for (size_t i = 0; i < s->view.seen_n && !s->no_memory; i++) {
         const uint32_t w = s->view.seen[i];
@@ -235,6 +236,10 @@ static void find(search *s)
     s->no_memory = !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1];
     if (s->no_memory) return;
     run(s, HASTE, INFINITY);
+    /* In haste nodes are not reached by shortest paths, and that these go on from there nowhere proves nothing. */
+    s->all_round = !s->at[s->goal].known;
+    if (s->all_round) run(s, HASTE, INFINITY);
+    s->all_round = false;
     /* No place on a path of at most this length is farther from the start; with two such coordinates a leg, each off by
      * 2^-51 of itself, and roundings, lengths are off by less than this. Twice, for both of two that are compared. */
     const double some = s->at[s->goal].length;

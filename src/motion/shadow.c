@@ -34,11 +34,11 @@ bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye
         }
         const double t = sunder_i_turn(point[i][0], point[i][1]);
         /* dy is off by `error`, the sum by twice that, and |dy| <= the sum. */
-        margin = fmax(margin, TURN_ROUNDING + 4 * error / size);
+        if (4 * error > (margin - TURN_ROUNDING) * size) margin = TURN_ROUNDING + 4 * error / size;
         if (isnan(first)) first = t;
         const double d = sunder_i_turn_between(first, t), off = d > 2 ? d - 4 : d;
-        low = fmin(low, off);
-        high = fmax(high, off);
+        low = off < low ? off : low;
+        high = off > high ? off : high;
     }
     if (isnan(first)) return false;
     *out = (sunder_i_span){wrap(first + low - margin), high - low + 2 * margin};
@@ -47,8 +47,8 @@ bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye
 
 void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_span span)
 {
-    /* All bins for the whole circle, and four times as fine where it is part of it. */
-    s->bins = (int)fmin(SUNDER_I_BINS, fmax(16, span.width * SUNDER_I_BINS));
+    /* All round a coarse map does, for one node in a thousand. */
+    s->bins = span.width >= 4 ? 128 : (int)fmin(SUNDER_I_BINS, fmax(16, span.width * SUNDER_I_BINS));
     s->span = (sunder_i_span){wrap(span.low), fmin(span.width, 4)};
     s->per_turn = s->bins / s->span.width;
     for (int k = 0; k <= s->bins; k++) ray_at(s->span.low + k / s->per_turn, s->ray[k]);
@@ -116,14 +116,31 @@ static double entry(const caster *c, const double ray[2])
     return low * (1 + 0x1p-40) < high ? low * (1 + 0x1p-40) : (double)INFINITY;
 }
 
+/* No part of the hull of the corners is nearer to the eye. */
+static double nearest(const double (*corner)[2], int n, double error)
+{
+    double gap = 0;
+    for (int axis = 0; axis < 2; axis++) {
+        double low = corner[0][axis], high = low;
+        for (int i = 1; i < n; i++) {
+            low = corner[i][axis] < low ? corner[i][axis] : low;
+            high = corner[i][axis] > high ? corner[i][axis] : high;
+        }
+        const double off = (low > 0 ? low : high < 0 ? -high : 0) - error;
+        if (off > 0) gap += off;
+    }
+    return gap;
+}
+
 void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, double error)
 {
     caster c;
     sunder_i_span span;
     double piece[2][2];
-    if (!prepare(&c, corner, n, error)) return;
     /* Which rays to try; a part that has the eye as a corner is where the others are. */
     if (!sunder_i_span_of(corner, n, error, true, &span)) span = s->span;
+    if (!sunder_i_shadow_takes(s, span) || sunder_i_shadow_hides(s, span, nearest(corner, n, error))) return;
+    if (!prepare(&c, corner, n, error)) return;
     const int pieces = pieces_of(s, span, piece);
     for (int i = 0; i < pieces; i++) {
         double before = INFINITY;
@@ -135,6 +152,15 @@ void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, 
             before = at;
         }
     }
+}
+
+bool sunder_i_shadow_takes(const sunder_i_shadow *s, sunder_i_span span)
+{
+    double piece[2][2];
+    const int pieces = pieces_of(s, span, piece);
+    for (int i = 0; i < pieces; i++)
+        if (floor(piece[i][1]) > ceil(piece[i][0])) return true;
+    return false;
 }
 
 bool sunder_i_shadow_hides(const sunder_i_shadow *s, sunder_i_span span, double distance)

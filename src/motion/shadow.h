@@ -40,6 +40,8 @@ bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye
 void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_span span);
 /* A part casts its shadow: 3 to SUNDER_I_CAST_CORNERS corners, counter-clockwise, from the eye, off by `error` each. */
 void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], int n, double error);
+/* Can what lies in these directions cast a shadow? It has to reach over a bin. */
+bool sunder_i_shadow_takes(const sunder_i_shadow *shadow, sunder_i_span span);
 /* Is all that lies in these directions, `distance` away or more, hidden for certain? */
 bool sunder_i_shadow_hides(const sunder_i_shadow *shadow, sunder_i_span span, double distance);
 

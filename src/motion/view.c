@@ -196,18 +196,29 @@ static double box_distance(const double box[4], const double p[2])
     return hypot(fmax(0, fmax(box[0] - p[0], p[0] - box[2])), fmax(0, fmax(box[1] - p[1], p[1] - box[3])));
 }
 
-/* Is nothing of the box (from the start) of interest? *gap: how far away it is. */
-static bool is_out(const look *k, const double box[4], double *gap)
+/* A box from the start as one from the eye, which may be off. */
+static void near_box(const look *k, const double box[4], double out[4])
 {
-    const double near[4] = {box[0] - k->eye[0] - k->error, box[1] - k->eye[1] - k->error, box[2] - k->eye[0] + k->error,
-                            box[3] - k->eye[1] + k->error};
-    *gap = gap_of(near);
+    for (int axis = 0; axis < 2; axis++) {
+        out[axis] = box[axis] - k->eye[axis] - k->error;
+        out[axis + 2] = box[axis + 2] - k->eye[axis] + k->error;
+    }
+}
+
+/* Is nothing of the box (from the start) of interest? For those who cast shadows, besides: that is too narrow for one.
+ */
+static bool is_out(const look *k, const double box[4], bool casts)
+{
     if (!(box[0] <= box[2])) return true; /* nothing in it */
-    if (box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
+    if (isfinite(k->room) && box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
+    double near[4];
+    near_box(k, box, near);
+    const double gap = gap_of(near);
     const double corner[4][2] = {{near[0], near[1]}, {near[2], near[1]}, {near[2], near[3]}, {near[0], near[3]}};
     sunder_i_span span;
-    return *gap > 0 && sunder_i_span_of(corner, 4, OFF * *gap, false, &span) &&
-           sunder_i_shadow_hides(&k->view->shadow, span, *gap);
+    if (gap <= 0 || !sunder_i_span_of(corner, 4, OFF * gap, false, &span)) return false;
+    return (casts && !sunder_i_shadow_takes(&k->view->shadow, span)) ||
+           sunder_i_shadow_hides(&k->view->shadow, span, gap);
 }
 
 static void cast_part(look *k, uint32_t part)
@@ -235,7 +246,16 @@ static void part_box(const look *k, size_t i, double out[4])
     }
 }
 
-/* Parts, near ones first as far as the tree tells. */
+/* How far away, at least, a box of parts is. */
+static double part_gap(const look *k, size_t i)
+{
+    double box[4], near[4];
+    part_box(k, i, box);
+    near_box(k, box, near);
+    return gap_of(near);
+}
+
+/* Parts, near ones first as far as the tree tells: by the time that far ones are looked at, most are hidden. */
 static void cast_shadows(look *k)
 {
     const sunder_i_part_tree *t = &k->view->space->tree;
@@ -243,21 +263,18 @@ static void cast_shadows(look *k)
     if (t->parts) stack[n++] = 1;
     while (n) {
         const size_t i = stack[--n];
-        double box[4], gap[2] = {0, 0};
-        if (i >= t->leaves) {
-            for (size_t p = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
-                 p < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && p < t->parts; p++)
-                cast_part(k, t->part[p]);
+        double box[4];
+        part_box(k, i, box);
+        if (is_out(k, box, true)) continue;
+        if (i < t->leaves) {
+            const bool left_first = part_gap(k, 2 * i) <= part_gap(k, 2 * i + 1);
+            stack[n++] = left_first ? 2 * i + 1 : 2 * i;
+            stack[n++] = left_first ? 2 * i : 2 * i + 1;
             continue;
         }
-        bool out[2];
-        for (size_t side = 0; side < 2; side++) {
-            part_box(k, 2 * i + side, box);
-            out[side] = is_out(k, box, &gap[side]);
-        }
-        const size_t far = gap[0] > gap[1] ? 0 : 1;
-        if (!out[far]) stack[n++] = 2 * i + far;
-        if (!out[1 - far]) stack[n++] = 2 * i + 1 - far;
+        for (size_t p = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
+             p < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && p < t->parts; p++)
+            cast_part(k, t->part[p]);
     }
 }
 
@@ -281,8 +298,7 @@ static void see_nodes(look *k, uint32_t v)
     stack[n++] = 1;
     while (n) {
         const size_t i = stack[--n];
-        double gap;
-        if (is_out(k, view->box[i], &gap)) continue;
+        if (is_out(k, view->box[i], false)) continue;
         if (i < view->leaves) {
             stack[n++] = 2 * i + 1;
             stack[n++] = 2 * i;

@@ -28,7 +28,7 @@ enum { WHOLE, MAP, RAGGED, FAR, WIDE, KINDS };
 /* One coordinate of a kind: whole numbers; map coordinates with all bits in use; full doubles. */
 static double put(rng *r, int kind, int64_t whole)
 {
-    if (kind == MAP) return 13000000 + 0x1p-28 * (double)(whole << 20 | rng_int(r, 0, 1 << 12));
+    if (kind == MAP) return 13000000 + 0x1p-28 * (double)(whole * (1 << 20) + rng_int(r, 0, 1 << 12));
     if (kind == RAGGED) return ((double)whole + rng_unit(r) / 4) * 1e-3;
     return (double)whole;
 }
