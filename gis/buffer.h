@@ -22,6 +22,7 @@ typedef struct gis_buffer {
     const gis_options *options;
     gis_layer_input input;
     sunder_shape *shape;
+    gis_source *shape_source; /* NULL: it is a text */
     sunder_operation operation;
     int field;             /* of --dissolve-field; -1: none */
     bool dissolve;         /* into one set, or by the field */

@@ -59,6 +59,24 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
     return ok;
 }
 
+/* A part of the whole, for progress and for being stopped. */
+typedef struct part {
+    const sunder_sum_options *whole;
+    double from, to;
+} part;
+
+static bool tell_part(double fraction, void *user)
+{
+    const part *p = user;
+    return !p->whole->progress ||
+           p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
+}
+
+static bool core_failed(sunder_status status, const sunder_error *why, gis_error *error)
+{
+    return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why->message);
+}
+
 /* ---- Blocks ----------------------------------------------------------------------------------------------- */
 
 typedef struct block_box {
@@ -125,17 +143,19 @@ static size_t block_of(const gis_polygons *set, const block_box *boxes, const do
 }
 
 /* Deals the members to blocks; *n of them have polygons. */
-static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, in_block *members, size_t *n,
-                        double *deviation, gis_error *error)
+static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, const sunder_sum_options *how,
+                        in_block *members, size_t *n, double *deviation, gis_error *error)
 {
+    part first = {how, 0, 0.2};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first};
     sunder_shape *joined;
     sunder_sum *sum = NULL;
     sunder_error why;
     gis_rounded grown = {0};
     if (!gis_buffer_join(buffer, set, &joined, deviation, error))
         return false;
-    bool ok = sunder_minkowski_sum(joined, buffer->shape, NULL, &sum, &why) == SUNDER_OK ||
-              gis_fail(error, "%s", why.message);
+    sunder_status status = sunder_minkowski_sum(joined, buffer->shape, &stage, &sum, &why);
+    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
     ok = ok && gis_round_sum(sum, &grown, error);
     block_box *boxes = ok ? boxes_of(&grown.set) : NULL;
     ok = ok && (boxes || gis_no_memory(error));
@@ -186,15 +206,19 @@ static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_p
 }
 
 /* The blocks' polygons, which may overlap, as one set. */
-static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, gis_error *error)
+static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, const sunder_sum_options *how,
+                         gis_error *error)
 {
+    part last = {how, 0.8, 1};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last};
     sunder_shape *shape;
     sunder_sum *sum = NULL;
     sunder_error why;
     gis_rounded united = {0};
     if (gis_polygons_shape(polygons, SUNDER_STRICT, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
-    bool ok = sunder_shape_union(shape, NULL, &sum, &why) == SUNDER_OK || gis_fail(error, "%s", why.message);
+    sunder_status status = sunder_shape_union(shape, &stage, &sum, &why);
+    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
     ok = ok && gis_round_sum(sum, &united, error);
     if (ok) {
         united.deviation += all->result.deviation;
@@ -215,7 +239,7 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
     gis_polygons polygons = {0};
     double before = 0;
     bool ok = ((feature && members) || gis_no_memory(error)) &&
-              find_blocks(buffer, set, members, &n, &before, error);
+              find_blocks(buffer, set, how, members, &n, &before, error);
     for (size_t i = 0; ok && i < n; i++)
         feature[i] = members[i].feature;
     set->none = ok && n == 0;
@@ -223,12 +247,12 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
         for (end = i + 1; end < n && members[end].block == members[i].block;)
             end++;
         gis_buffer_set block = {.member = feature + i, .members = end - i};
-        ok = gis_buffer_make_set(buffer, &block, NULL, error) && append_block(set, &block, &polygons, error);
+        part middle = {how, 0.2 + 0.6 * (double)i / (double)n, 0.2 + 0.6 * (double)end / (double)n};
+        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle};
+        ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
         gis_buffer_set_clear(&block);
-        if (ok && how->progress && !how->progress((double)end / (double)n, how->progress_user))
-            ok = gis_fail(error, "interrupted");
     }
-    ok = ok && (set->none || unite_blocks(set, &polygons, error));
+    ok = ok && (set->none || unite_blocks(set, &polygons, how, error));
     if (ok)
         set->result.deviation += before;
     gis_polygons_clear(&polygons);

@@ -1,6 +1,6 @@
-/* buffer_layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished has an
- * empty geometry, one that had no polygon to begin with a null one. A set of dissolved features has the value of the
- * field, if one was named, and the number of features in it. */
+/* buffer_layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished, or was
+ * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the field,
+ * if one was named, and the number of features in it. */
 #include "buffer.h"
 
 #include "layer_output.h"
@@ -28,40 +28,27 @@ static OGRGeometryH geometry_of(const gis_buffer_set *set, bool multi)
     return gis_geometry_polygons(polygons->xy, polygons->ring_end, polygons->poly_end, polygons->polygons, multi);
 }
 
-/* The field of --dissolve-field, as the kinds of value that the program's own fields can have. */
-static gis_field field_of(const gis_buffer *buffer)
+/* The field of --dissolve-field, as it is. */
+static OGRFieldDefnH field_of(const gis_buffer *buffer)
 {
     OGRFeatureDefnH layer = OGR_L_GetLayerDefn(gis_source_layer(buffer->input.source));
-    OGRFieldDefnH field = OGR_FD_GetFieldDefn(layer, buffer->field);
-    OGRFieldType type = OGR_Fld_GetType(field);
-    bool whole = type == OFTInteger || type == OFTInteger64;
-    return (gis_field){OGR_Fld_GetNameRef(field), whole ? OFTInteger64 : type == OFTReal ? OFTReal : OFTString, 0};
-}
-
-static gis_value value_of(const gis_buffer *buffer, const gis_buffer_set *set, OGRFieldType type)
-{
-    OGRFeatureH feature = gis_source_feature(buffer->input.source, set->member[0]);
-    if (!OGR_F_IsFieldSetAndNotNull(feature, buffer->field))
-        return (gis_value){.kind = GIS_NULL};
-    if (type == OFTInteger64)
-        return (gis_value){GIS_INTEGER, {.integer = OGR_F_GetFieldAsInteger64(feature, buffer->field)}};
-    if (type == OFTReal)
-        return (gis_value){GIS_REAL, {.real = OGR_F_GetFieldAsDouble(feature, buffer->field)}};
-    return (gis_value){GIS_TEXT, {.text = OGR_F_GetFieldAsString(feature, buffer->field)}};
+    return OGR_FD_GetFieldDefn(layer, buffer->field);
 }
 
 static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *error)
 {
     bool multi = is_multi(buffer);
-    gis_field fields[2] = {{"features", OFTInteger64, 0}};
+    gis_field number = {"features", OFTInteger64, 0};
     gis_layer_request request = {.suffix = "", .type = multi ? wkbMultiPolygon : wkbPolygon,
                                  .crs = gis_source_crs(buffer->input.source), .style = GIS_STYLE_RESULT};
     request.like_source = !buffer->dissolve;
     if (buffer->dissolve) {
-        request.fields = fields;
-        request.n_fields = buffer->field >= 0 ? 2 : 1;
+        request.fields = &number;
+        request.n_fields = 1;
         if (buffer->field >= 0)
-            fields[1] = field_of(buffer);
+            request.copied = field_of(buffer);
+        if (request.copied && EQUAL(OGR_Fld_GetNameRef(request.copied), number.name))
+            number.name = "n_features";
     }
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error))
@@ -73,12 +60,10 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
         OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
         if (!geometry && !set->none)
             return gis_no_memory(error);
-        gis_value values[2] = {{GIS_INTEGER, {.integer = (GIntBig)set->members}}};
-        if (request.n_fields == 2)
-            values[1] = value_of(buffer, set, fields[1].type);
-        OGRFeatureH feature =
-            buffer->dissolve ? NULL : gis_source_feature(buffer->input.source, set->member[0]);
-        if (!gis_sink_write(layer, feature, geometry, request.n_fields ? values : NULL, error))
+        const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
+        bool of_feature = !buffer->dissolve || request.copied;
+        OGRFeatureH feature = of_feature ? gis_source_feature(buffer->input.source, set->member[0]) : NULL;
+        if (!gis_sink_write(layer, feature, geometry, &members, error))
             return false;
     }
     return true;

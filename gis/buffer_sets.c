@@ -44,7 +44,7 @@ static bool read_keys(const gis_buffer *buffer, keyed *keys, gis_error *error)
         keys[i].feature = i;
         if (!OGR_F_IsFieldSetAndNotNull(feature, buffer->field))
             continue;
-        keys[i].key = strdup(OGR_F_GetFieldAsString(feature, buffer->field));
+        keys[i].key = gis_field_key(feature, buffer->field);
         if (!keys[i].key)
             return gis_no_memory(error);
     }
@@ -60,8 +60,30 @@ static void sort_keys(keyed *keys, size_t n)
     qsort(keys, n, sizeof *keys, by_first);
 }
 
+/* Lists and bytes have no one text to compare. */
+static bool has_single_values(const gis_buffer *buffer, gis_error *error)
+{
+    OGRFeatureDefnH layer = OGR_L_GetLayerDefn(gis_source_layer(buffer->input.source));
+    OGRFieldDefnH field = OGR_FD_GetFieldDefn(layer, buffer->field);
+    switch (OGR_Fld_GetType(field)) {
+    case OFTInteger:
+    case OFTInteger64:
+    case OFTReal:
+    case OFTString:
+    case OFTDate:
+    case OFTTime:
+    case OFTDateTime:
+        return true;
+    default:
+        return gis_fail(error, "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told apart",
+                        OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
+    }
+}
+
 static bool gather_by_field(gis_buffer *buffer, gis_error *error)
 {
+    if (!has_single_values(buffer, error))
+        return false;
     size_t n = buffer->input.n;
     keyed *keys = calloc(n + 1, sizeof *keys);
     if (!keys)
@@ -105,6 +127,13 @@ bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
 static bool has_shape(const gis_buffer *buffer, size_t feature)
 {
     return buffer->input.shape[feature] != NULL;
+}
+
+/* Has it polygons, if only empty ones? */
+static bool has_polygons(const gis_buffer *buffer, size_t feature)
+{
+    OGRGeometryH geometry = gis_source_geometry(buffer->input.source, feature);
+    return has_shape(buffer, feature) || (geometry && OGR_G_IsEmpty(geometry));
 }
 
 /* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of a
@@ -233,9 +262,12 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
 {
     sunder_shape *joined = NULL, *turned = NULL;
     set->none = true;
-    for (size_t i = 0; i < set->members && set->none; i++)
-        set->none = !has_shape(buffer, set->member[i]);
-    if (set->none)
+    size_t shapes = 0;
+    for (size_t i = 0; i < set->members; i++) {
+        shapes += has_shape(buffer, set->member[i]);
+        set->none = set->none && !has_polygons(buffer, set->member[i]);
+    }
+    if (shapes == 0)
         return true;
     double before = 0;
     bool ok = (!buffer->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
@@ -261,11 +293,13 @@ typedef struct making {
     gis_error error;
 } making;
 
-/* The progress of a single large set comes from inside it. */
+/* The progress of a single large set comes from inside it; of several each can be stopped there. */
 static bool tell_inside(double fraction, void *user)
 {
     making *m = user;
-    return gis_progress_call(fraction, m->progress);
+    if (m->buffer->sets == 1)
+        return gis_progress_call(fraction, m->progress);
+    return !gis_interrupted() && !atomic_load(&m->stop);
 }
 
 static void tell(making *m)
@@ -299,9 +333,8 @@ static void *work(void *argument)
 {
     making *m = argument;
     gis_error error;
-    sunder_sum_options how = {0};
-    if (m->buffer->sets == 1)
-        how = (sunder_sum_options){.progress = tell_inside, .progress_user = m, .threads = m->threads};
+    const sunder_sum_options how = {
+        .progress = tell_inside, .progress_user = m, .threads = m->buffer->sets == 1 ? m->threads : 1};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)
@@ -372,5 +405,6 @@ void gis_buffer_clear(gis_buffer *buffer)
     free(buffer->set);
     free(buffer->member);
     sunder_shape_free(buffer->shape);
+    gis_source_close(buffer->shape_source);
     gis_layer_input_clear(&buffer->input);
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct buffer_run {
     gis_buffer buffer;
@@ -23,13 +24,9 @@ static bool check_options(const gis_options *options, gis_error *error)
     const char *shape = options->text[OPT_SHAPE];
     if (!options->given[OPT_SHAPE])
         return gis_fail_usage(error, "--shape is missing: what to grow or shrink by, as in --shape square:6");
-    if (!gis_shape_is_text(shape)) {
-        const char *meant = gis_shape_prefix_meant(shape);
-        if (meant)
-            return gis_fail_usage(error, "--shape %s: did you mean %s?", shape, meant);
-        return gis_fail_usage(error, "--shape %s: expected WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or "
-                              "rectangle:WxH", shape);
-    }
+    const char *meant = gis_shape_is_text(shape) || access(shape, F_OK) == 0 ? NULL : gis_shape_prefix_meant(shape);
+    if (meant)
+        return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
     if (options->given[OPT_DISSOLVE] && options->given[OPT_DISSOLVE_FIELD])
         return gis_fail_usage(error, "--dissolve makes one set of all features, --dissolve-field one of each value: "
                               "give one of them");
@@ -54,11 +51,9 @@ static bool read_input(buffer_run *run, gis_error *error)
     buffer->dissolve = options->given[OPT_DISSOLVE] || options->given[OPT_DISSOLVE_FIELD];
     if (!gis_layer_shapes_read(options, &buffer->input, error) ||
         !gis_layer_field(&buffer->input, OPT_DISSOLVE_FIELD, &buffer->field, error) ||
-        !gis_shape_from_text(options->text[OPT_SHAPE], "--shape", &buffer->input.rule, gis_options_invalid(options),
-                             &buffer->shape, NULL, error))
+        !gis_shape_of_option(options, OPT_SHAPE, &buffer->input.rule, gis_source_crs(buffer->input.source),
+                             &buffer->shape_source, &buffer->shape, error))
         return false;
-    if (sunder_shape_is_empty(buffer->shape))
-        return gis_fail_usage(error, "--shape %s has no area", options->text[OPT_SHAPE]);
     gis_layer_warn_of_crs(&buffer->input);
     if (buffer->input.other > 0)
         gis_say_warning("%s: %zu features are no polygons; they are written without geometry",
@@ -74,7 +69,8 @@ static bool open_sink(buffer_run *run, gis_error *error)
     gis_sink_request request = gis_options_sink(run->options, run->options->operand[1], gis_source_name(source));
     if (run->options->given[OPT_DEGENERATE])
         request.suffixes = suffixes;
-    return gis_sink_open(&request, source, &run->sink, error);
+    return gis_source_spare(run->buffer.shape_source, run->options, request.path, error) &&
+           gis_sink_open(&request, source, &run->sink, error);
 }
 
 /* All but the last step, which is gis_deliver()'s. */

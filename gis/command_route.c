@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <sys/stat.h>
 
 typedef struct route_run {
     gis_route_input input;
@@ -24,12 +23,9 @@ static bool open_sink(route_run *run, const gis_options *options, gis_error *err
                                            "degenerate_points", NULL};
     static const char *const fewer[] = {"placements", NULL};
     const char *path = options->operand[1];
-    const gis_source *const sources[] = {run->input.source, run->input.robot_source};
-    struct stat out, in;
-    for (int i = 0; i < 2; i++)
-        if (sources[i] && !options->given[OPT_UPDATE] && stat(path, &out) == 0 &&
-            stat(gis_source_path(sources[i]), &in) == 0 && out.st_dev == in.st_dev && out.st_ino == in.st_ino)
-            return gis_fail(error, "%s is an input; give another output, or --update with new layer names", path);
+    if (!gis_source_spare(run->input.source, options, path, error) ||
+        !gis_source_spare(run->input.robot_source, options, path, error))
+        return false;
     run->request = gis_options_sink(options, path, "route");
     run->request.suffixes = options->given[OPT_FREE_SPACE] ? suffixes : fewer;
     return gis_sink_open(&run->request, run->input.source ? run->input.source : run->input.robot_source, &run->sink,

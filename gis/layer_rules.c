@@ -86,14 +86,14 @@ static int by_key(const void *a, const void *b)
     return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
 }
 
-/* A copy of the field's value as text: doubles with all their digits, so that different ones stay different. */
-static char *key_of(OGRFeatureH feature, int field)
+/* Doubles with all their digits, so that different ones stay different; the two zeros are equal. */
+char *gis_field_key(OGRFeatureH feature, int field)
 {
     OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field));
     char number[64];
     const char *text = number;
     if (type == OFTReal)
-        snprintf(number, sizeof number, "%.17g", OGR_F_GetFieldAsDouble(feature, field));
+        snprintf(number, sizeof number, "%.17g", OGR_F_GetFieldAsDouble(feature, field) + 0.0);
     else
         text = OGR_F_GetFieldAsString(feature, field);
     char *copy = malloc(strlen(text) + 1);
@@ -116,7 +116,7 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (!OGR_F_IsFieldSetAndNotNull(feature, field))
             continue;
-        keys[n] = (keyed){key_of(feature, field), i};
+        keys[n] = (keyed){gis_field_key(feature, field), i};
         ok = keys[n].key || gis_no_memory(error);
         n += ok;
     }

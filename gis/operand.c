@@ -1,4 +1,4 @@
-/* operand.c: the operands of sum and pair, and what the options ask of a source. */
+/* operand.c: the operands of sum and pair, shapes of options, and what the options ask of a source. */
 #include "operand.h"
 
 #include "message.h"
@@ -111,12 +111,63 @@ bool gis_shape_from_source(const gis_options *options, const char *path, const c
     return true;
 }
 
+static bool may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q)
+{
+    return !gis_crs_is_known(p) || !gis_crs_is_known(q) || OSRIsSame(p, q);
+}
+
 static bool check_crs(const gis_operands *operands)
 {
     OGRSpatialReferenceH p = operands->p_source ? gis_source_crs(operands->p_source) : NULL;
     OGRSpatialReferenceH q = operands->q_source ? gis_source_crs(operands->q_source) : NULL;
-    return !gis_crs_is_known(p) || !gis_crs_is_known(q) || OSRIsSame(p, q);
+    return may_be_same(p, q);
 }
+
+/* ---- The shape of an option ----------------------------------------------------------------------------------- */
+
+/* The options without those that select from the operands. */
+static gis_options without_selection(const gis_options *options)
+{
+    static const gis_option_id selecting[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX,
+                                              OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
+    gis_options plain = *options;
+    for (size_t i = 0; i < sizeof selecting / sizeof *selecting; i++) {
+        plain.given[selecting[i]] = false;
+        plain.text[selecting[i]] = NULL;
+        plain.list[selecting[i]] = NULL;
+    }
+    return plain;
+}
+
+bool gis_shape_of_option(const gis_options *options, gis_option_id id, const gis_ruler *rule, OGRSpatialReferenceH crs,
+                         gis_source **source, sunder_shape **out, gis_error *error)
+{
+    const char *name = gis_option_table[id].names, *text = options->text[id];
+    gis_source *opened = NULL;
+    sunder_shape *shape = NULL;
+    bool ok;
+    if (gis_shape_is_text(text)) {
+        ok = gis_shape_from_text(text, name, rule, gis_options_invalid(options), &shape, NULL, error);
+    } else {
+        gis_options plain = without_selection(options);
+        ok = gis_shape_from_source(&plain, text, name, &opened, &shape, NULL, error) &&
+             (may_be_same(crs, gis_source_crs(opened)) ||
+              gis_fail(error, "%s %s has another CRS than the layer; reproject one of them first", name, text));
+    }
+    if (ok && sunder_shape_is_empty(shape))
+        ok = gis_fail_usage(error, "%s %s: it encloses nothing", name, text);
+    if (!ok) {
+        sunder_shape_free(shape);
+        gis_source_close(opened);
+        return false;
+    }
+    *out = shape;
+    if (opened)
+        *source = opened;
+    return true;
+}
+
+/* ---- P and Q -------------------------------------------------------------------------------------------------- */
 
 /* Sources first: their CRS gives lengths in the other operand their meaning. */
 bool gis_operands_read(const gis_options *options, gis_operands *out, gis_error *error)
@@ -163,15 +214,19 @@ const gis_source *gis_operands_source(const gis_operands *operands)
     return operands->p_source ? operands->p_source : operands->q_source;
 }
 
-bool gis_operands_spare(const gis_operands *operands, const gis_options *options, const char *output, gis_error *error)
+bool gis_source_spare(const gis_source *source, const gis_options *options, const char *output, gis_error *error)
 {
     struct stat out, in;
-    const gis_source *sources[] = {operands->p_source, operands->q_source};
-    for (int i = 0; i < 2; i++)
-        if (sources[i] && !options->given[OPT_UPDATE] && stat(output, &out) == 0 &&
-            stat(gis_source_path(sources[i]), &in) == 0 && out.st_dev == in.st_dev && out.st_ino == in.st_ino)
-            return gis_fail(error, "%s is an input; give another output, or --update with new layer names", output);
+    if (source && !options->given[OPT_UPDATE] && stat(output, &out) == 0 &&
+        stat(gis_source_path(source), &in) == 0 && out.st_dev == in.st_dev && out.st_ino == in.st_ino)
+        return gis_fail(error, "%s is an input; give another output, or --update with new layer names", output);
     return true;
+}
+
+bool gis_operands_spare(const gis_operands *operands, const gis_options *options, const char *output, gis_error *error)
+{
+    return gis_source_spare(operands->p_source, options, output, error) &&
+           gis_source_spare(operands->q_source, options, output, error);
 }
 
 void gis_operands_clear(gis_operands *operands)

@@ -34,6 +34,13 @@ bool gis_shape_is_text(const char *text);
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error);
 
+/* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)", where
+ * long texts are cut at the end of a character. */
+bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error);
+bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
+                      gis_error *error);
+void gis_shape_name(const char *who, const char *text, char *name, size_t size);
+
 /* The standard shape ("disc:") that a text with a misspelt one was probably to be; NULL: none. */
 const char *gis_shape_prefix_meant(const char *text);
 
@@ -41,6 +48,14 @@ const char *gis_shape_prefix_meant(const char *text);
  * *building as above; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
 bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
                            sunder_shape **out, double *building, gis_error *error);
+
+/* The SHAPE of an option, in any form; it must enclose something. A data source is read whole (--where and the like select
+ * from the operands), is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to *source, else
+ * untouched. Lengths inside a text are converted by the ruler. */
+bool gis_shape_of_option(const gis_options *options, gis_option_id id, const gis_ruler *rule, OGRSpatialReferenceH crs,
+                         gis_source **source, sunder_shape **out, gis_error *error);
+/* False, with an error, if writing the output would replace this source (NULL: there is none). */
+bool gis_source_spare(const gis_source *source, const gis_options *options, const char *output, gis_error *error);
 
 /* P and Q of sum and pair. */
 typedef struct gis_operands {

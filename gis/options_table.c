@@ -60,7 +60,7 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_ALLOW_CONFLICTS] = {OPT_ALLOW_CONFLICTS, "--allow-conflicts", GIS_TYPE_FLAG, GIS_LAYERS | GIS_ROUTE, OWN, NULL, NULL,
                              "exit 0, not 3, where conflicts are left or found, or no route"},
     [OPT_SHAPE] = {OPT_SHAPE, "--shape", GIS_TYPE_TEXT, GIS_BUFFER, OWN, "SHAPE", NULL,
-                   "needed: square:S, rectangle:WxH, disc:R[:N], WKT ..."},
+                   "needed: square:S, rectangle:WxH, disc:R[:N], WKT, @FILE, data source"},
     [OPT_OPERATION] = {OPT_OPERATION, "--operation", GIS_TYPE_CHOICE, GIS_BUFFER, OWN, "dilate|erode|open|close",
                        "dilate", "what is done with it"},
     [OPT_DISSOLVE] = {OPT_DISSOLVE, "--dissolve", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,

@@ -158,19 +158,16 @@ static bool is_other_wkt(const char *text)
     return false;
 }
 
-static bool read_text(gis_route_input *input, const char *text, gis_error *error)
+/* A literal is part of the command line, and what is wrong with it wrong usage; a file is not. */
+static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, bool literal, gis_error *error)
 {
-    if (!make_room(input, 1, error))
-        return false;
-    if (!is_other_wkt(text))
-        return gis_shape_from_text(text, "OBSTACLES", &input->rule, gis_options_invalid(input->options),
-                                   &input->shape[0], NULL, error);
-    char *at = CPLStrdup(text), *rest = at;
+    char *at = CPLStrdup(wkt), *rest = at;
     OGRGeometryH geometry = NULL;
     gis_rings rings = {0};
-    bool ok = OGR_G_CreateFromWkt(&rest, NULL, &geometry) == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\n\r")];
+    bool ok = OGR_G_CreateFromWkt(&rest, NULL, &geometry) == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\r\n")];
     if (!ok || !gis_geometry_is_finite(geometry))
-        ok = gis_fail_usage(error, "OBSTACLES: this WKT cannot be read: %.60s", text);
+        ok = literal ? gis_fail_usage(error, "OBSTACLES: this WKT cannot be read: %.60s", wkt)
+                     : gis_fail(error, "%s: this WKT cannot be read: %.60s", who, wkt);
     ok = ok && read_feature(input, 0, geometry, &rings, error);
     gis_rings_clear(&rings);
     OGR_G_DestroyGeometry(geometry);
@@ -178,34 +175,27 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     return ok;
 }
 
-/* ---- Robot, start, goal --------------------------------------------------------------------------------------- */
-
-/* A data source for the robot is read whole: --where and the like select obstacles. */
-static bool read_robot(gis_route_input *input, gis_error *error)
+static bool read_text(gis_route_input *input, const char *text, gis_error *error)
 {
-    const char *text = input->options->text[OPT_ROBOT];
-    if (!text)
-        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
-    if (gis_shape_is_text(text)) {
-        if (!gis_shape_from_text(text, "--robot", &input->rule, gis_options_invalid(input->options), &input->robot,
-                                 NULL, error))
-            return false;
-    } else {
-        static const gis_option_id selecting[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX,
-                                                  OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
-        gis_options plain = *input->options;
-        for (size_t i = 0; i < sizeof selecting / sizeof *selecting; i++) {
-            plain.given[selecting[i]] = false;
-            plain.text[selecting[i]] = NULL;
-            plain.list[selecting[i]] = NULL;
-        }
-        if (!gis_shape_from_source(&plain, text, "--robot", &input->robot_source, &input->robot, NULL, error))
-            return false;
-    }
-    if (sunder_shape_is_empty(input->robot))
-        return gis_fail_usage(error, "--robot %s: it encloses nothing", text);
-    return true;
+    double unasked = 0;
+    char who[640], *held = NULL;
+    const gis_invalid policy = gis_options_invalid(input->options);
+    gis_shape_name("OBSTACLES", text, who, sizeof who);
+    if (!make_room(input, 1, error) || (text[0] == '@' && !gis_shape_read_file(text + 1, who, &held, error)))
+        return false;
+    const char *wkt = held ? held : text;
+    bool ok;
+    if (is_other_wkt(wkt))
+        ok = read_wkt(input, wkt, who, !held, error);
+    else if (held)
+        ok = gis_shape_of_wkt(wkt, who, policy, &input->shape[0], &unasked, error);
+    else
+        ok = gis_shape_from_text(text, "OBSTACLES", &input->rule, policy, &input->shape[0], NULL, error);
+    free(held);
+    return ok;
 }
+
+/* ---- Start and goal ---------------------------------------------------------------------------------------------- */
 
 /* One coordinate: a decimal, taken as the nearest double, or a fraction of whole numbers, taken as it is. */
 static bool read_coordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
@@ -239,6 +229,31 @@ static bool read_place(const gis_options *options, gis_option_id id, const char 
     return true;
 }
 
+static void join_place(double box[4], double x, double y)
+{
+    box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
+    box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
+}
+
+/* With the scale in the middle of the obstacles, where lengths are not those on the ground. */
+static void warn_of_crs(const gis_route_input *input)
+{
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    if (!input->crs)
+        return;
+    for (size_t i = 0; i < input->n; i++) {
+        double one[4];
+        for (size_t k = 0; k < input->lines[i].points; k++)
+            join_place(box, input->lines[i].xy[2 * k], input->lines[i].xy[2 * k + 1]);
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
+            continue;
+        sunder_shape_box(input->shape[i], one);
+        join_place(box, one[0], one[1]);
+        join_place(box, one[2], one[3]);
+    }
+    gis_ruler_warn(input->crs, gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+}
+
 bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_error *error)
 {
     *out = (gis_route_input){.options = options};
@@ -255,9 +270,8 @@ bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_
     out->rule = gis_ruler_of(out->crs, options);
     if (text && !read_text(out, obstacles, error))
         return false;
-    if (out->crs)
-        gis_ruler_warn(out->crs, gis_source_name(out->source), NULL);
-    if (!read_robot(out, error))
+    warn_of_crs(out);
+    if (!gis_shape_of_option(options, OPT_ROBOT, &out->rule, out->crs, &out->robot_source, &out->robot, error))
         return false;
     if (options->given[OPT_GAP] &&
         !gis_length_in_layer_units(&options->length[OPT_GAP], &out->rule, "--gap", &out->gap, error))

@@ -125,7 +125,7 @@ static bool read_stream(FILE *file, char **text, gis_error *error)
     return true;
 }
 
-static bool read_file(const char *name, const char *who, char **text, gis_error *error)
+bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error)
 {
     bool standard = strcmp(name, "-") == 0;
     if (!*name)
@@ -164,8 +164,8 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
     return true;
 }
 
-static bool shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
-                         gis_error *error)
+bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
+                      gis_error *error)
 {
     gis_polygons set = {0};
     bool invalid = false;
@@ -195,20 +195,19 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
     }
     if (text[0] == '@') {
         char *wkt = NULL;
-        if (!read_file(text + 1, who, &wkt, error))
+        if (!gis_shape_read_file(text + 1, who, &wkt, error))
             return false;
-        bool ok = shape_of_wkt(wkt, who, policy, out, building, error);
+        bool ok = gis_shape_of_wkt(wkt, who, policy, out, building, error);
         free(wkt);
         return ok;
     }
-    if (shape_of_wkt(text, who, policy, out, building, error))
+    if (gis_shape_of_wkt(text, who, policy, out, building, error))
         return true;
     error->exit_status = GIS_USAGE; /* a literal is part of the command line */
     return false;
 }
 
-/* "P (disc:4)": long texts are cut, at the end of a character. */
-static void name_shape(const char *who, const char *text, char *name, size_t size)
+void gis_shape_name(const char *who, const char *text, char *name, size_t size)
 {
     enum { SHOWN = 48 };
     size_t n = strlen(text);
@@ -223,7 +222,7 @@ bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rul
 {
     double unasked = 0;
     char name[640];
-    name_shape(who, text, name, sizeof name);
+    gis_shape_name(who, text, name, sizeof name);
     return shape_from_text(text, name, rule, policy, out, building ? building : &unasked, error);
 }
 

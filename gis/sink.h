@@ -65,6 +65,7 @@ typedef struct gis_layer_request {
     OGRSpatialReferenceH crs; /* if there is no source; NULL: none */
     const gis_field *fields; /* the program's own; one of the same name in the source is replaced, with a warning */
     size_t n_fields;
+    OGRFieldDefnH copied;    /* NULL, or one field of the source, which comes after those, if not like_source */
     gis_style style;
 } gis_layer_request;
 
@@ -83,7 +84,8 @@ typedef struct gis_value {
 
 /* Writes one feature.
  *
- * feature   its FID and attributes are written, for like_source layers (a feature of the source); else NULL
+ * feature   of the source: its FID and attributes are written, for like_source layers; the value of the field that
+ *           is copied, for those; else NULL
  * geometry  taken over, also on failure; NULL: a null geometry
  * values    n_fields of them, in the order of the request */
 bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,

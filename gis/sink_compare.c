@@ -212,7 +212,7 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
 static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *work, gis_sink_result *result,
                          gis_error *error)
 {
-    OGRGeometryH own = sent->feature && !sent->made ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    OGRGeometryH own = sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
     if (!own || (sent->dx == 0 && sent->dy == 0))
         return compare_geometries(own ? own : sent->made, kept, work, result, error);
     OGRGeometryH moved = OGR_G_Clone(own);
@@ -225,8 +225,8 @@ static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *wor
 /* What a geometry has besides X and Y, or all of it, may have been dropped without a word. */
 static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
 {
-    OGRGeometryH geometry = sent->made ? sent->made : sent->feature ? OGR_F_GetGeometryRef(sent->feature) : NULL;
-    if (!layer->request.as_source || !geometry || OGR_G_IsEmpty(geometry))
+    OGRGeometryH geometry = sent->made ? sent->made : sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry))
         return;
     gis_list *losses = &layer->sink->losses;
     const char *format = layer->sink->format.name;
@@ -304,7 +304,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
 
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error)
 {
-    bool attributes = layer->request.as_source && layer->sink->format.keeps_order && layer->created;
+    bool attributes = gis_sink_tells(layer) && layer->sink->format.keeps_order && layer->created;
     int n = attributes ? OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))) : 0;
     if (attributes && !(layer->changes = new_changes(layer, as_written, n)))
         return gis_no_memory(error);

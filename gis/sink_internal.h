@@ -18,7 +18,8 @@
 /* One feature as it was sent, so that it can be compared: a source feature and its move, or a geometry of its own. */
 typedef struct gis_sent {
     OGRFeatureH feature; /* borrowed from the source; NULL if it came from none */
-    OGRGeometryH made;   /* owned; NULL: the feature's geometry moved by (dx, dy) */
+    OGRGeometryH made;   /* owned; NULL: a null geometry, unless it is */
+    bool moved;          /* the feature's geometry moved by (dx, dy) */
     double dx, dy;
 } gis_sent;
 
@@ -75,6 +76,12 @@ struct gis_sink {
     size_t n_layers;
     gis_list losses, warnings;
 };
+
+/* Is it the main layer, with the fields of the source? Then what is lost of them is told, once. */
+static inline bool gis_sink_tells(const gis_sink_layer *layer)
+{
+    return layer->request.like_source && !layer->request.suffix[0];
+}
 
 /* Path of a file in the stage or in memory, or the connection of a database; CPLFree(). */
 char *gis_sink_inside(const gis_sink *sink, const char *file);

@@ -127,7 +127,7 @@ static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
 
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
 {
-    if (!layer->request.as_source || !layer->sink->source)
+    if (!gis_sink_tells(layer) || !layer->sink->source)
         return;
     gis_listener listener = {0}; /* comparing CRSs may make PROJ grumble */
     gis_listen_begin(&listener);

@@ -20,6 +20,8 @@ static bool is_own(const gis_sink_layer *layer, const char *name)
     for (size_t i = 0; i < layer->request.n_fields; i++)
         if (EQUAL(layer->request.fields[i].name, name))
             return true;
+    if (layer->request.copied && EQUAL(OGR_Fld_GetNameRef(layer->request.copied), name))
+        return true;
     return !layer->sink->fids_kept && EQUAL(name, FID_FIELD);
 }
 
@@ -131,8 +133,10 @@ static char **layer_options(const gis_sink_layer *layer)
     char **options = CSLDuplicate((CSLConstList)sink->request.layer_options);
     if (layer->request.like_source && sink->source)
         options = offer_source_names(layer, options);
-    else
+    else {
         options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid));
+        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry));
+    }
     options = offer(layer, options, "LAUNDER", "NO");
     options = offer(layer, options, "GEOMETRY", "AS_WKT");
     if (!sink->to_stdout)
@@ -205,12 +209,12 @@ static void create_source_fields(gis_sink_layer *layer)
         OGRFieldDefnH field = OGR_FD_GetFieldDefn(source, i);
         layer->field_map[i] = -1;
         if (is_own(layer, OGR_Fld_GetNameRef(field))) {
-            if (layer->request.as_source)
+            if (gis_sink_tells(layer))
                 gis_list_add(&layer->sink->warnings, "field %s of the input is replaced", OGR_Fld_GetNameRef(field));
         } else {
             copy_domain(layer, field);
             layer->field_map[i] = create_field(layer, field);
-            if (layer->field_map[i] < 0 && layer->request.as_source)
+            if (layer->field_map[i] < 0 && gis_sink_tells(layer))
                 gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
                              OGR_Fld_GetNameRef(field), layer->sink->format.name,
                              OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
@@ -245,6 +249,35 @@ static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldTyp
     return index;
 }
 
+/* The field that is copied alone: its values are mapped as those of a whole feature are. */
+static void create_copy(gis_sink_layer *layer)
+{
+    OGRFieldDefnH like = layer->request.copied;
+    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
+    int n = OGR_FD_GetFieldCount(source);
+    OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
+    if (!field)
+        return;
+    OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
+    OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
+    OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
+    OGR_Fld_SetAlternativeName(field, OGR_Fld_GetAlternativeNameRef(like));
+    OGR_Fld_SetDomainName(field, OGR_Fld_GetDomainName(like));
+    copy_domain(layer, field);
+    int index = create_field(layer, field);
+    OGR_Fld_Destroy(field);
+    if (index < 0)
+        gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                     OGR_Fld_GetNameRef(like), layer->sink->format.name, OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
+    const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer->layer), index));
+    if (name && strcmp(name, OGR_Fld_GetNameRef(like)) != 0)
+        gis_list_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
+    CPLFree(layer->field_map);
+    layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
+    for (int i = 0; i < n; i++)
+        layer->field_map[i] = EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), OGR_Fld_GetNameRef(like)) ? index : -1;
+}
+
 static void create_own_fields(gis_sink_layer *layer)
 {
     size_t n = layer->request.n_fields;
@@ -253,6 +286,8 @@ static void create_own_fields(gis_sink_layer *layer)
         const gis_field *field = &layer->request.fields[i];
         layer->own[i] = create_own_field(layer, field->name, field->type, field->width);
     }
+    if (layer->request.copied)
+        create_copy(layer);
     if (source_definition(layer) && !layer->sink->fids_kept)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }

@@ -35,14 +35,14 @@ void gis_sink_forget_sent(gis_sink_layer *layer)
 static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
                            gis_error *error)
 {
-    if (feature && layer->request.like_source) {
+    if (feature && (layer->request.like_source || layer->request.copied)) {
         if (OGR_F_SetFromWithMap(to, feature, TRUE, layer->field_map) != OGRERR_NONE)
             return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
                             (int64_t)OGR_F_GetFID(feature));
         GIntBig fid = OGR_F_GetFID(feature);
         if (layer->fid_field >= 0 && fid != OGRNullFID)
             OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
-        OGR_F_SetFID(to, layer->sink->fids_kept ? fid : OGRNullFID);
+        OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
     }
     for (size_t i = 0; i < layer->request.n_fields; i++) {
         int field = layer->own[i];
@@ -130,7 +130,7 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
     }
     bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, 0, 0}, error);
+        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error);
     OGR_F_SetGeometryDirectly(to, geometry);
     done = done && send(layer, to, feature, error);
     OGR_F_Destroy(to);
@@ -145,7 +145,7 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
         return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, NULL, dx, dy}, error);
+        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error);
     done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;

@@ -6,20 +6,36 @@
 #include "sunder.h"
 #include "wkt.h"
 
-/* The polygons of a sum in doubles, each valid in the sense of OGC simple features. deviation: no point of their boundaries is
+/* The polygons of a sum in doubles, each valid in the sense of OGC simple features, and so all as one multipolygon. deviation: no point of their boundaries is
  * farther than this from the exact boundary. (The other way round that does not hold: a needle or a hole thinner than
  * an ulp may be gone.) */
 typedef struct gis_rounded {
     gis_polygons set;
     double deviation;
-    size_t repaired; /* polygons that rounding would have broken */
+    size_t repaired; /* polygons that rounding would have broken, and groups of them that it would have made overlap */
 } gis_rounded;
 
 /* Fails where a vertex leaves the range of doubles, or a polygon cannot be mended. */
 bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error);
 void gis_rounded_clear(gis_rounded *rounded);
 
-/* Steps of it (sum_mend.c). Ends the ring that began at vertex `first`, unless it has no area: then it is taken back.
+/* Polygons that may have lost a hole in rounding, by number. */
+typedef struct gis_suspects {
+    size_t *polygon;
+    size_t n, capacity;
+} gis_suspects;
+
+bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error);
+void gis_suspects_clear(gis_suspects *suspects);
+
+/* Its two halves: polygons that are valid each by itself (sum_round.c), and as one multipolygon (sum_apart.c). */
+bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error);
+bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *error);
+
+/* Steps of it (sum_mend.c). Appends a set with every edge bent through the vertices of the set that lie within a few ulps of
+ * it, in later rounds within a half; adds how far that moves one to *moved. */
+bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error);
+/* Ends the ring that began at vertex `first`, unless it has no area: then it is taken back.
  */
 bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error);
 /* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_STRICT alone: an

@@ -17,9 +17,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. Both ends of the
- * edge and the vertex have moved by half a unit in each coordinate: the sum of the three is below this. */
-static const double near_ulps = 4;
+/* How near a vertex must be to an edge to bend it, in units in the last place of their coordinates. At first: both ends of
+ * the edge and the vertex have moved by half a unit in each coordinate, and the sum of the three is below this. Later: what
+ * passes through the square that rounds to the vertex, as in snap rounding; where features are no larger than a few units
+ * the first would throw everything into everything, again and again. */
+static const double near_ulps = 4, pixel_ulps = 0.75;
+/* After so many bends in a row one more would be found seldom, and the next round will see it. */
+enum { BENDS_IN_A_ROW = 4 };
 /* One round nearly always does, three have been seen; a polygon that is still broken after so many is given up. */
 enum { MENDING_ROUNDS = 12 };
 
@@ -115,7 +119,7 @@ typedef struct bend {
     double t, distance, xy[2];
 } bend;
 
-/* The vertices of a polygon by x, so that an edge looks at those beside it only. */
+/* Vertices by x, so that an edge looks at those beside it only. */
 typedef struct column {
     double xy[2];
 } column;
@@ -146,9 +150,9 @@ static bool is_near(const double *a, const double *b, const double *c, double re
 }
 
 /* The vertices near to ab, in their order along it; bends has room for all vertices. */
-static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, bend *bends)
+static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, double ulps, bend *bends)
 {
-    double reach = near_ulps * gis_ulp(fmax(fmax(fabs(a[0]), fabs(a[1])), fmax(fabs(b[0]), fabs(b[1]))));
+    double reach = ulps * gis_ulp(fmax(fmax(fabs(a[0]), fabs(a[1])), fmax(fabs(b[0]), fabs(b[1]))));
     double xmin = fmin(a[0], b[0]) - reach, xmax = fmax(a[0], b[0]) + reach;
     double ymin = fmin(a[1], b[1]) - reach, ymax = fmax(a[1], b[1]) + reach;
     size_t low = 0, high = n, found = 0;
@@ -168,7 +172,7 @@ static size_t find_bends(const column *columns, size_t n, const double *a, const
     return found;
 }
 
-static bool bend_ring(const gis_polygons *from, size_t r, const column *columns, size_t n, bend *bends,
+static bool bend_ring(const gis_polygons *from, size_t r, const column *columns, size_t n, double ulps, bend *bends,
                       gis_polygons *to, double *moved, gis_error *error)
 {
     size_t begin = r ? from->ring_end[r - 1] : 0, end = from->ring_end[r];
@@ -176,7 +180,7 @@ static bool bend_ring(const gis_polygons *from, size_t r, const column *columns,
         const double *a = from->xy + 2 * i, *b = from->xy + 2 * (i + 1 < end ? i + 1 : begin);
         if (!gis_polygons_vertex(to, a[0], a[1], error))
             return false;
-        size_t found = find_bends(columns, n, a, b, bends);
+        size_t found = find_bends(columns, n, a, b, ulps, bends);
         for (size_t k = 0; k < found; k++) {
             *moved = fmax(*moved, bends[k].distance);
             if ((k == 0 || !same_vertex(bends[k].xy, bends[k - 1].xy)) &&
@@ -187,23 +191,43 @@ static bool bend_ring(const gis_polygons *from, size_t r, const column *columns,
     return gis_polygons_end_ring(to, error);
 }
 
-/* Appends rings [first, last), as one polygon, with every edge bent. */
-static bool bend_polygon(const gis_polygons *from, size_t first, size_t last, gis_polygons *to, double *moved,
-                         gis_error *error)
+static bool bend_all(const gis_polygons *from, double ulps, gis_polygons *to, double *moved, gis_error *error)
 {
-    size_t start = first ? from->ring_end[first - 1] : 0, n = from->ring_end[last - 1] - start;
+    size_t n = from->vertices;
     column *columns = malloc((n + 1) * sizeof *columns);
     bend *bends = malloc((n + 1) * sizeof *bends);
     bool ok = (columns && bends) || gis_no_memory(error);
     for (size_t v = 0; ok && v < n; v++)
-        columns[v] = (column){{from->xy[2 * (start + v)], from->xy[2 * (start + v) + 1]}};
+        columns[v] = (column){{from->xy[2 * v], from->xy[2 * v + 1]}};
     if (ok)
         qsort(columns, n, sizeof *columns, by_x);
-    for (size_t r = first; ok && r < last; r++)
-        ok = bend_ring(from, r, columns, n, bends, to, moved, error);
+    for (size_t p = 0, r = 0; ok && p < from->polygons; p++) {
+        for (; ok && r < from->poly_end[p]; r++)
+            ok = bend_ring(from, r, columns, n, ulps, bends, to, moved, error);
+        ok = ok && gis_polygons_end_polygon(to, error);
+    }
     free(columns);
     free(bends);
-    return ok && gis_polygons_end_polygon(to, error);
+    return ok;
+}
+
+bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error)
+{
+    double now = 0;
+    if (!bend_all(from, round == 0 ? near_ulps : pixel_ulps, to, &now, error))
+        return false;
+    *moved += now;
+    for (int i = 1; round > 0 && i < BENDS_IN_A_ROW && now > 0; i++) {
+        gis_polygons bent = {0};
+        now = 0;
+        bool ok = bend_all(to, pixel_ulps, &bent, &now, error);
+        gis_polygons_clear(to);
+        *to = bent;
+        *moved += now;
+        if (!ok)
+            return false;
+    }
+    return true;
 }
 
 /* ---- The even-odd set, rounded ------------------------------------------------------------------------------ */
@@ -265,13 +289,17 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
 }
 
 /* One broken polygon, rings [first, last): mended, or in pieces to try again. */
-static bool mend_once(const gis_polygons *set, size_t first, size_t last, gis_polygons *done, gis_polygons *again,
-                      double *moved, gis_error *error)
+static bool mend_once(const gis_polygons *set, size_t first, size_t last, int round, gis_polygons *done,
+                      gis_polygons *again, double *moved, gis_error *error)
 {
-    gis_polygons bent = {0}, broken = {0}, pieces = {0};
-    bool ok = bend_polygon(set, first, last, &bent, moved, error) && sort_out(&bent, done, &broken, error);
+    double bends = 0, rounding = 0;
+    gis_polygons one = {0}, bent = {0}, broken = {0}, pieces = {0};
+    bool ok = gis_polygons_append(&one, set, first, last, error) && gis_bend_set(&one, round, &bent, &bends, error) &&
+              sort_out(&bent, done, &broken, error);
     if (ok && broken.polygons)
-        ok = enclosed(&broken, &pieces, moved, error) && sort_out(&pieces, done, again, error);
+        ok = enclosed(&broken, &pieces, &rounding, error) && sort_out(&pieces, done, again, error);
+    *moved = fmax(*moved, bends + rounding);
+    gis_polygons_clear(&one);
     gis_polygons_clear(&bent);
     gis_polygons_clear(&broken);
     gis_polygons_clear(&pieces);
@@ -289,7 +317,8 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
         gis_polygons again = {0};
         double now = 0;
         for (size_t p = 0; ok && p < work.polygons; p++)
-            ok = mend_once(&work, p ? work.poly_end[p - 1] : 0, work.poly_end[p], set, &again, &now, error);
+            ok = mend_once(&work, p ? work.poly_end[p - 1] : 0, work.poly_end[p], round, set, &again, &now,
+                           error);
         gis_polygons_clear(&work);
         work = again;
         total += now;

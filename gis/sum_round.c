@@ -1,12 +1,13 @@
 /* sum_round.c: a sum in doubles that is valid.
  *
  * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. Rings that fall together so are
- * left out, and polygons that rounding has broken are mended (sum_mend.c). The core's exact validation says whether a
- * polygon is well, before and after. */
+ * left out, polygons that rounding has broken are mended (sum_mend.c), and those that it has brought into each other are
+ * united there (sum_apart.c). The core's exact validation says what is well, before and after. */
 #include "sum_layers.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 double gis_ulp(double x)
 {
@@ -84,30 +85,76 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
     return gis_end_ring_with_area(&out->set, first, kept, error);
 }
 
-bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
+bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error)
+{
+    if (suspects->n == suspects->capacity) {
+        size_t larger = suspects->capacity ? 2 * suspects->capacity : 16;
+        size_t *grown = realloc(suspects->polygon, larger * sizeof *grown);
+        if (!grown)
+            return gis_no_memory(error);
+        suspects->polygon = grown;
+        suspects->capacity = larger;
+    }
+    suspects->polygon[suspects->n++] = polygon;
+    return true;
+}
+
+void gis_suspects_clear(gis_suspects *suspects)
+{
+    free(suspects->polygon);
+    *suspects = (gis_suspects){0};
+}
+
+/* Polygon p of the sum, mended where that is needed; raises out->deviation, and *moved to what mending adds. */
+static bool append_polygon(const sunder_sum *sum, size_t p, gis_rounded *out, double *moved, gis_suspects *suspects,
+                           gis_error *error)
+{
+    size_t first = out->set.rings, before = out->set.polygons, repaired = out->repaired;
+    size_t rings = sunder_sum_rings(sum, p);
+    bool lost = false, ok = true;
+    double deviation = 0;
+    for (size_t r = 0; r < rings; r++) {
+        bool kept;
+        if (!append_ring(sum, p, r, out, &deviation, &kept, error))
+            return false;
+        lost = lost || !kept;
+        if (r == 0 && !kept)
+            break; /* without its outer ring, a polygon and its holes are gone */
+    }
+    out->deviation = fmax(out->deviation, deviation);
+    if (out->set.rings == first)
+        return true;
+    if (deviation == 0)
+        return gis_polygons_end_polygon(&out->set, error); /* the exact polygon itself, which is valid */
+    ok = gis_end_valid_polygon(&out->set, first, moved, &out->repaired, error);
+    for (size_t k = before; ok && (lost || out->repaired > repaired) && k < out->set.polygons; k++)
+        ok = gis_suspect(suspects, k, error);
+    return ok;
+}
+
+bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error)
 {
     gis_rounded rounded = {0};
     sunder_sum_counts counts;
     sunder_sum_count(sum, &counts);
     bool ok = true;
     double moved = 0;
-    for (size_t p = 0; ok && p < counts.polygons; p++) {
-        size_t first = rounded.set.rings, rings = sunder_sum_rings(sum, p);
-        bool kept = true;
-        double deviation = 0;
-        for (size_t r = 0; ok && kept && r < rings; r++) {
-            bool ring_kept = false;
-            ok = append_ring(sum, p, r, &rounded, &deviation, &ring_kept, error);
-            if (r == 0)
-                kept = ring_kept; /* without its outer ring, a polygon and its holes are gone */
-        }
-        rounded.deviation = fmax(rounded.deviation, deviation);
-        if (ok && kept && deviation == 0)
-            ok = gis_polygons_end_polygon(&rounded.set, error); /* the exact polygon itself, which is valid */
-        else if (ok && kept)
-            ok = gis_end_valid_polygon(&rounded.set, first, &moved, &rounded.repaired, error);
-    }
+    for (size_t p = 0; ok && p < counts.polygons; p++)
+        ok = append_polygon(sum, p, &rounded, &moved, suspects, error);
     rounded.deviation += moved;
+    if (ok)
+        *out = rounded;
+    else
+        gis_rounded_clear(&rounded);
+    return ok;
+}
+
+bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
+{
+    gis_rounded rounded = {0};
+    gis_suspects suspects = {0};
+    bool ok = gis_round_polygons(sum, &rounded, &suspects, error) && gis_part_polygons(&rounded, &suspects, error);
+    gis_suspects_clear(&suspects);
     if (ok)
         *out = rounded;
     else

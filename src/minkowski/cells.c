@@ -253,6 +253,15 @@ static size_t halve(cell *c, const half *h)
     return h->sides;
 }
 
+/* Along which axis splits can still tell anything: not below what start points may be off by, where details are small
+ * beside the coordinates that they have. False if along neither. */
+static bool choose_axis(const builder *b, cell *c)
+{
+    const double room = 4 * b->error;
+    if (c->b.high[c->axis] - c->b.low[c->axis] <= room) c->axis = !c->axis;
+    return c->b.high[c->axis] - c->b.low[c->axis] > room;
+}
+
 /* What is left of a half when its lists are made: a cell to split further, or settled. */
 static void settle_half(builder *b, const cell *parent, const half *h)
 {
@@ -277,10 +286,11 @@ static void settle_half(builder *b, const cell *parent, const half *h)
         return;
     }
     c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
-    const size_t lines = h->sides > MANY_SIDES && c.stubborn == 0 ? halve(&c, h) : shrink(b, &c, &h->b);
+    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && choose_axis(b, &c);
+    const size_t lines = at_once ? halve(&c, h) : shrink(b, &c, &h->b);
     const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
     const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
-    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience;
+    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience || (lines > 0 && !choose_axis(b, &c));
     if (lines > 0 && !leaf) {
         b->entries_n = c.entry_to;
         b->runs_n = c.run_to;

@@ -44,9 +44,17 @@ static sunder_status canceled(sunder_error *err)
     return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
 }
 
-static bool go_on(const sunder_sum_options *options, uint64_t done, uint64_t all)
+/* Of a stage's work so much is the part that is being done: from and to are fractions of the stage. */
+typedef struct share {
+    double from, to;
+} share;
+
+static const share of_bands = {0, 0.75}, of_figure = {0.75, 1};
+
+static bool go_on(const sunder_sum_options *options, const share *s, uint64_t done, uint64_t all)
 {
-    return !options->progress || options->progress((double)done / (double)all, options->progress_user);
+    return !options || !options->progress ||
+           options->progress(s->from + (s->to - s->from) * ((double)done / (double)all), options->progress_user);
 }
 
 /* A random order of n things; NULL if memory is out. */
@@ -84,7 +92,8 @@ static uint32_t *successors(const sunder_i_figure *f)
 
 /* The sides of the figure, the interior on their left, in a map of their own, marked. Counts of vertices are not kept
  * up (rings may touch there): only faces are ever asked. */
-static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice, uint64_t *random,
+static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lattice,
+                                 const sunder_sum_options *options, const share *part, uint64_t *random,
                                  sunder_i_planar_map **out, sunder_error *err)
 {
     sunder_i_planar_map *map;
@@ -95,6 +104,10 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
     status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
     for (size_t i = 0; i < f->sides && status == SUNDER_OK; i++) {
         uint32_t ends[2];
+        if (!go_on(options, part, i, f->sides)) {
+            status = canceled(err);
+            break;
+        }
         ends_of_side(f, next, order[i], ends);
         status = sunder_i_planar_map_insert_segment(map, f->at[ends[0]], f->at[ends[1]], 1, 0, NULL, NULL, err);
     }
@@ -190,7 +203,7 @@ static sunder_status unite_bands(growth *g, sunder_error *err)
     uint64_t *order = random_order(&g->random, all);
     sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
-        status = go_on(g->options, i, all) ? add_band(g, next, order[i], err) : canceled(err);
+        status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : canceled(err);
     sunder_i_free(next);
     sunder_i_free(order);
     return status;
@@ -273,7 +286,7 @@ static sunder_status grow_or_shrink(growth *g, sunder_sum *sum, sunder_error *er
     sunder_status status = sunder_i_planar_map_new(&sum->lattice, sunder_i_draw(&g->random), &g->bands, err);
     if (status == SUNDER_OK) status = unite_bands(g, err);
     if (status == SUNDER_OK && g->figure->rings)
-        status = draw_figure(g->figure, &sum->lattice, &g->random, &g->solid, err);
+        status = draw_figure(g->figure, &sum->lattice, g->options, &of_figure, &g->random, &g->solid, err);
     if (status == SUNDER_OK) status = read_cells(g, sum, err);
     sunder_i_planar_map_free(g->bands);
     sunder_i_planar_map_free(g->solid);

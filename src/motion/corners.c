@@ -1,12 +1,13 @@
 /* Components: stretches of the outline join the vertices at their ends, since the outline belongs to free space. That
  * gives curves; two curves belong together when they bound one face of free space. From the smallest vertex of each
- * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way there
- * is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come outside.
- * Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can be reached
- * is decided exactly, and reaching a farther one would not be wrong. */
+ * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way
+ * there is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come
+ * outside. Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can
+ * be reached is decided exactly, and reaching a farther one would not be wrong. */
 #include "motion/corners.h"
 
 #include "minkowski/coverage.h"
+#include "minkowski/strips.h"
 
 #include <math.h>
 #include <string.h>
@@ -66,8 +67,8 @@ static bool is_node(const sunder_i_space *s, const sunder_i_corners *c, uint32_t
 {
     if (d->all == 0) return false; /* a degenerate point: no way leads there */
     if (d->all != 2 || d->degenerate == 1) return true;
-    const int turn = sunder_i_place_orient(&s->ground, &c->place[c->beside[v][0]], &c->place[v],
-                                           &c->place[c->beside[v][1]]);
+    const int turn =
+        sunder_i_place_orient(&s->ground, &c->place[c->beside[v][0]], &c->place[v], &c->place[c->beside[v][1]]);
     return d->degenerate ? turn != 0 : turn > 0;
 }
 
@@ -109,8 +110,8 @@ static sunder_i_place_at meeting(sunder_i_lattice *l, const sunder_i_place_at *v
     }
     /* x = a.x / a.w + (rise dx) / (dy v.w a.w) */
     const sunder_i_big w = sunder_i_big_mul(m, sunder_i_big_mul(m, dy, v->w), a->w);
-    const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, sunder_i_big_mul(m, a->x, dy), v->w),
-                                            sunder_i_big_mul(m, rise, dx));
+    const sunder_i_big x =
+        sunder_i_big_add(m, sunder_i_big_mul(m, sunder_i_big_mul(m, a->x, dy), v->w), sunder_i_big_mul(m, rise, dx));
     const sunder_i_big y = sunder_i_big_mul(m, sunder_i_big_mul(m, v->y, dy), a->w);
     return sunder_i_place_make(l, x, y, w);
 }
@@ -152,76 +153,35 @@ static bool meet_left(const sunder_i_space *s, const sunder_i_place_at *v, const
     return sunder_i_place_cmp_x(g, hit, v) <= 0;
 }
 
-/* Stretches by height: which reach into each of n horizontal strips of the plane, in doubles with room for their error. */
-typedef struct strips {
-    double low, per_unit;
-    uint32_t n;
-    size_t *end;       /* [n] past the last entry of each */
-    uint32_t *stretch; /* entries */
-} strips;
-
-/* Monotone in y, so what holds of heights holds of strips. */
-static uint32_t strip_of(const strips *t, double y)
+/* Stretches by height, with room for the error of theirs and of the height that is asked for. */
+static bool make_strips(const sunder_i_space *s, const sunder_i_corners *c, sunder_i_strips *out)
 {
-    const double k = (y - t->low) * t->per_unit;
-    return !(k > 0) ? 0 : k < t->n ? (uint32_t)k : t->n - 1;
-}
-
-static void span_of(const sunder_i_space *s, const sunder_i_corners *c, const strips *t, size_t i, uint32_t span[2])
-{
-    const double a = c->place[s->stretch[i].from].ay, b = c->place[s->stretch[i].to].ay, e = 4 * s->ground.error;
-    span[0] = strip_of(t, fmin(a, b) - e);
-    span[1] = strip_of(t, fmax(a, b) + e);
-}
-
-/* So many strips that each stretch is in a few of them on average. */
-static bool make_strips(const sunder_i_space *s, const sunder_i_corners *c, strips *t)
-{
-    double high = -INFINITY;
-    memset(t, 0, sizeof *t);
-    t->low = INFINITY;
-    for (uint32_t v = 0; v < c->vertices; v++) {
-        t->low = fmin(t->low, c->place[v].ay);
-        high = fmax(high, c->place[v].ay);
-    }
-    size_t entries = 0;
-    uint32_t span[2];
-    for (t->n = s->stretches < 1u << 20 ? (uint32_t)s->stretches + 1 : 1u << 20;; t->n /= 2) {
-        t->per_unit = high > t->low ? t->n / (high - t->low) : 0;
-        entries = 0;
-        for (size_t i = 0; i < s->stretches; i++) {
-            span_of(s, c, t, i, span);
-            entries += span[1] - span[0] + 1;
-        }
-        if (t->n == 1 || entries <= 8 * s->stretches) break;
-    }
-    t->end = sunder_i_calloc((size_t)t->n + 1, sizeof *t->end);
-    t->stretch = sunder_i_alloc(entries, sizeof *t->stretch);
-    if (!t->end || !t->stretch) return false;
-    /* Counts, one place up; then where each strip starts, which filling turns into where it ends. */
+    double(*span)[2] = sunder_i_alloc(s->stretches, sizeof *span);
+    memset(out, 0, sizeof *out);
+    if (!span) return false;
+    const double e = 4 * s->ground.error;
     for (size_t i = 0; i < s->stretches; i++) {
-        span_of(s, c, t, i, span);
-        for (uint32_t k = span[0]; k <= span[1]; k++) t->end[k + 1]++;
+        const double a = c->place[s->stretch[i].from].ay, b = c->place[s->stretch[i].to].ay;
+        span[i][0] = fmin(a, b) - e;
+        span[i][1] = fmax(a, b) + e;
     }
-    for (uint32_t k = 0; k < t->n; k++) t->end[k + 1] += t->end[k];
-    for (size_t i = 0; i < s->stretches; i++) {
-        span_of(s, c, t, i, span);
-        for (uint32_t k = span[0]; k <= span[1]; k++) t->stretch[t->end[k]++] = (uint32_t)i;
-    }
-    return true;
+    const bool ok = sunder_i_strips_build(out, (const double(*)[2])span, s->stretches);
+    sunder_i_free(span);
+    return ok;
 }
 
 /* Joins v with what it reaches on its left. Stretches whose vertices have the root `own` are not looked at. */
-static void shoot(const sunder_i_space *s, sunder_i_corners *c, const strips *t, uint32_t v, const uint32_t *curve,
-                  uint32_t own)
+static void shoot(const sunder_i_space *s, sunder_i_corners *c, const sunder_i_strips *t, uint32_t v,
+                  const uint32_t *curve, uint32_t own)
 {
-    const uint32_t strip = strip_of(t, c->place[v].ay);
     const sunder_i_place_at *p = &c->place[v];
+    size_t from, to;
+    sunder_i_strips_at(t, p->ay, &from, &to);
     double nearest = -INFINITY, x[2];
     bool any = false;
     for (int round = 0; round < 2; round++)
-        for (size_t i = strip ? t->end[strip - 1] : 0; i < t->end[strip]; i++) {
-            const sunder_i_stretch *e = &s->stretch[t->stretch[i]];
+        for (size_t i = from; i < to; i++) {
+            const sunder_i_stretch *e = &s->stretch[t->item[i]];
             const sunder_i_place_at *a = &c->place[e->from], *b = &c->place[e->to];
             if (curve[e->from] == own || !range_at(s, p, a, b, x) || x[0] > p->ax + 2 * s->ground.error) continue;
             if (round == 0) {
@@ -239,7 +199,7 @@ static void shoot(const sunder_i_space *s, sunder_i_corners *c, const strips *t,
 static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
 {
     uint32_t *curve = sunder_i_alloc(c->vertices, sizeof *curve), *least = sunder_i_alloc(c->vertices, sizeof *least);
-    strips t;
+    sunder_i_strips t;
     const bool ok = make_strips(s, c, &t) && curve && least;
     for (uint32_t v = 0; v < c->vertices + 3; v++) c->parent[v] = v;
     for (size_t i = 0; i < s->stretches; i++) join(c, s->stretch[i].from, s->stretch[i].to);
@@ -254,9 +214,18 @@ static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
     for (uint32_t v = c->vertices; ok && v < c->vertices + 2; v++) shoot(s, c, &t, v, curve, SUNDER_I_NO_PLACE_AT);
     sunder_i_free(curve);
     sunder_i_free(least);
-    sunder_i_free(t.end);
-    sunder_i_free(t.stretch);
+    sunder_i_strips_free(&t);
     return ok;
+}
+
+/* Nodes that no way leads to from the start are none. */
+static void keep_reachable(sunder_i_corners *c)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < c->nodes; i++)
+        if (c->node[i] >= c->vertices || sunder_i_corners_connected(c, c->node[i], c->vertices))
+            c->node[n++] = c->node[i];
+    c->nodes = n;
 }
 
 sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_place_at *start,
@@ -270,14 +239,18 @@ sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_plac
     out->parent = sunder_i_alloc((size_t)n + 3, sizeof *out->parent);
     bool ok = out->place && out->beside && out->node && out->parent;
     if (ok) {
-        for (uint32_t v = 0; v < n; v++) out->place[v] = sunder_i_place_of_vertex(s->ground.lattice, &s->sum->vertex[v]);
+        for (uint32_t v = 0; v < n; v++)
+            out->place[v] = sunder_i_place_of_vertex(s->ground.lattice, &s->sum->vertex[v]);
         out->place[n] = *start;
         out->place[n + 1] = *goal;
         memset(out->beside, 0xff, ((size_t)n + 2) * sizeof *out->beside);
         ok = !s->ground.lattice->arena.failed && find_nodes(s, out) && find_components(s, out) &&
              !s->ground.lattice->arena.failed;
     }
-    if (ok) return SUNDER_OK;
+    if (ok) {
+        keep_reachable(out);
+        return SUNDER_OK;
+    }
     sunder_i_corners_free(out);
     return sunder_i_no_memory(err);
 }

@@ -15,9 +15,9 @@ typedef struct sunder_i_corners {
     sunder_i_place_at *place; /* [vertices + 2] */
     uint32_t (*beside)[2];    /* [vertices + 2] of a plain corner, the vertices before and after it with O on the left;
                                  else NO_PLACE_AT */
-    uint32_t *node;           /* places where a path can bend, then start, then goal */
+    uint32_t *node;           /* places where a path from the start can bend, then start, then goal */
     uint32_t nodes;
-    uint32_t *parent;         /* [vertices + 3] free space's components, as a forest; the last is what lies outside */
+    uint32_t *parent; /* [vertices + 3] free space's components, as a forest; the last is what lies outside */
 } sunder_i_corners;
 
 /* Takes start and goal, which are free, into account. Fails with SUNDER_ENOMEM. */

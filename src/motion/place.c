@@ -65,7 +65,7 @@ sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lat
     sunder_i_big n[2] = {num[0], num[1]}, d[2] = {den[0], den[1]};
     for (int k = 0; k < 2; k++) on_lattice(sum, arena, k, &n[k], &d[k]);
     return sunder_i_place_make(l, sunder_i_big_mul(arena, n[0], d[1]), sunder_i_big_mul(arena, n[1], d[0]),
-                  sunder_i_big_mul(arena, d[0], d[1]));
+                               sunder_i_big_mul(arena, d[0], d[1]));
 }
 
 sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_lattice *l, const double xy[2])
@@ -202,42 +202,31 @@ static void corner_big(const sunder_i_ground *g, sunder_i_point p, sunder_i_big 
     out[2] = sunder_i_big_i64(&g->lattice->arena, 1);
 }
 
-static void corner_double(const sunder_i_ground *g, sunder_i_point p, double out[2])
+int sunder_i_side_of(const sunder_i_ground *g, sunder_i_near a, sunder_i_near b, const sunder_i_place_at *c)
 {
-    out[0] = sunder_i_approx(g->lattice, p.x);
-    out[1] = sunder_i_approx(g->lattice, p.y);
-}
-
-int sunder_i_side_of(const sunder_i_ground *g, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c)
-{
-    double pa[2], pb[2];
     const double pc[2] = {c->ax, c->ay};
-    corner_double(g, a, pa);
-    corner_double(g, b, pb);
-    const int s = filter_orient(g, pa, pb, pc);
+    const int s = filter_orient(g, a.at, b.at, pc);
     if (s) return s;
     const sunder_i_mark mark = sunder_i_arena_mark(&g->lattice->arena);
     sunder_i_big ha[3], hb[3];
     const sunder_i_big hc[3] = {c->x, c->y, c->w};
-    corner_big(g, a, ha);
-    corner_big(g, b, hb);
+    corner_big(g, a.point, ha);
+    corner_big(g, b.point, hb);
     const int e = exact_orient(g, ha, hb, hc);
     if (!g->lattice->arena.failed) sunder_i_arena_release(&g->lattice->arena, mark);
     return e;
 }
 
 int sunder_i_corner_side(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b,
-                         sunder_i_point c)
+                         sunder_i_near c)
 {
     const double pa[2] = {a->ax, a->ay}, pb[2] = {b->ax, b->ay};
-    double pc[2];
-    corner_double(g, c, pc);
-    const int s = filter_orient(g, pa, pb, pc);
+    const int s = filter_orient(g, pa, pb, c.at);
     if (s) return s;
     const sunder_i_mark mark = sunder_i_arena_mark(&g->lattice->arena);
     const sunder_i_big ha[3] = {a->x, a->y, a->w}, hb[3] = {b->x, b->y, b->w};
     sunder_i_big hc[3];
-    corner_big(g, c, hc);
+    corner_big(g, c.point, hc);
     const int e = exact_orient(g, ha, hb, hc);
     if (!g->lattice->arena.failed) sunder_i_arena_release(&g->lattice->arena, mark);
     return e;

@@ -2,7 +2,8 @@
  * names, with numerators and denominators of any size.
  *
  * A place is (x / w, y / w) on the lattice, w > 0, big integers in an arena; ax, ay are close to its coordinates in the
- * units of sunder_i_approx(). Questions are answered in doubles where the error bound allows it, else in big integers. */
+ * units of sunder_i_approx(). Questions are answered in doubles where the error bound allows it, else in big integers.
+ */
 #ifndef SUNDER_I_PLACE_AT_H
 #define SUNDER_I_PLACE_AT_H
 
@@ -24,8 +25,8 @@ sunder_i_place_at sunder_i_place_make(sunder_i_lattice *lattice, sunder_i_big x,
 /* Of a vertex of the sum. Memory in the lattice's arena, whose `failed` tells. */
 sunder_i_place_at sunder_i_place_of_vertex(sunder_i_lattice *lattice, const sunder_i_hpoint *vertex);
 /* Of the rational coordinates num[k] / den[k], den > 0. */
-sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice, const sunder_i_big num[2],
-                                             const sunder_i_big den[2]);
+sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice,
+                                             const sunder_i_big num[2], const sunder_i_big den[2]);
 sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_lattice *lattice, const double xy[2]);
 /* "num" or "num/den", both integers in decimal. False if the text is none of these, or den is zero. */
 bool sunder_i_parse_rational(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den);
@@ -37,11 +38,17 @@ int sunder_i_place_cmp_y(const sunder_i_ground *g, const sunder_i_place_at *a, c
 /* Side of c to the line ab: +1 left, -1 right, 0 on it, or a == b. */
 int sunder_i_place_orient(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b,
                           const sunder_i_place_at *c);
+/* A lattice point, and doubles close to it, which stay where they are. */
+typedef struct sunder_i_near {
+    sunder_i_point point;
+    const double *at;
+} sunder_i_near;
+
 /* Side of c to the line ab of lattice points. */
-int sunder_i_side_of(const sunder_i_ground *g, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c);
+int sunder_i_side_of(const sunder_i_ground *g, sunder_i_near a, sunder_i_near b, const sunder_i_place_at *c);
 /* Side of the lattice point c to the line ab of places. */
 int sunder_i_corner_side(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b,
-                         sunder_i_point c);
+                         sunder_i_near c);
 
 /* floor(2^bits * |b - a|) on the lattice, or one less. Memory in the arena. */
 sunder_i_big sunder_i_place_distance(sunder_i_arena *arena, const sunder_i_place_at *a, const sunder_i_place_at *b,

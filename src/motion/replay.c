@@ -1,8 +1,8 @@
 /* The proof of a leg, along another road than the search's: no tree, no separating axes, no doubles but for boxes.
  *
  * The point p + t (q - p) is in an open part exactly when it lies strictly left of each of its sides. Each side's cross
- * product is linear in t, f(t) = (1 - t) f(p) + t f(q), so the t in question are an open interval, cut to [0, 1]. The leg
- * is free of the part when no t is left. */
+ * product is linear in t, f(t) = (1 - t) f(p) + t f(q), so the t in question are an open interval, cut to [0, 1]. The
+ * leg is free of the part when no t is left. */
 #include "motion/space.h"
 
 #include <math.h>
@@ -48,8 +48,8 @@ static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_
         if (sp > 0 && sq > 0) continue;
         /* f(t) = 0 at t = fp / (fp - fq). One of the two is positive, the other is not. */
         const sunder_i_big d = sunder_i_big_sub(m, fp, fq);
-        const bound at = sunder_i_big_sign(d) > 0 ? (bound){fp, d, true}
-                                                  : (bound){sunder_i_big_neg(fp), sunder_i_big_neg(d), true};
+        const bound at =
+            sunder_i_big_sign(d) > 0 ? (bound){fp, d, true} : (bound){sunder_i_big_neg(fp), sunder_i_big_neg(d), true};
         if (sp > 0) { /* from p to the crossing */
             if (bound_cmp(m, &at, &high) <= 0) high = at;
         } else if (bound_cmp(m, &at, &low) >= 0) {
@@ -65,8 +65,7 @@ static bool box_apart(const sunder_i_space *s, uint32_t part, const double low[2
     const sunder_i_hulls *c = &s->part;
     bool left = true, right = true, below = true, above = true;
     for (uint32_t k = sunder_i_hulls_first(c, part); k < c->end[part]; k++) {
-        const double x = sunder_i_approx(s->ground.lattice, c->corner[k].x);
-        const double y = sunder_i_approx(s->ground.lattice, c->corner[k].y);
+        const double x = s->corner[k][0], y = s->corner[k][1];
         left = left && x < low[0];
         right = right && x > high[0];
         below = below && y < low[1];

@@ -1,15 +1,17 @@
-/* A* over the visibility graph, which is never made: edges are guessed to be free, and tried only when their turn comes.
+/* A* over the visibility graph, which is never made: from a node that is reached, edges go to what view.c says may be
+ * seen and come next; they are tried only when their turn comes.
  *
- * The queue holds edges (v, w) by the length of the path over them to the goal, as the crow flies from w on. An edge that
- * comes out is skipped if w has been reached by less; else the exact test is made, and w is reached. So only edges that
- * could belong to a shortest path are ever tried. A first search that overrates the distance left finds some path
+ * The queue holds edges (v, w) by the length of the path over them to the goal, as the crow flies from w on. An edge
+ * that comes out is skipped if w has been reached by less; else the exact test is made, and w is reached. So only edges
+ * that could belong to a shortest path are ever tried. A first search that overrates the distance left finds some path
  * quickly; its length keeps out of the second search all edges that cannot beat it.
  *
  * Lengths are doubles until two of them are too close to tell apart; then they are taken to LENGTH_BITS bits, which is
  * more than 256 significant ones, and paths still equal are compared as sequences of places. */
 #include "motion/search.h"
 
-#include <float.h>
+#include "motion/view.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -31,9 +33,11 @@ typedef struct reached {
 
 typedef struct search {
     const sunder_i_space *space;
-    sunder_i_corners *corners;
+    const sunder_i_corners *corners;
     const sunder_sum_options *options;
+    sunder_i_view view;
     reached *at;      /* [nodes] */
+    uint32_t *way[2]; /* [nodes + 1] room for paths to compare */
     edge *heap;
     size_t heap_n, heap_capacity;
     double haste, limit, slack;
@@ -46,8 +50,6 @@ static const sunder_i_place_at *place_of(const search *s, uint32_t node)
 {
     return &s->corners->place[s->corners->node[node]];
 }
-
-static double distance(const sunder_i_place_at *a, const sunder_i_place_at *b) { return hypot(a->ax - b->ax, a->ay - b->ay); }
 
 /* ---- The queue ---- */
 
@@ -85,41 +87,18 @@ static edge pop(search *s)
     return top;
 }
 
-/* ---- Which edges are worth a try ---- */
-
-/* Does the line through a and b clearly part the two neighbours of the corner v (one of a, b)? Then a path along ab that
- * bends at v could be cut short there: the obstacle does not hold it. */
-static bool cuts(const search *s, const sunder_i_place_at *a, const sunder_i_place_at *b, uint32_t v)
-{
-    const uint32_t *beside = s->corners->beside[v];
-    if (beside[0] == SUNDER_I_NO_PLACE_AT) return false;
-    const double dx = b->ax - a->ax, dy = b->ay - a->ay, e = s->space->ground.error;
-    double side[2], bound = 0;
-    for (int k = 0; k < 2; k++) {
-        const sunder_i_place_at *c = &s->corners->place[beside[k]];
-        const double qx = c->ax - a->ax, qy = c->ay - a->ay;
-        const double size = fabs(dx) + fabs(dy) + fabs(qx) + fabs(qy), f = 2 * e + DBL_EPSILON * size;
-        side[k] = dx * qy - dy * qx;
-        bound = fmax(bound, 2 * f * (size + f) + 8 * DBL_EPSILON * size * size);
-    }
-    return (side[0] > bound && side[1] < -bound) || (side[0] < -bound && side[1] > bound);
-}
-
+/* Edges from v. The hasty search does not turn what it has reached into shortest paths, so that where they come from
+ * does not tell where they go on. */
 static void expand(search *s, uint32_t v)
 {
-    const sunder_i_place_at *a = place_of(s, v), *goal = place_of(s, s->goal);
-    const uint32_t pv = s->corners->node[v];
-    for (uint32_t w = 0; w < s->corners->nodes && !s->no_memory; w++) {
-        if (w == v || w == s->start) continue;
-        const sunder_i_place_at *b = place_of(s, w);
-        const double length = s->at[v].length + distance(a, b);
-        const double key = length + s->haste * distance(b, goal);
-        if (key > s->limit || (s->at[w].known && s->at[w].length < length - s->slack)) continue;
-        const uint32_t pw = s->corners->node[w];
-        if (!sunder_i_corners_connected(s->corners, pv, pw)) continue;
-        if (v != s->start && cuts(s, a, b, pv)) continue;
-        if (w != s->goal && cuts(s, a, b, pw)) continue;
-        push(s, (edge){key, v, w});
+    const double so_far = s->at[v].length;
+    const uint32_t before = s->haste > 1 || v == s->start ? SUNDER_I_NO_NODE : s->at[v].before;
+    sunder_i_view_look(&s->view, v, before, s->limit - so_far);
+    for (size_t i = 0; i < s->view.seen_n && !s->no_memory; i++) {
+        const uint32_t w = s->view.seen[i];
+        const double length = so_far + sunder_i_view_distance(&s->view, v, w);
+        const double key = length + s->haste * sunder_i_view_distance(&s->view, w, s->goal);
+        if (key <= s->limit && !(s->at[w].known && s->at[w].length < length - s->slack)) push(s, (edge){key, v, w});
     }
 }
 
@@ -161,7 +140,8 @@ static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t
     return sum;
 }
 
-/* So that a length that is about `length` has LENGTH_BITS bits, and at least that many behind the point if it is short. */
+/* So that a length that is about `length` has LENGTH_BITS bits, and at least that many behind the point if it is short.
+ */
 static unsigned long bits_for(const sunder_i_lattice *l, double length)
 {
     int e = 0;
@@ -170,49 +150,47 @@ static unsigned long bits_for(const sunder_i_lattice *l, double length)
     return bits > 64 ? (unsigned long)bits : 64;
 }
 
+/* What two paths begin with in common is left out of the comparison. */
 static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n, double length)
 {
     sunder_i_arena *arena = &s->space->ground.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const unsigned long bits = bits_for(s->space->ground.lattice, length);
-    const sunder_i_big d = sunder_i_big_sub(arena, total(s, arena, p, m, bits), total(s, arena, q, n, bits));
+    size_t same = 0;
+    while (same < m && same < n && p[same] == q[same]) same++;
+    const size_t from = same ? same - 1 : 0;
+    const sunder_i_big d =
+        sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
     const sunder_i_big noise = sunder_i_big_i64(arena, 4 * (int64_t)(m + n));
     int c = 0;
     if (sunder_i_big_cmp(d, noise) > 0) c = 1;
     if (sunder_i_big_cmp(sunder_i_big_neg(d), noise) > 0) c = -1;
     if (arena->failed) return 0;
     sunder_i_arena_release(arena, mark);
-    for (size_t i = 0; c == 0 && i < m && i < n; i++)
-        c = p[i] == q[i] ? 0 : sunder_i_place_cmp(&s->space->ground, place_of(s, p[i]), place_of(s, q[i]));
+    if (c == 0 && same < m && same < n)
+        c = sunder_i_place_cmp(&s->space->ground, place_of(s, p[same]), place_of(s, q[same]));
     return c ? c : (m > n) - (m < n);
 }
 
 /* Is the path to v and on to w better than the one known to w? */
 static bool improves(search *s, uint32_t v, uint32_t w)
 {
-    const size_t most = (size_t)s->corners->nodes + 1;
-    uint32_t *p = sunder_i_alloc(2 * most, sizeof *p);
-    if (!p) {
-        s->no_memory = true;
-        return false;
-    }
+    uint32_t *p = s->way[0], *q = s->way[1];
     size_t m = path_to(s, v, p);
-    size_t n = path_to(s, w, p + most);
-    bool through = false; /* w lies on the way to v: no path */
-    for (size_t i = 0; i < m; i++) through = through || p[i] == w;
+    size_t n = path_to(s, w, q);
+    for (size_t i = 0; i < m; i++)
+        if (p[i] == w) return false; /* w lies on the way to v: no path */
     p[m++] = w;
     m = straighten(s, p, m);
-    n = straighten(s, p + most, n);
-    const bool better = !through && compare_paths(s, p, m, p + most, n, s->at[w].length) < 0;
-    sunder_i_free(p);
-    return better;
+    n = straighten(s, q, n);
+    return compare_paths(s, p, m, q, n, s->at[w].length) < 0;
 }
 
 /* ---- The search ---- */
 
 static void take(search *s, edge e)
 {
-    const double length = s->at[e.from].length + distance(place_of(s, e.from), place_of(s, e.to));
+    const double length = s->at[e.from].length + sunder_i_view_distance(&s->view, e.from, e.to);
     reached *to = &s->at[e.to];
     if (to->known && to->length < length - s->slack) return;
     if ((++s->tried & 255) == 0 && s->options && s->options->progress &&
@@ -248,36 +226,53 @@ static void run(search *s, double haste, double limit)
     }
 }
 
+/* Two runs, if memory allows. */
+static void find(search *s)
+{
+    const size_t nodes = s->corners->nodes;
+    s->at = sunder_i_calloc(nodes, sizeof *s->at);
+    for (int k = 0; k < 2; k++) s->way[k] = sunder_i_alloc(nodes + 1, sizeof *s->way[k]);
+    s->no_memory = !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1];
+    if (s->no_memory) return;
+    run(s, HASTE, INFINITY);
+    /* No place on a path of at most this length is farther from the start; with two such coordinates a leg, each off by
+     * 2^-51 of itself, and roundings, lengths are off by less than this. Twice, for both of two that are compared. */
+    const double some = s->at[s->goal].length;
+    s->slack = 0x1p-46 * some * ((double)nodes + 4);
+    if (s->at[s->goal].known) run(s, 1, some + s->slack);
+}
+
 sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners, const sunder_sum_options *options,
                               uint32_t **path, size_t *n, sunder_error *err)
 {
-    search s = {.space = space, .corners = corners, .options = options, .start = corners->nodes - 2,
+    search s = {.space = space,
+                .corners = corners,
+                .options = options,
+                .start = corners->nodes - 2,
                 .goal = corners->nodes - 1};
-    s.at = sunder_i_calloc(corners->nodes, sizeof *s.at);
-    uint32_t *found = sunder_i_alloc(corners->nodes, sizeof *found);
-    s.no_memory = !s.at || !found;
-    if (!s.no_memory) {
-        run(&s, HASTE, INFINITY);
-        const double some = s.at[s.goal].length;
-        /* What doubles of lengths may be off by: two coordinates a leg, and a rounding each. */
-        s.slack = 1e-12 * some + 64 * space->ground.error;
-        if (s.at[s.goal].known) run(&s, 1, some + s.slack);
-    }
+    find(&s);
     sunder_status status = SUNDER_OK;
     if (s.no_memory || space->ground.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
         status = sunder_i_no_memory(err);
     else if (s.cancelled)
         status = sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
     if (status == SUNDER_OK) {
-        *n = straighten(&s, found, path_to(&s, s.goal, found));
-        for (size_t i = 0; i < *n; i++) found[i] = corners->node[found[i]];
-        *path = found;
-    } else {
-        sunder_i_free(found);
+        *n = straighten(&s, s.way[0], path_to(&s, s.goal, s.way[0]));
+        for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];
+        *path = s.way[0];
+        s.way[0] = NULL;
     }
+    sunder_i_view_free(&s.view);
+    sunder_i_free(s.way[0]);
+    sunder_i_free(s.way[1]);
     sunder_i_free(s.at);
     sunder_i_free(s.heap);
     return status;
+}
+
+static double distance(const sunder_i_place_at *a, const sunder_i_place_at *b)
+{
+    return hypot(a->ax - b->ax, a->ay - b->ay);
 }
 
 double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at *place, const uint32_t *path, size_t n)
@@ -289,7 +284,8 @@ double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at
     const unsigned long bits = bits_for(l, about);
     sunder_i_big sum = sunder_i_big_i64(&arena, 0);
     for (size_t i = 0; i + 1 < n; i++)
-        sum = sunder_i_big_add(&arena, sum, sunder_i_place_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
+        sum =
+            sunder_i_big_add(&arena, sum, sunder_i_place_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
     const double length =
         arena.failed ? (double)NAN : sunder_i_big_ratio(&arena, sum, l->denominator, l->exponent - (long)bits);
     sunder_i_arena_free(&arena);

@@ -6,10 +6,11 @@
 
 /* A shortest path from start to goal, which are connected: place numbers, *n of them, to be freed. Of several the
  * lexicographically smallest. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
-sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners,
-                              const sunder_sum_options *options, uint32_t **path, size_t *n, sunder_error *err);
+sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners, const sunder_sum_options *options,
+                              uint32_t **path, size_t *n, sunder_error *err);
 
 /* The length of a path of places to the nearest double, in units of the input. NaN if memory is out. */
-double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at *place, const uint32_t *path, size_t n);
+double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at *place, const uint32_t *path,
+                            size_t n);
 
 #endif

@@ -227,8 +227,9 @@ static bool make_parts(maker *m, sunder_i_point **direction, uint32_t *classes)
     return sunder_i_hulls_sum(m->lattice, &m->obstacles, &m->robots, &m->out->part);
 }
 
-/* Bounds for the doubles that stand for places; on a wide lattice they are scaled so that they stay finite. */
-static void measure(maker *m)
+/* Doubles that stand for corners, and bounds for all that stand for places; on a wide lattice they are scaled so that
+ * they stay finite. False if memory is out. */
+static bool measure(maker *m)
 {
     sunder_i_lattice *l = m->lattice;
     const sunder_i_hulls *part = &m->out->part;
@@ -242,12 +243,18 @@ static void measure(maker *m)
         l->approx_shift = most > 500 ? (int)(most - 500) : 0;
     }
     double most = 1;
-    for (uint32_t i = 0; i < part->corners; i++)
-        most =
-            fmax(most, fmax(fabs(sunder_i_approx(l, part->corner[i].x)), fabs(sunder_i_approx(l, part->corner[i].y))));
+    m->out->corner = sunder_i_alloc(part->corners, sizeof *m->out->corner);
+    if (!m->out->corner) return false;
+    for (uint32_t i = 0; i < part->corners; i++) {
+        double *at = m->out->corner[i];
+        at[0] = sunder_i_approx(l, part->corner[i].x);
+        at[1] = sunder_i_approx(l, part->corner[i].y);
+        most = fmax(most, fmax(fabs(at[0]), fabs(at[1])));
+    }
     /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
      * (predicate/hpoint.c), a lattice point's within 2^-53. */
     m->out->ground = (sunder_i_ground){l, 0x1p-48 * most};
+    return true;
 }
 
 /* ---- The outline ---- */
@@ -277,10 +284,7 @@ static sunder_status make(maker *m, sunder_error *err)
     uint32_t classes;
     sunder_status status = SUNDER_OK;
     choose_lattice(m);
-    if (!make_pieces(m) || !make_parts(m, &direction, &classes))
-        status = sunder_i_no_memory(err);
-    else
-        measure(m);
+    if (!make_pieces(m) || !make_parts(m, &direction, &classes) || !measure(m)) status = sunder_i_no_memory(err);
     if (status == SUNDER_OK) status = find_outline(m, direction, classes, err);
     sunder_i_free(direction);
     if (status == SUNDER_OK && (!sunder_i_part_tree_build(m->out) || m->lattice->arena.failed))
@@ -337,6 +341,7 @@ void sunder_i_space_free(sunder_i_space *space)
 {
     sunder_sum_free(space->sum);
     sunder_i_hulls_free(&space->part);
+    sunder_i_free(space->corner);
     sunder_i_free(space->piece_obstacle);
     sunder_i_free(space->stretch);
     sunder_i_free(space->tree.part);

@@ -2,8 +2,8 @@
  *
  * O = union of O_i + int(-R') over the obstacles O_i, R' the robot, grown by a polygon around a disc if there is a gap.
  * With convex pieces of all three, O is a union of open convex polygons, the *parts*: that alone is what every question
- * about collisions is asked of. The outline of O is found by the stages of minkowski/ that find a sum's; its corners and
- * degenerate holes are where shortest paths can bend. */
+ * about collisions is asked of. The outline of O is found by the stages of minkowski/ that find a sum's; its corners
+ * and degenerate holes are where shortest paths can bend. */
 #ifndef SUNDER_I_SPACE_H
 #define SUNDER_I_SPACE_H
 
@@ -16,19 +16,22 @@ typedef struct sunder_i_stretch {
     uint8_t banks; /* SUNDER_I_LEFT and SUNDER_I_RIGHT where O lies, seen from `from` */
 } sunder_i_stretch;
 
-/* Boxes of parts, in a binary tree without pointers: leaves of LEAF_PARTS along a space-filling curve. */
+#define SUNDER_I_LEAF_PARTS 4
+
+/* Boxes of parts, in a binary tree without pointers: leaves of SUNDER_I_LEAF_PARTS along a space-filling curve. */
 typedef struct sunder_i_part_tree {
-    uint32_t *part;      /* [parts] in tree order */
+    uint32_t *part;       /* [parts] in tree order */
     size_t parts, leaves; /* leaves is a power of two */
-    double (*box)[4];    /* heap order, 1 .. 2 * leaves - 1; widened by the ground's error */
+    double (*box)[4];     /* heap order, 1 .. 2 * leaves - 1; widened by the ground's error */
 } sunder_i_part_tree;
 
 typedef struct sunder_i_space {
-    sunder_sum *sum;           /* the outline of O; owns the lattice */
+    sunder_sum *sum; /* the outline of O; owns the lattice */
     sunder_i_ground ground;
     sunder_i_hulls part;
-    uint32_t robot_pieces;     /* parts [i * robot_pieces, (i + 1) * robot_pieces) are of obstacle piece i */
-    uint32_t *piece_obstacle;  /* [pieces] whose it is */
+    double (*corner)[2];      /* [part.corners] close to the corners of parts, as the ground says */
+    uint32_t robot_pieces;    /* parts [i * robot_pieces, (i + 1) * robot_pieces) are of obstacle piece i */
+    uint32_t *piece_obstacle; /* [pieces] whose it is */
     sunder_i_stretch *stretch;
     size_t stretches;
     sunder_i_part_tree tree;

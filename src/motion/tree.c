@@ -1,8 +1,8 @@
 /* Which parts a segment meets: a tree of boxes finds the few to ask, and the separating axis theorem asks them exactly.
  *
  * A closed segment pq and an open convex polygon are disjoint exactly when a line through a side of the polygon, or
- * the line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel to
- * these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
+ * the line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel
+ * to these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
 #include "motion/space.h"
 
 #include "shape/build.h"
@@ -10,16 +10,13 @@
 #include <float.h>
 #include <math.h>
 
-#define LEAF_PARTS 4
-
 static void part_box(const sunder_i_space *s, uint32_t part, double box[4])
 {
     const sunder_i_hulls *c = &s->part;
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
     for (uint32_t k = sunder_i_hulls_first(c, part); k < c->end[part]; k++) {
-        const double x = sunder_i_approx(s->ground.lattice, c->corner[k].x);
-        const double y = sunder_i_approx(s->ground.lattice, c->corner[k].y);
+        const double x = s->corner[k][0], y = s->corner[k][1];
         box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
         box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
     }
@@ -48,7 +45,8 @@ static void fill_boxes(const sunder_i_space *s, sunder_i_part_tree *t)
             join_box(box, t->box[2 * i + 1]);
             continue;
         }
-        for (size_t k = (i - t->leaves) * LEAF_PARTS; k < (i - t->leaves + 1) * LEAF_PARTS && k < t->parts; k++) {
+        for (size_t k = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
+             k < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && k < t->parts; k++) {
             double one[4];
             part_box(s, t->part[k], one);
             join_box(box, one);
@@ -62,7 +60,7 @@ bool sunder_i_part_tree_build(sunder_i_space *s)
     const size_t n = s->part.n;
     t->parts = n;
     t->leaves = 1;
-    while (t->leaves * LEAF_PARTS < n) t->leaves *= 2;
+    while (t->leaves * SUNDER_I_LEAF_PARTS < n) t->leaves *= 2;
     t->part = sunder_i_alloc(n, sizeof *t->part);
     t->box = sunder_i_alloc(2 * t->leaves, sizeof *t->box);
     double *middle = sunder_i_alloc(2 * n, sizeof *middle);
@@ -95,14 +93,15 @@ static bool meets(const sunder_i_space *s, uint32_t part, const sunder_i_place_a
     const sunder_i_hulls *c = &s->part;
     const uint32_t first = sunder_i_hulls_first(c, part), end = c->end[part];
     for (uint32_t k = first; k < end; k++) {
-        const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
+        const uint32_t next = k + 1 < end ? k + 1 : first;
+        const sunder_i_near a = {c->corner[k], s->corner[k]}, b = {c->corner[next], s->corner[next]};
         if (sunder_i_side_of(&s->ground, a, b, p) <= 0 && (p == q || sunder_i_side_of(&s->ground, a, b, q) <= 0))
             return false;
     }
     if (p == q) return true;
     int left = 0, right = 0;
     for (uint32_t k = first; k < end && !(left && right); k++) {
-        const int side = sunder_i_corner_side(&s->ground, p, q, c->corner[k]);
+        const int side = sunder_i_corner_side(&s->ground, p, q, (sunder_i_near){c->corner[k], s->corner[k]});
         left += side > 0;
         right += side < 0;
     }
@@ -123,7 +122,8 @@ static bool box_near(const double box[4], const ray *r)
     const double mx = box[0] / 2 + box[2] / 2 - r->x, my = box[1] / 2 + box[3] / 2 - r->y;
     const double hx = (box[2] - box[0]) / 2, hy = (box[3] - box[1]) / 2;
     const double off = fabs(r->dx * my - r->dy * mx), reach = fabs(r->dx) * hy + fabs(r->dy) * hx;
-    return off <= reach + r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
+    return off <=
+           reach + r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
 }
 
 static ray ray_of(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q)
@@ -153,7 +153,8 @@ bool sunder_i_space_is_free(const sunder_i_space *s, const sunder_i_place_at *p,
             stack[n++] = 2 * i + 1;
             continue;
         }
-        for (size_t k = (i - t->leaves) * LEAF_PARTS; k < (i - t->leaves + 1) * LEAF_PARTS && k < t->parts; k++) {
+        for (size_t k = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
+             k < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && k < t->parts; k++) {
             if (t->part[k] > found || !meets(s, t->part[k], p, q)) continue;
             found = t->part[k];
             if (!least) {

@@ -1,5 +1,6 @@
 """Exact geometry that the tests of routes share, in rationals."""
 from fractions import Fraction as F
+from functools import lru_cache
 
 
 def cross(a, b, c):
@@ -63,11 +64,23 @@ def inside(rings, p):
     return odd
 
 
+@lru_cache(maxsize=4)
+def sweep(robot, p, q):
+    return hull([(x + s[0], y + s[1]) for x, y in robot for s in (p, q)])
+
+
 def collides(obstacle, robot, p, q):
-    swept = hull([(x + s[0], y + s[1]) for x, y in robot for s in (p, q)])
+    swept = sweep(tuple(robot), p, q)
+    xs, ys = [x for x, _ in swept], [y for _, y in swept]
+    low, high = (min(xs), min(ys)), (max(xs), max(ys))
     for ring in obstacle:
         for a, b in zip(ring, ring[1:] + ring[:1]):
+            if any(max(a[k], b[k]) <= low[k] or min(a[k], b[k]) >= high[k] for k in (0, 1)):
+                continue  # beside the open swept set
             if meets(swept, a, b):
                 return True
+    for k in (0, 1):
+        if max(v[k] for v in obstacle[0]) <= low[k] or min(v[k] for v in obstacle[0]) >= high[k]:
+            return False  # the outer ring is beside it
     n = len(swept)
     return inside(obstacle, (sum(x for x, _ in swept) / n, sum(y for _, y in swept) / n))

@@ -22,7 +22,25 @@ CLOSE = Decimal(10) ** -45
 
 
 def free(parts, p, q):
-    return not any(meets(part, p, q) for part in parts)
+    low, high = (min(p[0], q[0]), min(p[1], q[1])), (max(p[0], q[0]), max(p[1], q[1]))
+    for part in parts:
+        (x0, y0), (x1, y1) = reach(part)
+        if high[0] <= x0 or low[0] >= x1 or high[1] <= y0 or low[1] >= y1:
+            continue  # beside the open part
+        if meets(part, p, q):
+            return False
+    return True
+
+
+REACH = {}
+
+
+def reach(part):
+    box = REACH.get(id(part))
+    if box is None:
+        xs, ys = [x for x, _ in part], [y for _, y in part]
+        box = REACH[id(part)] = ((min(xs), min(ys)), (max(xs), max(ys)), part)  # the part stays, and its id with it
+    return box[:2]
 
 
 def crossing(a, b, c, d):
@@ -41,6 +59,8 @@ def nodes_of(parts, start, goal):
     found = {c for part in parts for c in part}
     for i, (a, b) in enumerate(sides):
         for c, d in sides[:i]:
+            if any(max(a[k], b[k]) < min(c[k], d[k]) or max(c[k], d[k]) < min(a[k], b[k]) for k in (0, 1)):
+                continue
             p = crossing(a, b, c, d)
             if p:
                 found.add(p)
@@ -169,6 +189,20 @@ def cage(rng):
     return [box(0, 0, rng.randrange(1, 3), w)], pieces
 
 
+def town(rng):
+    """Many pieces, far enough from each other that most ways are hidden by others."""
+    pieces = []
+    for x in range(-30, 31, 12):
+        for y in range(-30, 31, 12):
+            kind = rng.randrange(8)
+            if kind < 5:
+                pieces.append(box(x + rng.randrange(-2, 3), y + rng.randrange(-2, 3), rng.randrange(3, 11), rng.randrange(3, 11)))
+            elif kind < 7:
+                at = [(x + rng.randrange(-4, 13), y + rng.randrange(-4, 13)) for _ in "abc"]
+                pieces.append(hull(at) if cross(*at) else [min(at)])
+    return [box(0, 0, rng.randrange(1, 4), rng.randrange(1, 4))], pieces
+
+
 def wkt_of(pieces):
     if not pieces:
         return "GEOMETRYCOLLECTION EMPTY"
@@ -190,7 +224,11 @@ def coordinate(v):
 
 def one_scene(program, rng, number):
     size = rng.choice([4, 6, 8])
-    if number % 4 == 0:
+    robot_wkt = None
+    if number % 40 == 39:
+        robot, obstacles = town(rng)
+        size = 36
+    elif number % 4 == 0:
         robot, obstacles = corridor(rng)
     elif number % 4 == 1:
         robot, obstacles = cage(rng)
@@ -200,7 +238,9 @@ def one_scene(program, rng, number):
     parts = [hull([(o[0] - r[0], o[1] - r[1]) for o in piece for r in body]) for piece in obstacles for body in robot]
     den = rng.choice([1, 1, 2, 3, 7])
     start, goal = [(F(rng.randrange(-12 * den, 13 * den), den), F(rng.randrange(-12 * den, 13 * den), den)) for _ in "ab"]
-    if number % 4 == 1:
+    if size == 36:
+        start, goal = (F(-38), F(rng.randrange(-30, 31))), (F(44), F(rng.randrange(-30, 31)))
+    elif number % 4 == 1:
         start = (F(rng.randrange(-3, 2)), F(rng.randrange(-3, 2)))
     elif rng.randrange(3) == 0:  # somewhere on the outline
         corners = [c for part in parts for c in part]
@@ -211,8 +251,7 @@ def one_scene(program, rng, number):
         body, piece = rng.choice(robot), rng.choice(obstacles)
         r, s, o = rng.choice(body), rng.choice(rng.choice(robot)), rng.choice(piece)
         start = (o[0] - F(r[0] + s[0]) / 2, o[1] - F(r[1] + s[1]) / 2)
-    if number % 4 < 2:
-        robot_wkt = members(robot)
+    robot_wkt = robot_wkt or members(robot)
     call = [program, "route", wkt_of(obstacles), "--robot", robot_wkt, "--exact", "--quiet",
             "--from=" + ",".join(map(coordinate, start)), "--to=" + ",".join(map(coordinate, goal))]
     done = subprocess.run(call, capture_output=True, text=True)

@@ -6,6 +6,7 @@ robot (convex) at both ends of a leg meets an obstacle exactly when an edge of i
 """
 import json
 import math
+import random
 import subprocess
 import sys
 from fractions import Fraction as F
@@ -140,7 +141,43 @@ def touching_holes():
         fail("rooms that overlap in a robot: %s" % path)
 
 
-asked = sum(family(size, seed, coordinates) for size in (12, 30, 60) for seed in (1, 2, 3)
+def slanted(rng, far):
+    """Two rooms and a slanted corridor, as wide as a parallelogram, whose corners are doubles with all of their bits in use;
+    then one wall moved by one unit in the last place, either way."""
+    unit = 2.0 ** -28 if far else 2.0 ** -40
+    at = [rng.randrange(2 ** 23, 2 ** 24) + rng.randrange(2 ** 28) * 2.0 ** -28 if far else rng.random() for _ in "xy"]
+    px, py = (round(c / unit) * unit for c in at)
+    ux, uy = rng.randrange(2 ** 28, 2 ** 30) * unit, rng.randrange(2 ** 27, 2 ** 28) * unit
+    vx, vy = -rng.randrange(2 ** 25, 2 ** 26) * unit, rng.randrange(2 ** 26, 2 ** 28) * unit
+    qx, qy, side = px + 8 * ux, py + 8 * uy, 64 * ux
+    robot = [(0.0, 0.0), (ux, uy), (ux + vx, uy + vy), (vx, vy)]
+    start, goal = (px - 4 * ux, py - 4 * uy), (qx + 4 * ux, qy + 4 * uy)
+
+    def rooms(ulp):
+        low = math.nextafter(py, math.inf * ulp) if ulp else py
+        hole = [(px, low), (px, py - side), (px - side, py - side), (px - side, py + side), (px + vx, py + side),
+                (px + vx, py + vy), (qx + vx, qy + vy), (qx + vx, qy + side), (qx + side, qy + side),
+                (qx + side, qy - side), (qx, qy - side), (qx, qy)]
+        a, b = px - 2 * side, qx + 2 * side
+        c, d = py - 2 * side, qy + 2 * side
+        return [[(a, c), (b, c), (b, d), (a, d)], hole]
+
+    name = "slanted corridor at %r %r" % (px, py)
+    sums = ((px, vx), (py, vy), (qx, vx), (qy, vy), (px, 8 * ux), (py, 8 * uy), (ux, vx), (uy, vy))
+    if any(F(a + b) != F(a) + F(b) for a, b in sums):
+        fail("%s: its corners are no doubles" % name)
+    found, path = route([rooms(0)], robot, start, goal, name)
+    if not found or path != [tuple(map(F, start)), tuple(map(F, goal))]:
+        fail("%s: found %s, path %s" % (name, found, path))
+    if route([rooms(1)], robot, start, goal, name + ", narrower")[0]:
+        fail("%s, narrower: there is no way" % name)
+    if not route([rooms(-1)], robot, start, goal, name + ", wider")[0]:
+        fail("%s, wider: there is a way" % name)
+
+
+for seed in range(6):
+    slanted(random.Random(seed), seed % 2 == 0)
+asked = sum(family(size, seed, coordinates) for size in (12, 30) for seed in (1, 2, 3)
             for coordinates in ("integer", "map"))
 if asked < 6:
     fail("only %d mazes of the family were asked" % asked)

@@ -71,6 +71,40 @@ same "$(cat sets)" '2 b 1 a 1 (null) 1 (null) '
 expect 0 buffer rows.gpkg by.shp --operation open --shape square:3 --dissolve-field number
 same "$(count by.shp by)" 5
 
+# The field keeps its type; values that print alike are told apart, equal ones are not; its name may be that of a column.
+cat >kinds.json <<'JSON'
+{"type": "FeatureCollection", "features": [
+{"type": "Feature", "properties": {"features": 0.3, "day": "2020-01-02", "yes": true, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
+{"type": "Feature", "properties": {"features": 0.30000000000000004, "day": "2020-01-02", "yes": true, "geom": "b", "l": [2]}, "geometry": {"type": "Polygon", "coordinates": [[[5, 0], [6, 0], [6, 1], [5, 0]]]}},
+{"type": "Feature", "properties": {"features": -0.0, "day": "2020-01-03", "yes": false, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[9, 0], [10, 0], [10, 1], [9, 0]]]}},
+{"type": "Feature", "properties": {"features": 0.0, "day": "2020-01-03", "yes": false, "geom": "c", "l": [1]}, "geometry": null}]}
+JSON
+by_field() {
+    expect 0 buffer kinds.json kinds.gpkg --input-crs EPSG:25832 --overwrite --shape square:2 --dissolve-field "$1"
+    ogrinfo -ro -q -geom=NO kinds.gpkg kinds | sed -n 's/^  [a-z_]* (\(.*\)) = \(.*\)/\1 \2/p' | tr '\n' ';'
+}
+same "$(by_field features)" 'Integer64 1;Real 0.3;Integer64 1;Real 0.3;Integer64 2;Real 0;'
+same "$(by_field day)" 'Integer64 2;Date 2020/01/02;Integer64 2;Date 2020/01/03;'
+same "$(by_field yes)" 'Integer64 2;Integer(Boolean) 1;Integer64 2;Integer(Boolean) 0;'
+same "$(by_field geom)" 'Integer64 2;String a;Integer64 1;String b;Integer64 1;String c;'
+refused 1 'type IntegerList' buffer kinds.json n.gpkg --input-crs EPSG:25832 --shape square:2 --dissolve-field l
+
+# What a format cannot hold of the attributes is told, and --strict makes it an error; what is empty or null stays so.
+expect 0 buffer kinds.json kinds.shp --input-crs EPSG:25832 --shape square:2
+says err 'field l: not written'
+refused 1 'field l: not written' buffer kinds.json n.shp --input-crs EPSG:25832 --shape square:2 --strict
+layer odd.gpkg odd GEOMETRY <<'CSV'
+WKT,a
+"POLYGON ((0 0, 1 0, 1 1, 0 0))",1
+"LINESTRING (0 0, 5 5)",2
+CSV
+expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
+says err '1 features are no polygons'
+jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
+expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
+same "$(jq -c '[.features,.empty]' out)" '[4,2]'
+same "$(ogrinfo -ro -q still.gpkg halls | grep -c EMPTY)" 2 "what was empty"
+
 # The same for every number of threads, and what comes out is valid.
 text() { ogr2ogr -f CSV /vsistdout/ "$1" "$2" -lco GEOMETRY=AS_WKT; }
 valid() { ogrinfo -ro -q -dialect sqlite -sql "SELECT min(ST_IsValid(geom)) AS v FROM $2 WHERE NOT ST_IsEmpty(geom)" "$1" 2>/dev/null | sed -n 's/.*v (.*) = //p'; }
@@ -84,6 +118,23 @@ for operation in dilate erode open close; do
     for file in one set; do
         case $(valid $file.gpkg buildings) in 0) fail "$operation: GEOS finds $file invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
     done
+done
+
+# Rounding brings polygons of one feature into each other that met in a corner, or were nearer than a unit in the last place.
+layer near.gpkg near MULTIPOLYGON <<'CSV'
+WKT,a
+"MULTIPOLYGON (((0.2 0.5, 0.4 0.5, 0.4 1, 0.2 1, 0.2 0.5)), ((0 0, 0.2 0, 0.2 0.1, 0.1 0.1, 0.1 0.30000000000000004, 0 0.30000000000000004, 0 0)), ((0.7000000000000001 0, 0.9 0, 0.7000000000000001 0.2, 0.7000000000000001 0)), ((0.4 0, 0.6000000000000001 0, 0.6000000000000001 0.4, 0.4 0.4, 0.4 0)))",1
+CSV
+layer far.gpkg far MULTIPOLYGON <<'CSV'
+WKT,a
+"MULTIPOLYGON (((10000000.4 10000000.5, 10000000.5 10000000.5, 10000000.4 10000000.9, 10000000.4 10000000.5)), ((10000000.8 10000000.6, 10000000.9 10000000.6, 10000000.9 10000000.7, 10000000.9 10000000.7, 10000000.9 10000000.8, 10000000.8 10000000.8, 10000000.8 10000000.6)), ((10000000.8 10000000.7, 10000001.1 10000000.7, 10000001.1 10000001.2, 10000000.8 10000001.2, 10000000.8 10000000.7)), ((10000000.1 10000000.6, 10000000.2 10000000.6, 10000000.2 10000001.1, 10000000.1 10000001.1, 10000000.1 10000000.6)))",1
+CSV
+expect 0 buffer near.gpkg near_out.gpkg --stats near.json \
+    --shape 'MULTIPOLYGON (((0 0, 0.1 0, 0 0.1)), ((0.30000000000000004 0, 0.4 0, 0.4 0.1)))'
+expect 0 buffer far.gpkg far_out.gpkg --shape square:0.30000000000000004 --stats far.json
+for each in near far; do
+    jq -e '.repaired > 0 and .max_deviation > 0' $each.json >/dev/null || fail "$each: not repaired: $(cat $each.json)"
+    case $(valid ${each}_out.gpkg $each) in 0) fail "GEOS finds $each invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
 done
 
 # Round buffers lie between those by a polygon inside the disc and by one around it; squares united by GEOS have our area.
@@ -105,13 +156,30 @@ else
     echo "not asked: GEOS areas, since this GDAL is without SpatiaLite"
 fi
 
+# A shape from a data source: all polygons of its layer, whatever --where and --bbox select from the input.
+layer stamp.gpkg stamp POLYGON <<'CSV'
+WKT,part
+"POLYGON ((-2 -2, 2 -2, 2 0, -2 0, -2 -2))",1
+"POLYGON ((-2 -1, 2 -1, 2 2, -2 2, -2 -1))",2
+CSV
+expect 0 buffer halls.gpkg stamped.gpkg --shape stamp.gpkg --where 'rooms > 1' --bbox 0,0,70,10 --operation erode --stats -
+same "$(jq -c '[.features,.area]' out)" '[2,36]'
+expect 0 buffer halls.gpkg squared.gpkg --shape square:4 --where 'rooms > 1'
+expect 0 buffer halls.gpkg stamped.gpkg --overwrite --shape stamp.gpkg --where 'rooms > 1'
+same "$(geometry stamped.gpkg halls 3)" "$(geometry squared.gpkg halls 3)"
+ogr2ogr -a_srs EPSG:25833 zone33.gpkg stamp.gpkg
+ogr2ogr -where 'part > 2' none.gpkg stamp.gpkg
+refused 1 'another CRS' buffer halls.gpkg n.gpkg --shape zone33.gpkg
+refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape none.gpkg
+refused 1 'stamp.gpkg is an input' buffer halls.gpkg stamp.gpkg --shape stamp.gpkg --overwrite
+
 # Lengths in other units, on a layer in metres; refusals.
 expect 0 buffer halls.gpkg feet.gpkg --shape square:1000ft --stats -
 jq -e '.area > 3 * 304 * 304' out >/dev/null || fail "feet: $(cat out)"
 refused 2 '--shape is missing' buffer halls.gpkg n.gpkg
 refused 2 'did you mean square:?' buffer halls.gpkg n.gpkg --shape sqare:4
-refused 2 'expected WKT' buffer halls.gpkg n.gpkg --shape round
-refused 2 'has no area' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
+refused 1 'round: no such file' buffer halls.gpkg n.gpkg --shape round
+refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
 refused 2 'greater than 0' buffer halls.gpkg n.gpkg --shape square:0
 refused 2 'must be one of dilate|erode|open|close' buffer halls.gpkg n.gpkg --shape square:1 --operation grow
 refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolve --dissolve-field name

@@ -31,6 +31,25 @@ expect 0 route 'MULTIPOINT ((0 0), (0 2), (0 -2))' --robot square:2 --from=-5,1 
 same "$(jq -c .path out)" '[[-5,1],[5,1]]'
 expect 0 route 'GEOMETRYCOLLECTION (POINT (0 0), LINESTRING (0 2, 0 9), POLYGON ((-1 -9, 1 -9, 1 -2, -1 -2)))' --robot square:2 --from=-5,0 --to=5,0 --exact
 same "$(jq -c .path out)" '[["-5","0"],["-1","-1"],["1","-1"],["5","0"]]' # between the point and the polygon, exactly
+# Far away things take nothing from the precision here: neither of the answer nor of the search for it.
+far=''
+for x in 0 12 24 36; do
+    for y in 1 10 25 35; do far="$far, POLYGON (($x $y, $((x + 7)) $y, $((x + 7)) $((y + 4)), $x $((y + 6))))"; done
+done
+expect 0 route "GEOMETRYCOLLECTION (${far#, })" --robot square:2 --from=-5,-5 --to 50,49 --exact
+mv out near
+for at in '1e16 -3e17' '1e300 5e-324'; do
+    expect 0 route "GEOMETRYCOLLECTION (POINT ($at)$far)" --robot square:2 --from=-5,-5 --to 50,49 --exact
+    cmp -s out near || fail "with a point at $at: $(cat out)"
+done
+# A file or standard input holds any kind that a literal may be.
+echo "GEOMETRYCOLLECTION (${far#, })" >far.wkt
+expect 0 route @far.wkt --robot square:2 --from=-5,-5 --to 50,49 --exact
+cmp -s out near || fail "from a file: $(cat out)"
+run route @- --robot square:2 --from=-5,-5 --to 50,49 --exact <far.wkt
+cmp -s out near || fail "from standard input: $(cat out)"
+echo 'LINESTRING (0 0, 1' >bad.wkt
+refused 1 'cannot be read' route @bad.wkt --robot square:2 --from 0,0 --to 1,1
 # Through a hole in the robot: the pole stays inside the ring.
 expect 0 route 'POINT (0 0)' --robot 'POLYGON ((-2 -2, 2 -2, 2 2, -2 2), (-1 -1, 1 -1, 1 1, -1 1))' --from=-1,0 --to=1,1
 same "$(jq -c .path out)" '[[-1,0],[1,1]]'
@@ -69,6 +88,9 @@ same "$(count o3.gpkg route)" 0
 expect 0 route in.gpkg --robot square:1m --from 0,0 --to 6,0 --gap 1ft
 expect 0 route in.gpkg /vsistdout/ --of GeoJSON --robot square:2 --from 0,0 --to 6,0
 same "$(jq -c '.features | length' out)" 3
+ogr2ogr -f GPKG -a_srs EPSG:3857 mercator.gpkg in.gpkg walls || fail "ogr2ogr"
+expect 0 route mercator.gpkg --robot square:1 --from 0,0 --to 6,0
+grep -q 'about 1 times those on the ground (at latitude 0.00)' err || fail "no scale: $(cat err)"
 refused 1 'is an input' route in.gpkg in.gpkg --robot square:2 --from 0,0 --to 6,0 --overwrite
 
 refused 2 '--from X,Y is missing' route "$wall" --robot square:2 --to 1,1

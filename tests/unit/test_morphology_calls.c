@@ -42,14 +42,16 @@ static void expect_text(const char *p, const char *b, sunder_operation operation
 #define ELL "POLYGON ((0 0, 2 0, 2 1, 1 1, 1 2, 0 2))"
 #define NOTHING "{\"polygons\": [], \"degenerate_segments\": [], \"degenerate_points\": []}"
 #define RECTANGLE(x0, y0, x1, y1)                                                                                      \
-    "{\"polygons\": [{\"outer\": [[\"" x0 "\", \"" y0 "\"], [\"" x1 "\", \"" y0 "\"], [\"" x1 "\", \"" y1 "\"], [\"" x0     \
-    "\", \"" y1 "\"]], \"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}"
+    "{\"polygons\": [{\"outer\": [[\"" x0 "\", \"" y0 "\"], [\"" x1 "\", \"" y0 "\"], [\"" x1 "\", \"" y1              \
+    "\"], [\"" x0 "\", \"" y1 "\"]], \"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}"
 
-/* A hall exactly as wide as the square that slides in it: the erosion is the slide, and opening it gives the hall back. */
+/* A hall exactly as wide as the square that slides in it: the erosion is the slide, and opening it gives the hall back.
+ */
 static void test_hall(void **state)
 {
-    expect_text(HALL, SQUARE, SUNDER_ERODE,
-                "{\"polygons\": [], \"degenerate_segments\": [[[\"2\", \"2\"], [\"2\", \"8\"]]], \"degenerate_points\": []}");
+    expect_text(
+        HALL, SQUARE, SUNDER_ERODE,
+        "{\"polygons\": [], \"degenerate_segments\": [[[\"2\", \"2\"], [\"2\", \"8\"]]], \"degenerate_points\": []}");
     expect_text(HALL, SQUARE, SUNDER_OPEN, RECTANGLE("0", "0", "4", "10"));
     expect_text(HALL, SQUARE, SUNDER_CLOSE, RECTANGLE("0", "0", "4", "10"));
     expect_text(HALL, SQUARE, SUNDER_DILATE, RECTANGLE("-2", "-2", "6", "12"));
@@ -70,16 +72,18 @@ static void test_key(void **state)
 static void test_room_and_corridor(void **state)
 {
     expect_text("POLYGON ((0 0, 10 0, 10 3, 20 3, 20 7, 10 7, 10 10, 0 10))", SQUARE, SUNDER_ERODE,
-                "{\"polygons\": [{\"outer\": [[\"2\", \"2\"], [\"8\", \"2\"], [\"8\", \"8\"], [\"2\", \"8\"]], \"holes\": []}], "
+                "{\"polygons\": [{\"outer\": [[\"2\", \"2\"], [\"8\", \"2\"], [\"8\", \"8\"], [\"2\", \"8\"]], "
+                "\"holes\": []}], "
                 "\"degenerate_segments\": [[[\"8\", \"5\"], [\"18\", \"5\"]]], \"degenerate_points\": []}");
 }
 
 /* Rationals are kept from stage to stage: a slanted wall and a triangle. */
 static void test_rational(void **state)
 {
-    expect_text("POLYGON ((0 0, 7 0, 7 3, 0 3))", "POLYGON ((0 0, 3 0, 0 1))", SUNDER_OPEN,
-                "{\"polygons\": [{\"outer\": [[\"0\", \"0\"], [\"7\", \"0\"], [\"7\", \"2\"], [\"4\", \"3\"], [\"0\", \"3\"]], "
-                "\"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}");
+    expect_text(
+        "POLYGON ((0 0, 7 0, 7 3, 0 3))", "POLYGON ((0 0, 3 0, 0 1))", SUNDER_OPEN,
+        "{\"polygons\": [{\"outer\": [[\"0\", \"0\"], [\"7\", \"0\"], [\"7\", \"2\"], [\"4\", \"3\"], [\"0\", \"3\"]], "
+        "\"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}");
 }
 
 /* Gaps as wide as the square are closed, wider ones are not. */
@@ -135,9 +139,10 @@ static void test_union(void **state)
     assert_true(sunder_shape_touches(p));
     assert_int_equal(sunder_shape_union(p, NULL, &sum, NULL), SUNDER_OK);
     char *text = sum_text(sum);
-    assert_string_equal(text, "{\"polygons\": [{\"outer\": [[\"0\", \"0\"], [\"6\", \"0\"], [\"6\", \"4\"], [\"0\", \"4\"]], "
-                              "\"holes\": [[[\"0\", \"2\"], [\"1\", \"3\"], [\"2\", \"2\"], [\"1\", \"1\"]]]}], "
-                              "\"degenerate_segments\": [], \"degenerate_points\": []}");
+    assert_string_equal(text,
+                        "{\"polygons\": [{\"outer\": [[\"0\", \"0\"], [\"6\", \"0\"], [\"6\", \"4\"], [\"0\", \"4\"]], "
+                        "\"holes\": [[[\"0\", \"2\"], [\"1\", \"3\"], [\"2\", \"2\"], [\"1\", \"1\"]]]}], "
+                        "\"degenerate_segments\": [], \"degenerate_points\": []}");
     free(text);
     sunder_sum_free(sum);
     sunder_shape_free(p);
@@ -195,11 +200,18 @@ static void test_arguments(void **state)
     sunder_shape_free(none);
 }
 
+typedef struct stopping {
+    int left;
+    double reached;
+} stopping;
+
+/* Progress never goes back. */
 static bool stop_at(double fraction, void *user)
 {
-    assert_true(fraction >= 0 && fraction <= 1);
-    int *left = user;
-    return (*left)-- > 0;
+    stopping *s = user;
+    assert_true(fraction >= s->reached && fraction <= 1);
+    s->reached = fraction;
+    return s->left-- > 0;
 }
 
 /* Stopped at every chance there is, until it runs through. */
@@ -210,7 +222,7 @@ static void test_stopping(void **state)
         sunder_status status = SUNDER_ECANCEL;
         int chances = 0;
         for (; status == SUNDER_ECANCEL; chances++) {
-            int left = chances;
+            stopping left = {chances, 0};
             const sunder_sum_options how = {.progress = stop_at, .progress_user = &left};
             sunder_sum *sum = NULL;
             status = sunder_morphology(p, b, (sunder_operation)op, &how, &sum, NULL);
@@ -223,6 +235,29 @@ static void test_stopping(void **state)
     sunder_shape_free(b);
 }
 
+/* A union asks now and then, so it takes many members. */
+static void test_stopping_a_union(void **state)
+{
+    enum { MEMBERS = 2000 };
+    static double xy[MEMBERS][8];
+    static size_t ring_end[MEMBERS], poly_end[MEMBERS];
+    for (size_t i = 0; i < MEMBERS; i++) {
+        const double x = (double)(i * 37 % 101), y = (double)(i * 61 % 97),
+                     corner[] = {x, y, x + 3, y, x + 3, y + 2, x, y + 2};
+        memcpy(xy[i], corner, sizeof corner);
+        ring_end[i] = 4 * (i + 1);
+        poly_end[i] = i + 1;
+    }
+    sunder_shape *p;
+    assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_STRICT, &p, NULL), SUNDER_OK);
+    stopping now = {0, 0};
+    const sunder_sum_options how = {.progress = stop_at, .progress_user = &now};
+    sunder_sum *sum = NULL;
+    assert_int_equal(sunder_shape_union(p, &how, &sum, NULL), SUNDER_ECANCEL);
+    assert_null(sum);
+    sunder_shape_free(p);
+}
+
 typedef struct attempt {
     sunder_shape *p, *b;
     int operation; /* past the last: the union */
@@ -233,9 +268,9 @@ static bool try_it(void *context)
     const attempt *a = context;
     sunder_sum *sum = NULL;
     double xy[2], off = 0;
-    const sunder_status status =
-        a->operation > SUNDER_CLOSE ? sunder_shape_union(a->p, NULL, &sum, NULL)
-                                    : sunder_morphology(a->p, a->b, (sunder_operation)a->operation, NULL, &sum, NULL);
+    const sunder_status status = a->operation > SUNDER_CLOSE
+                                     ? sunder_shape_union(a->p, NULL, &sum, NULL)
+                                     : sunder_morphology(a->p, a->b, (sunder_operation)a->operation, NULL, &sum, NULL);
     const uint32_t first = 0;
     const bool ok = status == SUNDER_OK && sunder_sum_vertices(sum, &first, 1, xy, &off, NULL) == SUNDER_OK;
     assert_true(ok || status == SUNDER_ENOMEM || status == SUNDER_OK);
@@ -257,10 +292,18 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hall),     cmocka_unit_test(test_key),      cmocka_unit_test(test_room_and_corridor),
-        cmocka_unit_test(test_rational), cmocka_unit_test(test_gap),      cmocka_unit_test(test_places),
-        cmocka_unit_test(test_union),    cmocka_unit_test(test_vertices), cmocka_unit_test(test_arguments),
-        cmocka_unit_test(test_stopping), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_hall),
+        cmocka_unit_test(test_key),
+        cmocka_unit_test(test_room_and_corridor),
+        cmocka_unit_test(test_rational),
+        cmocka_unit_test(test_gap),
+        cmocka_unit_test(test_places),
+        cmocka_unit_test(test_union),
+        cmocka_unit_test(test_vertices),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_stopping),
+        cmocka_unit_test(test_stopping_a_union),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests_name("morphology, call by call", tests, NULL, NULL);
 }

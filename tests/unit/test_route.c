@@ -295,13 +295,18 @@ static void memory_runs_out(void **state)
     a.gap = 0;
     a.o[1].xy = fine; /* big integers */
     assert_true(failing_loop(try_route, &a, false));
+    /* Components with holes of their own. */
+    static const double fences[] = {20, 0, 29, 0, 29, 9, 20, 9, 20, 0, 40, 0, 49, 0, 49, 9, 40, 9, 40, 0};
+    const size_t fence_end[] = {5, 10};
+    a.o[1] = (sunder_obstacle){NULL, fences, fence_end, 2};
+    assert_true(failing_loop(try_route, &a, false));
     /* Two members that touch, one of them not convex, among lines and points. */
     static const double members[] = {-1, -1, 0, -1, 0, 1, -1, 1, 0, -1, 1, -1, 0.5, 0, 1, 1, 0, 1};
     const size_t rings[] = {4, 9}, polygons[] = {1, 2};
     sunder_shape *m;
     assert_int_equal(sunder_shape_from_rings(members, rings, polygons, 2, SUNDER_STRICT, &m, NULL), SUNDER_OK);
     a.robot = m;
-    a.o[1].xy = line;
+    a.o[1] = (sunder_obstacle){NULL, line, end, 2};
     assert_true(failing_loop(try_route, &a, false));
     sunder_shape_free(m);
     sunder_shape_free(p);

@@ -1,0 +1,149 @@
+#include "motion/shadow.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Far more than what turns and rays are rounded by (a few 2^-52), far less than a bin. */
+#define TURN_ROUNDING 0x1p-44
+
+double sunder_i_turn(double dx, double dy)
+{
+    const double t = dy / (fabs(dx) + fabs(dy));
+    return dx < 0 ? 2 - t : t < 0 ? 4 + t : t;
+}
+
+static double wrap(double turn) { return turn < 0 ? turn + 4 : turn >= 4 ? turn - 4 : turn; }
+
+double sunder_i_turn_between(double a, double b) { return wrap(wrap(b) - wrap(a)); }
+
+static void ray_at(double turn, double out[2])
+{
+    const double p = wrap(turn);
+    out[0] = p < 2 ? 1 - p : p - 3;
+    out[1] = p < 1 ? p : p < 3 ? 2 - p : p - 4;
+}
+
+bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_span *out)
+{
+    double first = NAN, low = 0, high = 0, margin = TURN_ROUNDING;
+    for (int i = 0; i < n; i++) {
+        const double size = fabs(point[i][0]) + fabs(point[i][1]);
+        if (!(size > 32 * error)) {
+            if (at_eye) continue;
+            return false;
+        }
+        const double t = sunder_i_turn(point[i][0], point[i][1]);
+        /* dy is off by `error`, the sum by twice that, and |dy| <= the sum. */
+        margin = fmax(margin, TURN_ROUNDING + 4 * error / size);
+        if (isnan(first)) first = t;
+        const double d = sunder_i_turn_between(first, t), off = d > 2 ? d - 4 : d;
+        low = fmin(low, off);
+        high = fmax(high, off);
+    }
+    if (isnan(first)) return false;
+    *out = (sunder_i_span){wrap(first + low - margin), high - low + 2 * margin};
+    return out->width < 2;
+}
+
+void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_span span)
+{
+    /* All bins for the whole circle, and four times as fine where it is part of it. */
+    s->bins = (int)fmin(SUNDER_I_BINS, fmax(16, span.width * SUNDER_I_BINS));
+    s->span = (sunder_i_span){wrap(span.low), fmin(span.width, 4)};
+    s->per_turn = s->bins / s->span.width;
+    for (int k = 0; k <= s->bins; k++) ray_at(s->span.low + k / s->per_turn, s->ray[k]);
+    for (int k = 0; k < s->bins; k++) s->depth[k] = INFINITY;
+}
+
+/* The parts of a span within the shadow's, in bins from its start; how many, two at most. */
+static int pieces_of(const sunder_i_shadow *s, sunder_i_span span, double piece[2][2])
+{
+    const double at = sunder_i_turn_between(s->span.low, span.low);
+    int n = 0;
+    for (int k = 0; k < 2; k++) {
+        const double low = fmax(at - 4 * k, 0), high = fmin(at - 4 * k + span.width, s->span.width);
+        if (low > high) continue;
+        piece[n][0] = low * s->per_turn;
+        piece[n++][1] = high * s->per_turn;
+    }
+    return n;
+}
+
+/* ---- Casting ---- */
+
+/* Lines of a part, from the eye: the place t along a ray u is clearly left of a side where height + t cross(side, u)
+ * exceeds the margin. */
+typedef struct caster {
+    int n;
+    double side[SUNDER_I_CAST_CORNERS][2], height[SUNDER_I_CAST_CORNERS], margin[SUNDER_I_CAST_CORNERS];
+} caster;
+
+/* False where products might leave the range of doubles. */
+static bool prepare(caster *c, const double (*corner)[2], int n, double error)
+{
+    double reach = 0;
+    for (int i = 0; i < n; i++) reach = fmax(reach, fabs(corner[i][0]) + fabs(corner[i][1]));
+    if (!(reach < 0x1p500)) return false;
+    c->n = n;
+    for (int i = 0; i < n; i++) {
+        const double *a = corner[i], *b = corner[i + 1 < n ? i + 1 : 0];
+        const double ex = b[0] - a[0], ey = b[1] - a[1];
+        c->side[i][0] = ex;
+        c->side[i][1] = ey;
+        c->height[i] = ey * a[0] - ex * a[1];
+        /* A side is off by 2 error, its start by one, and no ray is followed beyond the reach; errors are a few units
+         * in the last place of the coordinates at least, so this covers the roundings as well. */
+        c->margin[i] = 16 * (error + DBL_EPSILON * reach) * (fabs(ex) + fabs(ey) + reach) + DBL_MIN;
+    }
+    return true;
+}
+
+/* The first place along the ray that is clearly inside; infinite if there is none. */
+static double entry(const caster *c, const double ray[2])
+{
+    double low = 0, high = INFINITY;
+    for (int i = 0; i < c->n; i++) {
+        const double g = c->side[i][0] * ray[1] - c->side[i][1] * ray[0], rest = c->margin[i] - c->height[i];
+        if (g > 0) {
+            if (rest > low * g) low = rest / g;
+        } else if (g < 0) {
+            if (rest > high * g) high = rest / g;
+        } else if (rest > 0) {
+            return INFINITY;
+        }
+        if (high <= low) return INFINITY;
+    }
+    return low * (1 + 0x1p-40) < high ? low * (1 + 0x1p-40) : (double)INFINITY;
+}
+
+void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, double error)
+{
+    caster c;
+    sunder_i_span span;
+    double piece[2][2];
+    if (!prepare(&c, corner, n, error)) return;
+    /* Which rays to try; a part that has the eye as a corner is where the others are. */
+    if (!sunder_i_span_of(corner, n, error, true, &span)) span = s->span;
+    const int pieces = pieces_of(s, span, piece);
+    for (int i = 0; i < pieces; i++) {
+        double before = INFINITY;
+        const int first = (int)ceil(piece[i][0]), last = (int)fmin(floor(piece[i][1]), s->bins);
+        for (int k = first; k <= last; k++) {
+            const double at = entry(&c, s->ray[k]);
+            const double depth = at > before ? at : before;
+            if (k > first && depth < s->depth[k - 1]) s->depth[k - 1] = depth;
+            before = at;
+        }
+    }
+}
+
+bool sunder_i_shadow_hides(const sunder_i_shadow *s, sunder_i_span span, double distance)
+{
+    double piece[2][2];
+    const int pieces = pieces_of(s, span, piece);
+    const double near = distance * (1 - 0x1p-40);
+    for (int i = 0; i < pieces; i++)
+        for (int k = (int)piece[i][0]; k <= (int)piece[i][1] && k < s->bins; k++)
+            if (!(s->depth[k] < near)) return false;
+    return true;
+}

@@ -1,0 +1,320 @@
+#include "motion/view.h"
+
+#include "shape/build.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define LEAF_NODES 8
+/* A coordinate from the start is off by this much of itself at most: half a unit in the last place, and a division. */
+#define OFF 0x1p-51
+
+/* ---- Coordinates from the start ---- */
+
+/* (x / w - origin) / 2^shift */
+static double from_origin(sunder_i_lattice *l, sunder_i_big x, sunder_i_big w, sunder_i_big origin)
+{
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(m);
+    const double d = sunder_i_big_ratio(m, sunder_i_big_sub(m, x, sunder_i_big_mul(m, origin, w)), w, -l->approx_shift);
+    if (!m->failed) sunder_i_arena_release(m, mark);
+    return d;
+}
+
+static void take_places(sunder_i_view *view, const sunder_i_big origin[2])
+{
+    const sunder_i_corners *c = view->corners;
+    sunder_i_lattice *l = view->space->ground.lattice;
+    for (uint32_t v = 0; v < c->vertices + 2; v++) {
+        view->at[v][0] = from_origin(l, c->place[v].x, c->place[v].w, origin[0]);
+        view->at[v][1] = from_origin(l, c->place[v].y, c->place[v].w, origin[1]);
+    }
+}
+
+static void take_corners(sunder_i_view *view, const sunder_i_big origin[2])
+{
+    const sunder_i_hulls *part = &view->space->part;
+    sunder_i_lattice *l = view->space->ground.lattice;
+    const sunder_i_big one = sunder_i_big_i64(&l->arena, 1);
+    int64_t o[2];
+    /* Native where that cannot overflow: coordinates of a narrow lattice are below 2^60. */
+    const bool native = l->narrow && sunder_i_big_fits_i64(origin[0], &o[0]) &&
+                        sunder_i_big_fits_i64(origin[1], &o[1]) && sunder_i_big_bits(origin[0]) < 62 &&
+                        sunder_i_big_bits(origin[1]) < 62;
+    for (uint32_t i = 0; i < part->corners; i++) {
+        const int64_t at[2] = {part->corner[i].x, part->corner[i].y};
+        for (int k = 0; k < 2; k++)
+            view->corner[i][k] =
+                native ? (double)(at[k] - o[k]) : from_origin(l, sunder_i_lattice_get(l, at[k]), one, origin[k]);
+    }
+}
+
+/* ---- The tree of nodes ---- */
+
+static void box_add(double box[4], const double low[2], const double high[2])
+{
+    for (int k = 0; k < 2; k++) {
+        box[k] = fmin(box[k], low[k]);
+        box[k + 2] = fmax(box[k + 2], high[k]);
+    }
+}
+
+static void fill_boxes(sunder_i_view *view)
+{
+    for (size_t i = 2 * view->leaves - 1; i >= 1; i--) {
+        double *box = view->box[i];
+        box[0] = box[1] = INFINITY;
+        box[2] = box[3] = -INFINITY;
+        if (i < view->leaves) {
+            for (size_t k = 2 * i; k <= 2 * i + 1; k++) box_add(box, view->box[k], view->box[k] + 2);
+            continue;
+        }
+        const size_t first = (i - view->leaves) * LEAF_NODES;
+        for (size_t k = first; k < first + LEAF_NODES && k < view->nodes; k++) {
+            const double *at = view->at[view->corners->node[view->tree[k]]];
+            box_add(box, at, at);
+        }
+    }
+}
+
+static bool build_tree(sunder_i_view *view)
+{
+    sunder_i_arena arena = {0};
+    for (uint32_t i = 0; i < view->nodes; i++) view->tree[i] = i;
+    sunder_i_curve_sort(view->at[0], view->corners->node, view->tree, view->nodes, &arena);
+    const bool ok = !arena.failed;
+    sunder_i_arena_free(&arena);
+    if (ok) fill_boxes(view);
+    return ok;
+}
+
+bool sunder_i_view_init(sunder_i_view *view, const sunder_i_space *space, const sunder_i_corners *corners)
+{
+    memset(view, 0, sizeof *view);
+    view->space = space;
+    view->corners = corners;
+    view->nodes = corners->nodes;
+    view->leaves = 1;
+    while (view->leaves * LEAF_NODES < view->nodes) view->leaves *= 2;
+    view->at = sunder_i_alloc((size_t)corners->vertices + 2, sizeof *view->at);
+    view->corner = sunder_i_alloc(space->part.corners, sizeof *view->corner);
+    view->tree = sunder_i_alloc(view->nodes, sizeof *view->tree);
+    view->seen = sunder_i_alloc(view->nodes, sizeof *view->seen);
+    view->box = sunder_i_alloc(2 * view->leaves, sizeof *view->box);
+    if (!view->at || !view->corner || !view->tree || !view->seen || !view->box) return false;
+    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_arena *m = &l->arena;
+    const sunder_i_place_at *start = &corners->place[corners->vertices];
+    const sunder_i_big one = sunder_i_big_i64(m, 1);
+    const sunder_i_big origin[2] = {sunder_i_big_div_floor(m, start->x, start->w),
+                                    sunder_i_big_div_floor(m, start->y, start->w)};
+    for (int k = 0; k < 2; k++) view->from[k] = sunder_i_big_ratio(m, origin[k], one, -l->approx_shift);
+    if (m->failed) return false;
+    take_places(view, origin);
+    take_corners(view, origin);
+    return !m->failed && build_tree(view);
+}
+
+void sunder_i_view_free(sunder_i_view *view)
+{
+    sunder_i_free(view->at);
+    sunder_i_free(view->corner);
+    sunder_i_free(view->tree);
+    sunder_i_free(view->seen);
+    sunder_i_free(view->box);
+    memset(view, 0, sizeof *view);
+}
+
+static const double *node_at(const sunder_i_view *view, uint32_t node) { return view->at[view->corners->node[node]]; }
+
+double sunder_i_view_distance(const sunder_i_view *view, uint32_t a, uint32_t b)
+{
+    const double *p = node_at(view, a), *q = node_at(view, b);
+    return hypot(p[0] - q[0], p[1] - q[1]);
+}
+
+/* ---- Where to look ---- */
+
+static double size_of(const double p[2]) { return fabs(p[0]) + fabs(p[1]); }
+
+/* What the coordinates of such a place may be off by, differences rounded, numbers below the normal ones too. */
+static double off_of(double size) { return 2 * OFF * size + DBL_MIN; }
+
+/* Side of c to the line ab where doubles settle it, else 0. The error is derived as in place.c. */
+static int clear_side(const double a[2], const double b[2], const double c[2])
+{
+    const double px = b[0] - a[0], py = b[1] - a[1], qx = c[0] - a[0], qy = c[1] - a[1];
+    const double size = fabs(px) + fabs(py) + fabs(qx) + fabs(qy);
+    const double f = 2 * OFF * (size_of(a) + size_of(b) + size_of(c)) + DBL_EPSILON * size;
+    const double det = px * qy - py * qx;
+    const double bound = 2 * f * (size + f) + 4 * DBL_EPSILON * (fabs(px * qy) + fabs(py * qx)) + DBL_MIN;
+    return det > bound ? 1 : det < -bound ? -1 : 0;
+}
+
+/* The direction of the leg pq as a span that holds it for certain; false if nothing is certain. */
+static bool leg_span(const double p[2], const double q[2], sunder_i_span *out)
+{
+    const double d[1][2] = {{q[0] - p[0], q[1] - p[1]}};
+    return sunder_i_span_of(d, 1, off_of(size_of(p)) + off_of(size_of(q)), false, out);
+}
+
+/* A path that comes to a plain corner along uv and bends there bends round it: with O on its left it goes on between
+ * straight on and the side of O that leaves v, and with O on its right likewise. */
+static sunder_i_span directions(const sunder_i_view *view, uint32_t v, uint32_t before)
+{
+    const sunder_i_span all = {0, 4};
+    const uint32_t place = view->corners->node[v], *beside = view->corners->beside[place];
+    if (before == SUNDER_I_NO_NODE || beside[0] == SUNDER_I_NO_PLACE_AT) return all;
+    const double *u = node_at(view, before), *at = view->at[place];
+    const int a = clear_side(u, at, view->at[beside[0]]), b = clear_side(u, at, view->at[beside[1]]);
+    sunder_i_span on, along;
+    if (a + b == 0 || !leg_span(u, at, &on)) return all;
+    const bool left = a + b > 0;
+    if (!leg_span(at, view->at[beside[left ? 1 : 0]], &along)) return all;
+    const sunder_i_span *low = left ? &on : &along, *high = left ? &along : &on;
+    double width = sunder_i_turn_between(low->low, high->low + high->width);
+    /* It is half of all directions at most, and what is more is less than nothing: both are one direction. */
+    if (width > 3) width = low->width + high->width;
+    return width < 2.5 ? (sunder_i_span){low->low, width} : all;
+}
+
+/* ---- Looking ---- */
+
+typedef struct look {
+    sunder_i_view *view;
+    const double *eye, *goal;
+    double error; /* of the eye */
+    double room;  /* from the eye to the goal, rounded up */
+} look;
+
+/* How far away, at least, a box from the eye is, in |dx| + |dy|. */
+static double gap_of(const double box[4]) { return fmax(0, fmax(box[0], -box[2])) + fmax(0, fmax(box[1], -box[3])); }
+
+static double box_distance(const double box[4], const double p[2])
+{
+    return hypot(fmax(0, fmax(box[0] - p[0], p[0] - box[2])), fmax(0, fmax(box[1] - p[1], p[1] - box[3])));
+}
+
+/* Is nothing of the box (from the start) of interest? *gap: how far away it is. */
+static bool is_out(const look *k, const double box[4], double *gap)
+{
+    const double near[4] = {box[0] - k->eye[0] - k->error, box[1] - k->eye[1] - k->error, box[2] - k->eye[0] + k->error,
+                            box[3] - k->eye[1] + k->error};
+    *gap = gap_of(near);
+    if (!(box[0] <= box[2])) return true; /* nothing in it */
+    if (box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
+    const double corner[4][2] = {{near[0], near[1]}, {near[2], near[1]}, {near[2], near[3]}, {near[0], near[3]}};
+    sunder_i_span span;
+    return *gap > 0 && sunder_i_span_of(corner, 4, OFF * *gap, false, &span) &&
+           sunder_i_shadow_hides(&k->view->shadow, span, *gap);
+}
+
+static void cast_part(look *k, uint32_t part)
+{
+    const sunder_i_hulls *c = &k->view->space->part;
+    const uint32_t first = sunder_i_hulls_first(c, part), n = c->end[part] - first;
+    double corner[SUNDER_I_CAST_CORNERS][2], size = 0;
+    const uint32_t m = n < SUNDER_I_CAST_CORNERS ? n : SUNDER_I_CAST_CORNERS;
+    for (uint32_t i = 0; i < m; i++) {
+        const double *at = k->view->corner[first + (uint32_t)((uint64_t)i * n / m)];
+        size = fmax(size, size_of(at));
+        for (int axis = 0; axis < 2; axis++) corner[i][axis] = at[axis] - k->eye[axis];
+    }
+    if (m >= 3) sunder_i_shadow_cast(&k->view->shadow, corner, (int)m, off_of(size) + k->error);
+}
+
+/* The box of parts from the start, widened by what its doubles may be off. */
+static void part_box(const look *k, size_t i, double out[4])
+{
+    const sunder_i_space *s = k->view->space;
+    for (int axis = 0; axis < 2; axis++) {
+        const double from = k->view->from[axis], off = 4 * s->ground.error;
+        out[axis] = s->tree.box[i][axis] - from - off;
+        out[axis + 2] = s->tree.box[i][axis + 2] - from + off;
+    }
+}
+
+/* Parts, near ones first as far as the tree tells. */
+static void cast_shadows(look *k)
+{
+    const sunder_i_part_tree *t = &k->view->space->tree;
+    size_t stack[64], n = 0; /* depth below 64, one waiting child a level */
+    if (t->parts) stack[n++] = 1;
+    while (n) {
+        const size_t i = stack[--n];
+        double box[4], gap[2] = {0, 0};
+        if (i >= t->leaves) {
+            for (size_t p = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
+                 p < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && p < t->parts; p++)
+                cast_part(k, t->part[p]);
+            continue;
+        }
+        bool out[2];
+        for (size_t side = 0; side < 2; side++) {
+            part_box(k, 2 * i + side, box);
+            out[side] = is_out(k, box, &gap[side]);
+        }
+        const size_t far = gap[0] > gap[1] ? 0 : 1;
+        if (!out[far]) stack[n++] = 2 * i + far;
+        if (!out[1 - far]) stack[n++] = 2 * i + 1 - far;
+    }
+}
+
+static void see_node(look *k, uint32_t v, uint32_t w)
+{
+    sunder_i_view *view = k->view;
+    const double *at = node_at(view, w), d[1][2] = {{at[0] - k->eye[0], at[1] - k->eye[1]}};
+    const double error = off_of(size_of(at)) + k->error;
+    sunder_i_span span;
+    if (w == v || w == view->nodes - 2) return; /* itself, and the start */
+    if (sunder_i_span_of(d, 1, error, false, &span) &&
+        sunder_i_shadow_hides(&view->shadow, span, size_of(d[0]) - 2 * error))
+        return;
+    view->seen[view->seen_n++] = w;
+}
+
+static void see_nodes(look *k, uint32_t v)
+{
+    const sunder_i_view *view = k->view;
+    size_t stack[64], n = 0;
+    stack[n++] = 1;
+    while (n) {
+        const size_t i = stack[--n];
+        double gap;
+        if (is_out(k, view->box[i], &gap)) continue;
+        if (i < view->leaves) {
+            stack[n++] = 2 * i + 1;
+            stack[n++] = 2 * i;
+            continue;
+        }
+        for (size_t p = (i - view->leaves) * LEAF_NODES; p < (i - view->leaves + 1) * LEAF_NODES && p < view->nodes;
+             p++)
+            see_node(k, v, view->tree[p]);
+    }
+}
+
+/* Would a path along vw that bends at the plain corner w cut it short there? The line parts its two neighbours. */
+static bool bends_in_vain(const sunder_i_view *view, uint32_t v, uint32_t w)
+{
+    const uint32_t place = view->corners->node[w], *beside = view->corners->beside[place];
+    if (beside[0] == SUNDER_I_NO_PLACE_AT) return false;
+    const double *a = node_at(view, v), *b = view->at[place];
+    return clear_side(a, b, view->at[beside[0]]) * clear_side(a, b, view->at[beside[1]]) < 0;
+}
+
+void sunder_i_view_look(sunder_i_view *view, uint32_t v, uint32_t before, double room)
+{
+    const double *eye = node_at(view, v);
+    look k = {view, eye, node_at(view, (uint32_t)view->nodes - 1), off_of(size_of(eye)), room};
+    /* Distances are off by some 2^-49 of their sum, which is no more than the room, and of the eye's coordinates. */
+    k.room += 0x1p-46 * (room + size_of(eye) + size_of(k.goal));
+    view->seen_n = 0;
+    sunder_i_shadow_start(&view->shadow, directions(view, v, before));
+    cast_shadows(&k);
+    see_nodes(&k, v);
+    size_t n = 0;
+    for (size_t i = 0; i < view->seen_n; i++)
+        if (!bends_in_vain(view, v, view->seen[i])) view->seen[n++] = view->seen[i];
+    view->seen_n = n;
+}

@@ -1,0 +1,7 @@
+# shellcheck shell=bash disable=SC1091
+# sunder buffer against brute force in exact arithmetic; SUNDER_SEED and SUNDER_TEST_SCALE as elsewhere.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+PYTHONDONTWRITEBYTECODE=1 python3 "$SUNDER_SOURCE/tests/cli/buffer_exact.py" "$SUNDER" $((32 * ${SUNDER_TEST_SCALE:-1})) \
+    "${SUNDER_SEED:-1}" || fail "buffers differ"
+finish
