@@ -10,7 +10,10 @@
  * union's crossings are rounded once more. */
 #include "buffer.h"
 
+#include <cpl_conv.h>
+#include <cpl_quad_tree.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,20 +83,9 @@ static bool core_failed(sunder_status status, const sunder_error *why, gis_error
 
 /* ---- Blocks ----------------------------------------------------------------------------------------------- */
 
-typedef struct block_box {
-    double box[4]; /* xmin, ymin, xmax, ymax of the outer ring */
-    size_t polygon;
-} block_box;
-
 typedef struct in_block {
     size_t block, feature;
 } in_block;
-
-static int by_xmin(const void *a, const void *b)
-{
-    const block_box *p = a, *q = b;
-    return (p->box[0] > q->box[0]) - (p->box[0] < q->box[0]);
-}
 
 static int by_block(const void *a, const void *b)
 {
@@ -114,33 +106,49 @@ static bool is_within(const gis_polygons *set, size_t polygon, const double *at)
     return in;
 }
 
-static block_box *boxes_of(const gis_polygons *set)
+static CPLRectObj box_of(const gis_polygons *set, size_t polygon)
 {
-    block_box *boxes = malloc((set->polygons + 1) * sizeof *boxes);
-    for (size_t p = 0; boxes && p < set->polygons; p++) {
-        size_t r = p ? set->poly_end[p - 1] : 0;
-        boxes[p] = (block_box){{INFINITY, INFINITY, -INFINITY, -INFINITY}, p};
-        for (size_t i = r ? set->ring_end[r - 1] : 0; i < set->ring_end[r]; i++)
-            for (int k = 0; k < 2; k++) {
-                boxes[p].box[k] = fmin(boxes[p].box[k], set->xy[2 * i + (size_t)k]);
-                boxes[p].box[k + 2] = fmax(boxes[p].box[k + 2], set->xy[2 * i + (size_t)k]);
-            }
+    CPLRectObj box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    size_t r = polygon ? set->poly_end[polygon - 1] : 0;
+    for (size_t i = r ? set->ring_end[r - 1] : 0; i < set->ring_end[r]; i++) {
+        box.minx = fmin(box.minx, set->xy[2 * i]);
+        box.miny = fmin(box.miny, set->xy[2 * i + 1]);
+        box.maxx = fmax(box.maxx, set->xy[2 * i]);
+        box.maxy = fmax(box.maxy, set->xy[2 * i + 1]);
     }
-    if (boxes)
-        qsort(boxes, set->polygons, sizeof *boxes, by_xmin);
-    return boxes;
+    return box;
+}
+
+/* Boxes of all polygons, by the numbers of polygons. */
+static CPLQuadTree *index_of(const gis_polygons *set)
+{
+    CPLRectObj all = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t p = 0; p < set->polygons; p++) {
+        const CPLRectObj box = box_of(set, p);
+        all = (CPLRectObj){fmin(all.minx, box.minx), fmin(all.miny, box.miny), fmax(all.maxx, box.maxx),
+                           fmax(all.maxy, box.maxy)};
+    }
+    CPLQuadTree *index = CPLQuadTreeCreate(&all, NULL);
+    for (size_t p = 0; index && p < set->polygons; p++) {
+        const CPLRectObj box = box_of(set, p);
+        CPLQuadTreeInsertWithBounds(index, (void *)(uintptr_t)p, &box);
+    }
+    return index;
 }
 
 /* The polygon of the dilation that a feature lies in: it holds the feature's first corner moved by a point well inside
  * the shape. */
-static size_t block_of(const gis_polygons *set, const block_box *boxes, const double *at)
+static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const double *at)
 {
-    for (size_t k = 0; k < set->polygons && boxes[k].box[0] <= at[0]; k++) {
-        const double *box = boxes[k].box;
-        if (at[0] <= box[2] && at[1] >= box[1] && at[1] <= box[3] && is_within(set, boxes[k].polygon, at))
-            return boxes[k].polygon;
-    }
-    return set->polygons;
+    const CPLRectObj here = {at[0], at[1], at[0], at[1]};
+    int n;
+    size_t found = set->polygons;
+    void **candidate = CPLQuadTreeSearch(index, &here, &n);
+    for (int i = 0; i < n && found == set->polygons; i++)
+        if (is_within(set, (size_t)(uintptr_t)candidate[i], at))
+            found = (size_t)(uintptr_t)candidate[i];
+    CPLFree(candidate);
+    return found;
 }
 
 /* Deals the members to blocks; *n of them have polygons. */
@@ -158,8 +166,8 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
     sunder_status status = sunder_minkowski_sum(joined, buffer->shape, &stage, &sum, &why);
     bool ok = status == SUNDER_OK || core_failed(status, &why, error);
     ok = ok && gis_round_sum(sum, &grown, error);
-    block_box *boxes = ok ? boxes_of(&grown.set) : NULL;
-    ok = ok && (boxes || gis_no_memory(error));
+    CPLQuadTree *index = ok ? index_of(&grown.set) : NULL;
+    ok = ok && (index || gis_no_memory(error));
     double inner[2];
     sunder_shape_anchor(buffer->shape, inner);
     *n = 0;
@@ -170,10 +178,11 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
         size_t corners;
         const double *corner = sunder_shape_ring(shape, 0, 0, &corners);
         const double at[2] = {corner[0] + inner[0], corner[1] + inner[1]};
-        members[(*n)++] = (in_block){block_of(&grown.set, boxes, at), set->member[i]};
+        members[(*n)++] = (in_block){block_of(&grown.set, index, at), set->member[i]};
     }
     qsort(members, *n, sizeof *members, by_block);
-    free(boxes);
+    if (index)
+        CPLQuadTreeDestroy(index);
     gis_rounded_clear(&grown);
     sunder_sum_free(sum);
     sunder_shape_free(joined);
