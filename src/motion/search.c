@@ -38,6 +38,8 @@ typedef struct search {
     sunder_i_view view;
     reached *at;      /* [nodes] */
     uint32_t *way[2]; /* [nodes + 1] room for paths to compare */
+    uint64_t *mark;   /* [nodes] stamps of parting() */
+    uint64_t stamp;
     edge *heap;
     size_t heap_n, heap_capacity;
     double haste, limit, slack;
@@ -105,16 +107,26 @@ static void expand(search *s, uint32_t v)
 
 /* ---- Comparing paths ---- */
 
-/* Nodes of the path to v, from the start, into room for all nodes; how many. */
-static size_t path_to(const search *s, uint32_t v, uint32_t *out)
+/* Nodes of the path to v, from one that it passes on, into room for all nodes; how many. */
+static size_t path_to(const search *s, uint32_t from, uint32_t v, uint32_t *out)
 {
     size_t n = 1;
-    for (uint32_t u = v; u != s->start; u = s->at[u].before) n++;
-    for (size_t i = n; i-- > 0; v = s->at[v].before) {
-        out[i] = v;
-        if (v == s->start) break;
-    }
+    for (uint32_t u = v; u != from; u = s->at[u].before) n++;
+    for (size_t i = n; i-- > 0; v = s->at[v].before) out[i] = v;
     return n;
+}
+
+/* Where the paths to v and to w part. Both are walked back in turn, so that the cost is what they differ by. */
+static uint32_t parting(search *s, uint32_t v, uint32_t w)
+{
+    uint32_t at[2] = {v, w};
+    s->stamp += 2;
+    for (unsigned side = 0;; side = !side) {
+        const uint32_t u = at[side];
+        if (s->mark[u] == s->stamp + !side) return u;
+        s->mark[u] = s->stamp + side;
+        if (u != s->start) at[side] = s->at[u].before;
+    }
 }
 
 /* Takes out the nodes at which a path goes straight on; how many are left. A path turns back nowhere, so collinear is
@@ -173,14 +185,15 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     return c ? c : (m > n) - (m < n);
 }
 
-/* Is the path to v and on to w better than the one known to w? */
+/* Is the path to v and on to w better than the one known to w? They are compared from one node before they part, since
+ * there the one may go straight on. */
 static bool improves(search *s, uint32_t v, uint32_t w)
 {
-    uint32_t *p = s->way[0], *q = s->way[1];
-    size_t m = path_to(s, v, p);
-    size_t n = path_to(s, w, q);
-    for (size_t i = 0; i < m; i++)
-        if (p[i] == w) return false; /* w lies on the way to v: no path */
+    uint32_t *p = s->way[0], *q = s->way[1], from = parting(s, v, w);
+    if (from == w) return false; /* w lies on the way to v: no path */
+    if (from != s->start) from = s->at[from].before;
+    size_t m = path_to(s, from, v, p);
+    size_t n = path_to(s, from, w, q);
     p[m++] = w;
     m = straighten(s, p, m);
     n = straighten(s, q, n);
@@ -198,9 +211,8 @@ static void take(search *s, edge e)
         !s->options->progress(0.5, s->options->progress_user))
         s->cancelled = true;
     if (to->known) {
-        if (s->haste == 1 && to->before != e.from &&
-            sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL) &&
-            improves(s, e.from, e.to)) {
+        if (s->haste == 1 && to->before != e.from && improves(s, e.from, e.to) &&
+            sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL)) {
             to->before = e.from;
             if (e.to != s->goal) expand(s, e.to); /* what goes on from there is smaller as well, of equal paths */
         }
@@ -233,7 +245,9 @@ static void find(search *s)
     const size_t nodes = s->corners->nodes;
     s->at = sunder_i_calloc(nodes, sizeof *s->at);
     for (int k = 0; k < 2; k++) s->way[k] = sunder_i_alloc(nodes + 1, sizeof *s->way[k]);
-    s->no_memory = !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1];
+    s->mark = sunder_i_calloc(nodes, sizeof *s->mark);
+    s->no_memory =
+        !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
     if (s->no_memory) return;
     run(s, HASTE, INFINITY);
     /* In haste nodes are not reached by shortest paths, and that these go on from there nowhere proves nothing. */
@@ -262,7 +276,7 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     else if (s.cancelled)
         status = sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
     if (status == SUNDER_OK) {
-        *n = straighten(&s, s.way[0], path_to(&s, s.goal, s.way[0]));
+        *n = straighten(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
         for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];
         *path = s.way[0];
         s.way[0] = NULL;
@@ -270,6 +284,7 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     sunder_i_view_free(&s.view);
     sunder_i_free(s.way[0]);
     sunder_i_free(s.way[1]);
+    sunder_i_free(s.mark);
     sunder_i_free(s.at);
     sunder_i_free(s.heap);
     return status;
