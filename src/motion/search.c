@@ -166,11 +166,12 @@ static unsigned long bits_for(const sunder_i_lattice *l, double length)
 /* What two paths begin with in common is left out of the comparison. */
 static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n, double length)
 {
+    size_t same = 0;
+    while (same < m && same < n && p[same] == q[same]) same++;
+    if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
     sunder_i_arena *arena = &s->space->ground.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const unsigned long bits = bits_for(s->space->ground.lattice, length);
-    size_t same = 0;
-    while (same < m && same < n && p[same] == q[same]) same++;
     const size_t from = same ? same - 1 : 0;
     const sunder_i_big d =
         sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
