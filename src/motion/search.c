@@ -31,6 +31,11 @@ typedef struct reached {
     bool known;
 } reached;
 
+/* A way to a node that is as long as the one known. */
+typedef struct tie {
+    uint32_t from, to; /* nodes */
+} tie;
+
 typedef struct search {
     const sunder_i_space *space;
     const sunder_i_corners *corners;
@@ -38,7 +43,11 @@ typedef struct search {
     sunder_i_view view;
     reached *at;      /* [nodes] */
     uint32_t *way[2]; /* [nodes + 1] room for paths to compare */
+    uint64_t *mark;   /* [nodes] stamps of parting() */
+    uint64_t stamp;
     edge *heap;
+    tie *tie;
+    size_t ties, tie_capacity;
     size_t heap_n, heap_capacity;
     double haste, limit, slack;
     uint32_t start, goal; /* nodes */
@@ -105,16 +114,26 @@ static void expand(search *s, uint32_t v)
 
 /* ---- Comparing paths ---- */
 
-/* Nodes of the path to v, from the start, into room for all nodes; how many. */
-static size_t path_to(const search *s, uint32_t v, uint32_t *out)
+/* Nodes of the path to v, from one that it passes on, into room for all nodes; how many. */
+static size_t path_to(const search *s, uint32_t from, uint32_t v, uint32_t *out)
 {
     size_t n = 1;
-    for (uint32_t u = v; u != s->start; u = s->at[u].before) n++;
-    for (size_t i = n; i-- > 0; v = s->at[v].before) {
-        out[i] = v;
-        if (v == s->start) break;
-    }
+    for (uint32_t u = v; u != from; u = s->at[u].before) n++;
+    for (size_t i = n; i-- > 0; v = s->at[v].before) out[i] = v;
     return n;
+}
+
+/* Where the paths to v and to w part. Both are walked back in turn, so that the cost is what they differ by. */
+static uint32_t parting(search *s, uint32_t v, uint32_t w)
+{
+    uint32_t at[2] = {v, w};
+    s->stamp += 2;
+    for (unsigned side = 0;; side = !side) {
+        const uint32_t u = at[side];
+        if (s->mark[u] == s->stamp + !side) return u;
+        s->mark[u] = s->stamp + side;
+        if (u != s->start) at[side] = s->at[u].before;
+    }
 }
 
 /* Takes out the nodes at which a path goes straight on; how many are left. A path turns back nowhere, so collinear is
@@ -151,21 +170,22 @@ static unsigned long bits_for(const sunder_i_lattice *l, double length)
     return bits > 64 ? (unsigned long)bits : 64;
 }
 
-/* What two paths begin with in common is left out of the comparison. */
+/* 2 or -2 where lengths differ, else 1, 0 or -1. What the two begin with in common is left out of the comparison. */
 static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n, double length)
 {
+    size_t same = 0;
+    while (same < m && same < n && p[same] == q[same]) same++;
+    if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
     sunder_i_arena *arena = &s->space->ground.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const unsigned long bits = bits_for(s->space->ground.lattice, length);
-    size_t same = 0;
-    while (same < m && same < n && p[same] == q[same]) same++;
     const size_t from = same ? same - 1 : 0;
     const sunder_i_big d =
         sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
     const sunder_i_big noise = sunder_i_big_i64(arena, 4 * (int64_t)(m + n));
     int c = 0;
-    if (sunder_i_big_cmp(d, noise) > 0) c = 1;
-    if (sunder_i_big_cmp(sunder_i_big_neg(d), noise) > 0) c = -1;
+    if (sunder_i_big_cmp(d, noise) > 0) c = 2;
+    if (sunder_i_big_cmp(sunder_i_big_neg(d), noise) > 0) c = -2;
     if (arena->failed) return 0;
     sunder_i_arena_release(arena, mark);
     if (c == 0 && same < m && same < n)
@@ -173,21 +193,43 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     return c ? c : (m > n) - (m < n);
 }
 
-/* Is the path to v and on to w better than the one known to w? */
-static bool improves(search *s, uint32_t v, uint32_t w)
+/* The path to v and on to w beside the one known to w: shorter (-2), as long and lexicographically smaller (-1), the
+ * same (0), ... They are compared from one node before they part, since there the one may go straight on. */
+static int compare_ways(search *s, uint32_t v, uint32_t w)
 {
-    uint32_t *p = s->way[0], *q = s->way[1];
-    size_t m = path_to(s, v, p);
-    size_t n = path_to(s, w, q);
-    for (size_t i = 0; i < m; i++)
-        if (p[i] == w) return false; /* w lies on the way to v: no path */
+    uint32_t *p = s->way[0], *q = s->way[1], from = parting(s, v, w);
+    if (from == w) return 2; /* w lies on the way to v: no path */
+    if (from != s->start) from = s->at[from].before;
+    size_t m = path_to(s, from, v, p);
+    size_t n = path_to(s, from, w, q);
     p[m++] = w;
     m = straighten(s, p, m);
     n = straighten(s, q, n);
-    return compare_paths(s, p, m, q, n, s->at[w].length) < 0;
+    return compare_paths(s, p, m, q, n, s->at[w].length);
 }
 
 /* ---- The search ---- */
+
+static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
+{
+    return sunder_i_space_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
+}
+
+/* Another way to a node that has been reached. If it is as long, which of the two goes is seen to in the end: what goes
+ * on from there does not depend on it. */
+static void take_again(search *s, edge e)
+{
+    const int c = compare_ways(s, e.from, e.to);
+    if (c == -2 && edge_is_free(s, e.from, e.to)) {
+        s->at[e.to].before = e.from;
+        if (e.to != s->goal) expand(s, e.to);
+    }
+    if (c < -1 || c > 1) return;
+    if (sunder_i_reserve(&s->tie, &s->tie_capacity, s->ties + 1, sizeof *s->tie))
+        s->tie[s->ties++] = (tie){e.from, e.to};
+    else
+        s->no_memory = true;
+}
 
 static void take(search *s, edge e)
 {
@@ -198,15 +240,10 @@ static void take(search *s, edge e)
         !s->options->progress(0.5, s->options->progress_user))
         s->cancelled = true;
     if (to->known) {
-        if (s->haste == 1 && to->before != e.from &&
-            sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL) &&
-            improves(s, e.from, e.to)) {
-            to->before = e.from;
-            if (e.to != s->goal) expand(s, e.to); /* what goes on from there is smaller as well, of equal paths */
-        }
+        if (s->haste == 1 && to->before != e.from) take_again(s, e);
         return;
     }
-    if (!sunder_i_space_is_free(s->space, place_of(s, e.from), place_of(s, e.to), false, NULL)) return;
+    if (!edge_is_free(s, e.from, e.to)) return;
     *to = (reached){length, e.from, true};
     if (e.to != s->goal) expand(s, e.to);
 }
@@ -227,13 +264,80 @@ static void run(search *s, double haste, double limit)
     }
 }
 
+/* ---- Ties ---- */
+
+/* Ties by the node that they lead to: those of w are [end[w - 1], end[w]) in `from`. */
+typedef struct tie_lists {
+    size_t *end;
+    uint32_t *from;
+} tie_lists;
+
+static bool list_ties(const search *s, tie_lists *t)
+{
+    const size_t nodes = s->corners->nodes;
+    t->end = sunder_i_calloc(nodes + 1, sizeof *t->end);
+    t->from = sunder_i_alloc(s->ties, sizeof *t->from);
+    if (!t->end || !t->from) return false;
+    for (size_t i = 0; i < s->ties; i++) t->end[s->tie[i].to + 1]++;
+    for (size_t w = 0; w < nodes; w++) t->end[w + 1] += t->end[w];
+    for (size_t i = 0; i < s->ties; i++) t->from[t->end[s->tie[i].to]++] = s->tie[i].from;
+    return true;
+}
+
+/* The best of the ways to w, when those to all nodes before it are settled: marked with `settled`. */
+static void choose_way(search *s, const tie_lists *t, uint32_t w, uint64_t settled, const uint64_t *mark)
+{
+    for (size_t i = w ? t->end[w - 1] : 0; i < t->end[w]; i++) {
+        const uint32_t v = t->from[i];
+        if (mark[v] == settled && s->at[w].before != v && compare_ways(s, v, w) < 0 && edge_is_free(s, v, w))
+            s->at[w].before = v;
+    }
+}
+
+/* Of ways that are equally long the lexicographically smallest, node by node, each after all that may come before it:
+ * in the order in which a search back from the goal leaves them. Ways lead from shorter to longer ones, so there are no
+ * circles, but where lengths differ by less than can be seen; what would close one is left out. */
+static void settle_ties(search *s)
+{
+    enum { ENTERED = 1, SETTLED = 2 };
+    tie_lists t = {0};
+    const size_t nodes = s->corners->nodes;
+    uint64_t *mark = sunder_i_calloc(nodes, sizeof *mark);
+    size_t *next = sunder_i_calloc(nodes, sizeof *next), n = 0; /* [nodes] how many ways back have been tried */
+    uint32_t *stack = sunder_i_alloc(nodes, sizeof *stack);
+    if (!list_ties(s, &t) || !mark || !next || !stack) s->no_memory = true;
+    if (!s->no_memory) {
+        mark[s->start] = SETTLED;
+        mark[stack[n++] = s->goal] = ENTERED;
+    }
+    while (n && !s->no_memory) {
+        const uint32_t w = stack[n - 1];
+        const size_t first = w ? t.end[w - 1] : 0, k = next[w]++;
+        if (first + k > t.end[w]) {
+            choose_way(s, &t, w, SETTLED, mark);
+            mark[w] = SETTLED;
+            n--;
+            continue;
+        }
+        const uint32_t v = k ? t.from[first + k - 1] : s->at[w].before;
+        if (mark[v] == 0) mark[stack[n++] = v] = ENTERED;
+    }
+    sunder_i_free(t.end);
+    sunder_i_free(t.from);
+    sunder_i_free(mark);
+    sunder_i_free(next);
+    sunder_i_free(stack);
+}
+
 /* Two runs, if memory allows. */
 static void find(search *s)
 {
     const size_t nodes = s->corners->nodes;
     s->at = sunder_i_calloc(nodes, sizeof *s->at);
     for (int k = 0; k < 2; k++) s->way[k] = sunder_i_alloc(nodes + 1, sizeof *s->way[k]);
-    s->no_memory = !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1];
+    s->mark = sunder_i_calloc(nodes, sizeof *s->mark);
+    s->no_memory =
+        !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
     if (s->no_memory) return;
     run(s, HASTE, INFINITY);
     /* In haste nodes are not reached by shortest paths, and that these go on from there nowhere proves nothing. */
@@ -244,7 +348,9 @@ static void find(search *s)
      * 2^-51 of itself, and roundings, lengths are off by less than this. Twice, for both of two that are compared. */
     const double some = s->at[s->goal].length;
     s->slack = 0x1p-46 * some * ((double)nodes + 4);
-    if (s->at[s->goal].known) run(s, 1, some + s->slack);
+    if (!s->at[s->goal].known) return;
+    run(s, 1, some + s->slack);
+    if (s->at[s->goal].known && !s->no_memory && !s->cancelled) settle_ties(s);
 }
 
 sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners, const sunder_sum_options *options,
@@ -262,7 +368,7 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     else if (s.cancelled)
         status = sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
     if (status == SUNDER_OK) {
-        *n = straighten(&s, s.way[0], path_to(&s, s.goal, s.way[0]));
+        *n = straighten(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
         for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];
         *path = s.way[0];
         s.way[0] = NULL;
@@ -270,8 +376,10 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     sunder_i_view_free(&s.view);
     sunder_i_free(s.way[0]);
     sunder_i_free(s.way[1]);
+    sunder_i_free(s.mark);
     sunder_i_free(s.at);
     sunder_i_free(s.heap);
+    sunder_i_free(s.tie);
     return status;
 }
 

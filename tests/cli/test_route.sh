@@ -31,6 +31,13 @@ expect 0 route 'MULTIPOINT ((0 0), (0 2), (0 -2))' --robot square:2 --from=-5,1 
 same "$(jq -c .path out)" '[[-5,1],[5,1]]'
 expect 0 route 'GEOMETRYCOLLECTION (POINT (0 0), LINESTRING (0 2, 0 9), POLYGON ((-1 -9, 1 -9, 1 -2, -1 -2)))' --robot square:2 --from=-5,0 --to=5,0 --exact
 same "$(jq -c .path out)" '[["-5","0"],["-1","-1"],["1","-1"],["5","0"]]' # between the point and the polygon, exactly
+# A town of squares that the robot fits between exactly, everywhere: all ways are equally long, and there are thousands.
+squares=''
+for x in 0 20 40 60 80 100; do for y in 0 20 40 60 80 100; do squares="$squares, (($x $y, $((x + 10)) $y, $((x + 10)) $((y + 10)), $x $((y + 10))))"; done; done
+expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=15,15 --to=95,95
+same "$(jq -c '[.length,.path]' out)" '[160,[[15,15],[15,35],[35,35],[35,55],[55,55],[55,75],[75,75],[75,95],[95,95]]]'
+expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=95,15 --to=15,95
+same "$(jq -c '[.length,.path]' out)" '[160,[[95,15],[15,15],[15,95]]]'
 # Far away things take nothing from the precision here: neither of the answer nor of the search for it.
 far=''
 for x in 0 12 24 36; do
