@@ -1,8 +1,8 @@
 /* main.c: which command, with which options. */
-#include "commands.h"
-#include "message.h"
-#include "nearest.h"
-#include "report.h"
+#include "base/message.h"
+#include "base/nearest.h"
+#include "commands/commands.h"
+#include "options/progress.h"
 #include "sunder.h"
 
 #include <cpl_conv.h>

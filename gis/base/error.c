@@ -1,0 +1,133 @@
+/* error.c: sentences on the way up, and GDAL's own reports caught instead of printed. */
+#include "base/error.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One message is one line, and has no blanks at its end: GDAL's and SQLite's texts sometimes break that. */
+static void flatten(char *text)
+{
+    size_t end = 0;
+    for (size_t i = 0; text[i]; i++) {
+        if (text[i] == '\n' || text[i] == '\r' || text[i] == '\t')
+            text[i] = ' ';
+        if (text[i] != ' ')
+            end = i + 1;
+    }
+    text[end] = '\0';
+}
+
+static bool fail_with(gis_error *error, int exit_status, const char *format, va_list arguments)
+{
+    if (error) {
+        error->exit_status = exit_status;
+        vsnprintf(error->message, sizeof error->message, format, arguments);
+        flatten(error->message);
+    }
+    return false;
+}
+
+bool gis_fail(gis_error *error, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fail_with(error, GIS_FAILED, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool gis_fail_usage(gis_error *error, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fail_with(error, GIS_USAGE, format, arguments);
+    va_end(arguments);
+    return false;
+}
+
+bool gis_no_memory(gis_error *error)
+{
+    return gis_fail(error, "out of memory");
+}
+
+static bool list_add_text(gis_list *list, const char *text)
+{
+    for (size_t i = 0; i < list->n; i++)
+        if (strcmp(list->items[i], text) == 0)
+            return true;
+    if (list->n == list->capacity) {
+        size_t capacity = list->capacity ? 2 * list->capacity : 8;
+        char **items = realloc(list->items, capacity * sizeof *items);
+        if (!items)
+            return false;
+        list->items = items;
+        list->capacity = capacity;
+    }
+    char *copy = strdup(text);
+    if (!copy)
+        return false;
+    list->items[list->n++] = copy;
+    return true;
+}
+
+bool gis_list_add(gis_list *list, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    flatten(text);
+    return list_add_text(list, text);
+}
+
+void gis_list_clear(gis_list *list)
+{
+    for (size_t i = 0; i < list->n; i++)
+        free(list->items[i]);
+    free(list->items);
+    *list = (gis_list){0};
+}
+
+/* A driver may repeat a warning for every feature: past this many different ones the rest says nothing new. */
+enum { WARNINGS_KEPT = 100 };
+
+static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
+{
+    (void)number;
+    gis_listener *listener = CPLGetErrorHandlerUserData();
+    if (class == CE_Warning) {
+        if (listener->warnings.n < WARNINGS_KEPT)
+            gis_list_add(&listener->warnings, "%s", text);
+    } else if (class >= CE_Failure) {
+        if (listener->failures++ == 0) {
+            snprintf(listener->first, sizeof listener->first, "%s", text);
+            flatten(listener->first);
+        }
+    }
+}
+
+void gis_listen_begin(gis_listener *listener)
+{
+    CPLPushErrorHandlerEx(hear, listener);
+}
+
+void gis_listen_end(void)
+{
+    CPLPopErrorHandler();
+}
+
+void gis_listener_clear(gis_listener *listener)
+{
+    gis_list_clear(&listener->warnings);
+    *listener = (gis_listener){0};
+}
+
+const char *gis_listener_reason(const gis_listener *listener, const char *otherwise)
+{
+    return listener->first[0] ? listener->first : otherwise;
+}

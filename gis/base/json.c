@@ -1,0 +1,160 @@
+/* json.c: see json.h. */
+#include "base/json.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void gis_json_clear(gis_json *out)
+{
+    free(out->text);
+    *out = (gis_json){0};
+}
+
+const char *gis_json_text(const gis_json *out)
+{
+    return out->failed ? NULL : out->text ? out->text : "";
+}
+
+static void append(gis_json *out, const char *bytes, size_t n)
+{
+    if (out->failed)
+        return;
+    if (out->capacity - out->length <= n) {
+        size_t capacity = out->capacity * 2 + n + 256;
+        char *text = realloc(out->text, capacity);
+        if (!text) {
+            out->failed = true;
+            return;
+        }
+        out->text = text;
+        out->capacity = capacity;
+    }
+    memcpy(out->text + out->length, bytes, n);
+    out->length += n;
+    out->text[out->length] = '\0';
+}
+
+static void begin_value(gis_json *out)
+{
+    if (out->need_comma)
+        append(out, ", ", 2);
+    out->need_comma = true;
+}
+
+void gis_json_open(gis_json *out, char bracket)
+{
+    begin_value(out);
+    append(out, &bracket, 1);
+    out->need_comma = false;
+}
+
+void gis_json_close(gis_json *out, char bracket)
+{
+    append(out, &bracket, 1);
+    out->need_comma = true;
+}
+
+void gis_json_line(gis_json *out)
+{
+    if (out->need_comma)
+        append(out, ",\n ", 3);
+    else
+        append(out, "\n ", 2);
+    out->need_comma = false;
+}
+
+static void quoted(gis_json *out, const char *utf8)
+{
+    append(out, "\"", 1);
+    for (const char *c = utf8; *c; c++) {
+        unsigned char byte = (unsigned char)*c;
+        char escape[8];
+        if (byte == '"' || byte == '\\')
+            append(out, (char[]){'\\', *c}, 2);
+        else if (byte < 0x20)
+            append(out, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", byte));
+        else
+            append(out, c, 1);
+    }
+    append(out, "\"", 1);
+}
+
+void gis_json_key(gis_json *out, const char *key)
+{
+    begin_value(out);
+    quoted(out, key);
+    append(out, ": ", 2);
+    out->need_comma = false;
+}
+
+void gis_json_string(gis_json *out, const char *utf8)
+{
+    begin_value(out);
+    if (utf8)
+        quoted(out, utf8);
+    else
+        append(out, "null", 4);
+}
+
+void gis_json_size(gis_json *out, uint64_t value)
+{
+    char text[24];
+    begin_value(out);
+    append(out, text, (size_t)snprintf(text, sizeof text, "%" PRIu64, value));
+}
+
+void gis_json_signed(gis_json *out, int64_t value)
+{
+    char text[24];
+    begin_value(out);
+    append(out, text, (size_t)snprintf(text, sizeof text, "%" PRId64, value));
+}
+
+void gis_json_double(gis_json *out, double value)
+{
+    char text[GIS_NUMBER_MAX];
+    begin_value(out);
+    if (!isfinite(value)) {
+        append(out, "null", 4);
+        return;
+    }
+    gis_number_text(value, text);
+    append(out, text, strlen(text));
+}
+
+void gis_json_bool(gis_json *out, bool value)
+{
+    begin_value(out);
+    append(out, value ? "true" : "false", value ? 4 : 5);
+}
+
+void gis_json_null(gis_json *out)
+{
+    begin_value(out);
+    append(out, "null", 4);
+}
+
+void gis_json_raw(gis_json *out, const char *text)
+{
+    append(out, text, strlen(text));
+    out->need_comma = true;
+}
+
+/* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no
+ * shorter decimal than what it prints does. 17 always read back. (Subnormals have fewer digits: they start lower.) */
+void gis_number_text(double value, char text[GIS_NUMBER_MAX])
+{
+    if (value == 0) {
+        strcpy(text, "0");
+        return;
+    }
+    int digits = fabs(value) < 1e-300 ? 1 : 15;
+    for (; digits <= 17; digits++) {
+        snprintf(text, GIS_NUMBER_MAX, "%.*g", digits, value);
+        if (strtod(text, NULL) == value)
+            return;
+    }
+}

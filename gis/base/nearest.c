@@ -1,0 +1,66 @@
+/* nearest.c: see nearest.h. The distance is that of Damerau and Levenshtein in its restricted form: letters put in, left
+ * out, exchanged, or swapped with their neighbour; a word that was cut short is near, too. */
+#include "base/nearest.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <strings.h>
+
+enum { LONGEST = 40 }; /* longer words are no slips of the pen */
+
+static int letter(char c)
+{
+    return tolower((unsigned char)c);
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static size_t distance(const char *a, size_t n, const char *b, size_t m)
+{
+    size_t row[LONGEST + 1], last[LONGEST + 1], before[LONGEST + 1] = {0};
+    for (size_t k = 0; k <= m; k++)
+        last[k] = k;
+    for (size_t i = 1; i <= n; i++) {
+        row[0] = i;
+        for (size_t k = 1; k <= m; k++) {
+            int p = letter(a[i - 1]), q = letter(b[k - 1]);
+            row[k] = least(least(last[k], row[k - 1]) + 1, last[k - 1] + (p != q));
+            if (i > 1 && k > 1 && p == letter(b[k - 2]) && letter(a[i - 2]) == q)
+                row[k] = least(row[k], before[k - 2] + 1);
+        }
+        for (size_t k = 0; k <= m; k++) {
+            before[k] = last[k];
+            last[k] = row[k];
+        }
+    }
+    return last[m];
+}
+
+/* Is the part at one end of the word? Short ones are at the end of too many. */
+static bool begins_or_ends(const char *word, size_t n, const char *part, size_t m)
+{
+    return m >= 4 && m < n && (strncasecmp(word, part, m) == 0 || strncasecmp(word + n - m, part, m) == 0);
+}
+
+gis_nearest gis_nearest_to(const char *word, size_t n)
+{
+    return (gis_nearest){.word = word, .n = n};
+}
+
+void gis_nearest_offer(gis_nearest *search, const char *word, size_t n)
+{
+    if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST)
+        return;
+    size_t tolerated = search->n <= 4 ? 1 : search->n <= 8 ? 2 : 3;
+    size_t found = distance(search->word, search->n, word, n);
+    if (found > tolerated && begins_or_ends(word, n, search->word, search->n))
+        found = tolerated;
+    if (found > tolerated || found >= n || (search->best && found >= search->distance))
+        return;
+    search->best = word;
+    search->best_n = n;
+    search->distance = found;
+}

@@ -1,0 +1,31 @@
+/* polygons.h: rings of a polygonal set that grows, in plain arrays. */
+#ifndef GIS_POLYGONS_H
+#define GIS_POLYGONS_H
+
+#include "base/error.h"
+#include "sunder.h"
+
+/* Laid out for sunder_shape_from_rings(). Start zeroed. */
+typedef struct gis_polygons {
+    double *xy;
+    size_t *ring_end, *poly_end;
+    size_t vertices, rings, polygons;
+    size_t xy_capacity, ring_capacity, poly_capacity;
+} gis_polygons;
+
+void gis_polygons_clear(gis_polygons *set);
+/* Room for so many vertices more. */
+bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error);
+bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error);
+bool gis_polygons_end_ring(gis_polygons *set, gis_error *error);
+bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error);
+/* Rings [first, last) of another set, as one polygon. */
+bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error);
+/* The polygons of a shape, each coordinate plus (dx, dy), rounded to the nearest double. */
+bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, double dx, double dy, gis_error *error);
+
+/* sunder_shape_from_rings() of them. */
+sunder_status gis_polygons_shape(const gis_polygons *set, sunder_validity validity, sunder_shape **out,
+                                 sunder_error *why);
+
+#endif

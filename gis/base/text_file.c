@@ -1,0 +1,96 @@
+/* text_file.c: see text_file.h. */
+#define _GNU_SOURCE
+#include "base/text_file.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* path.PID.ending: of this process alone. */
+static char *beside(const char *path, const char *ending)
+{
+    size_t size = strlen(path) + strlen(ending) + 32;
+    char *name = malloc(size);
+    if (name)
+        snprintf(name, size, "%s.%ld.%s", path, (long)getpid(), ending);
+    return name;
+}
+
+static bool write_bytes(const char *name, const char *mode, const char *text, size_t length, int *reason)
+{
+    FILE *file = fopen(name, mode);
+    bool done = file && fwrite(text, 1, length, file) == length && fflush(file) == 0;
+    *reason = errno;
+    if (file && fclose(file) != 0 && done) {
+        done = false;
+        *reason = errno;
+    }
+    return done;
+}
+
+bool gis_text_file_write(gis_text_file *file, const char *path, const char *text, size_t length, const char *what,
+                         gis_error *error)
+{
+    struct stat info;
+    char *resolved = lstat(path, &info) == 0 && S_ISLNK(info.st_mode) ? realpath(path, NULL) : NULL;
+    file->path = resolved ? resolved : strdup(path);
+    if (!file->path)
+        return gis_no_memory(error);
+    bool special = stat(file->path, &info) == 0 && !S_ISREG(info.st_mode);
+    if (!special && !(file->temporary = beside(file->path, "part")))
+        return gis_no_memory(error);
+    int reason;
+    if (write_bytes(special ? file->path : file->temporary, special ? "w" : "wx", text, length, &reason))
+        return true;
+    if (reason == EEXIST) { /* not ours to remove */
+        free(file->temporary);
+        file->temporary = NULL;
+    }
+    return gis_fail(error, "%s: cannot write %s: %s", what, path, strerror(reason));
+}
+
+static bool step_aside(gis_text_file *file, const char *what, gis_error *error)
+{
+    char *former = beside(file->path, "former");
+    if (!former)
+        return gis_no_memory(error);
+    if (rename(file->path, former) == 0) {
+        file->former = former;
+        return true;
+    }
+    int reason = errno;
+    free(former);
+    return reason == ENOENT || gis_fail(error, "%s: cannot replace %s: %s", what, file->path, strerror(reason));
+}
+
+bool gis_text_file_place(gis_text_file *file, const char *what, gis_error *error)
+{
+    if (!file->temporary)
+        return true;
+    if (!step_aside(file, what, error))
+        return false;
+    if (rename(file->temporary, file->path) != 0)
+        return gis_fail(error, "%s: cannot write %s: %s", what, file->path, strerror(errno));
+    file->placed = true;
+    return true;
+}
+
+void gis_text_file_end(gis_text_file *file, bool keep)
+{
+    if (!keep && file->former)
+        (void)!rename(file->former, file->path);
+    else if (!keep && file->placed)
+        remove(file->path);
+    if (keep && file->former)
+        remove(file->former);
+    if (file->temporary && !file->placed)
+        remove(file->temporary);
+    free(file->path);
+    free(file->temporary);
+    free(file->former);
+    *file = (gis_text_file){0};
+}

@@ -1,0 +1,272 @@
+/* align.c: the main direction of buildings, and a shape turned to it.
+ *
+ * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a quarter
+ * of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin and its
+ * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that this leaves
+ * in straight walls are taken out in the end (straight.c).
+ *
+ * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
+ * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
+ * union's crossings are rounded once more. */
+#include "buffer/buffer.h"
+
+#include <cpl_conv.h>
+#include <cpl_quad_tree.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_sides(const sunder_shape *shape, double sum[2])
+{
+    for (size_t p = 0; p < sunder_shape_polygons(shape); p++)
+        for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {
+            size_t n;
+            const double *xy = sunder_shape_ring(shape, p, r, &n);
+            for (size_t i = 0; i < n; i++) {
+                const double *a = xy + 2 * i, *b = xy + 2 * (i + 1 < n ? i + 1 : 0);
+                double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy);
+                if (!(length > 0) || !isfinite(length))
+                    continue;
+                double c = dx / length, s = dy / length, c2 = c * c - s * s, s2 = 2 * c * s;
+                sum[0] += length * (c2 * c2 - s2 * s2);
+                sum[1] += length * 2 * c2 * s2;
+            }
+        }
+}
+
+static bool turn(const sunder_shape *shape, double angle, gis_polygons *out, gis_error *error)
+{
+    double c = cos(angle), s = sin(angle);
+    if (!gis_polygons_append_shape(out, shape, 0, 0, error))
+        return false;
+    for (size_t v = 0; v < out->vertices; v++) {
+        double *xy = out->xy + 2 * v, x = xy[0], y = xy[1];
+        xy[0] = c * x - s * y;
+        xy[1] = s * x + c * y;
+    }
+    return true;
+}
+
+bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error)
+{
+    double sum[2] = {0, 0};
+    for (size_t i = 0; i < set->members; i++)
+        if (buffer->input.shape[set->member[i]])
+            add_sides(buffer->input.shape[set->member[i]], sum);
+    gis_polygons turned = {0};
+    sunder_error why;
+    bool ok = turn(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
+              (gis_polygons_shape(&turned, SUNDER_EVEN_ODD, out, &why) == SUNDER_OK ||
+               gis_fail(error, "--shape, turned: %s", why.message));
+    gis_polygons_clear(&turned);
+    return ok;
+}
+
+/* A part of the whole, for progress and for being stopped. */
+typedef struct part {
+    const sunder_sum_options *whole;
+    double from, to;
+} part;
+
+static bool tell_part(double fraction, void *user)
+{
+    const part *p = user;
+    return !p->whole->progress ||
+           p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
+}
+
+static bool core_failed(sunder_status status, const sunder_error *why, gis_error *error)
+{
+    return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why->message);
+}
+
+/* ---- Blocks ----------------------------------------------------------------------------------------------- */
+
+typedef struct in_block {
+    size_t block, feature;
+} in_block;
+
+static int by_block(const void *a, const void *b)
+{
+    const in_block *p = a, *q = b;
+    int order = (p->block > q->block) - (p->block < q->block);
+    return order ? order : (p->feature > q->feature) - (p->feature < q->feature);
+}
+
+static bool is_within(const gis_polygons *set, size_t polygon, const double *at)
+{
+    bool in = false;
+    for (size_t r = polygon ? set->poly_end[polygon - 1] : 0; r < set->poly_end[polygon]; r++)
+        for (size_t first = r ? set->ring_end[r - 1] : 0, i = first; i < set->ring_end[r]; i++) {
+            const double *a = set->xy + 2 * i, *b = set->xy + 2 * (i + 1 < set->ring_end[r] ? i + 1 : first);
+            if ((a[1] > at[1]) != (b[1] > at[1]) && at[0] < a[0] + (at[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
+                in = !in;
+        }
+    return in;
+}
+
+static CPLRectObj box_of(const gis_polygons *set, size_t polygon)
+{
+    CPLRectObj box = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    size_t r = polygon ? set->poly_end[polygon - 1] : 0;
+    for (size_t i = r ? set->ring_end[r - 1] : 0; i < set->ring_end[r]; i++) {
+        box.minx = fmin(box.minx, set->xy[2 * i]);
+        box.miny = fmin(box.miny, set->xy[2 * i + 1]);
+        box.maxx = fmax(box.maxx, set->xy[2 * i]);
+        box.maxy = fmax(box.maxy, set->xy[2 * i + 1]);
+    }
+    return box;
+}
+
+/* Boxes of all polygons, by the numbers of polygons. */
+static CPLQuadTree *index_of(const gis_polygons *set)
+{
+    CPLRectObj all = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t p = 0; p < set->polygons; p++) {
+        const CPLRectObj box = box_of(set, p);
+        all = (CPLRectObj){fmin(all.minx, box.minx), fmin(all.miny, box.miny), fmax(all.maxx, box.maxx),
+                           fmax(all.maxy, box.maxy)};
+    }
+    CPLQuadTree *index = CPLQuadTreeCreate(&all, NULL);
+    for (size_t p = 0; index && p < set->polygons; p++) {
+        const CPLRectObj box = box_of(set, p);
+        CPLQuadTreeInsertWithBounds(index, (void *)(uintptr_t)p, &box);
+    }
+    return index;
+}
+
+/* The polygon of the dilation that a feature lies in: it holds the feature's first corner moved by a point well inside
+ * the shape. */
+static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const double *at)
+{
+    const CPLRectObj here = {at[0], at[1], at[0], at[1]};
+    int n;
+    size_t found = set->polygons;
+    void **candidate = CPLQuadTreeSearch(index, &here, &n);
+    for (int i = 0; i < n && found == set->polygons; i++)
+        if (is_within(set, (size_t)(uintptr_t)candidate[i], at))
+            found = (size_t)(uintptr_t)candidate[i];
+    CPLFree(candidate);
+    return found;
+}
+
+/* Deals the members to blocks; *n of them have polygons. */
+static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, const sunder_sum_options *how,
+                        in_block *members, size_t *n, double *deviation, gis_error *error)
+{
+    part first = {how, 0, 0.2};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first, .threads = how->threads};
+    sunder_shape *joined;
+    sunder_sum *sum = NULL;
+    sunder_error why;
+    gis_rounded grown = {0};
+    if (!gis_buffer_join(buffer, set, &joined, deviation, error))
+        return false;
+    sunder_status status = sunder_minkowski_sum(joined, buffer->shape, &stage, &sum, &why);
+    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
+    ok = ok && gis_round_sum(sum, &grown, error);
+    CPLQuadTree *index = ok ? index_of(&grown.set) : NULL;
+    ok = ok && (index || gis_no_memory(error));
+    double inner[2];
+    sunder_shape_anchor(buffer->shape, inner);
+    *n = 0;
+    for (size_t i = 0; ok && i < set->members; i++) {
+        const sunder_shape *shape = buffer->input.shape[set->member[i]];
+        if (!shape || sunder_shape_is_empty(shape))
+            continue;
+        size_t corners;
+        const double *corner = sunder_shape_ring(shape, 0, 0, &corners);
+        const double at[2] = {corner[0] + inner[0], corner[1] + inner[1]};
+        members[(*n)++] = (in_block){block_of(&grown.set, index, at), set->member[i]};
+    }
+    qsort(members, *n, sizeof *members, by_block);
+    if (index)
+        CPLQuadTreeDestroy(index);
+    gis_rounded_clear(&grown);
+    sunder_sum_free(sum);
+    sunder_shape_free(joined);
+    return ok;
+}
+
+/* What a block came to, after what others did. */
+static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_polygons *polygons, gis_error *error)
+{
+    const gis_polygons *from = &block->result.set;
+    for (size_t p = 0; p < from->polygons; p++)
+        if (!gis_polygons_append(polygons, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error))
+            return false;
+    all->result.deviation = fmax(all->result.deviation, block->result.deviation);
+    all->result.repaired += block->result.repaired;
+    double *segment = realloc(all->segment, (4 * (all->segments + block->segments) + 1) * sizeof *segment);
+    if (segment)
+        all->segment = segment;
+    double *point = realloc(all->point, (2 * (all->points + block->points) + 1) * sizeof *point);
+    if (point)
+        all->point = point;
+    if (!segment || !point)
+        return gis_no_memory(error);
+    if (block->segments)
+        memcpy(segment + 4 * all->segments, block->segment, 4 * block->segments * sizeof *segment);
+    if (block->points)
+        memcpy(point + 2 * all->points, block->point, 2 * block->points * sizeof *point);
+    all->segments += block->segments;
+    all->points += block->points;
+    return true;
+}
+
+/* The blocks' polygons, which may overlap, as one set. */
+static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, const sunder_sum_options *how,
+                         gis_error *error)
+{
+    part last = {how, 0.8, 1};
+    const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last, .threads = how->threads};
+    sunder_shape *shape;
+    sunder_sum *sum = NULL;
+    sunder_error why;
+    gis_rounded united = {0};
+    if (gis_polygons_shape(polygons, SUNDER_STRICT, &shape, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    sunder_status status = sunder_shape_union(shape, &stage, &sum, &why);
+    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
+    ok = ok && gis_round_sum(sum, &united, error);
+    if (ok) {
+        united.deviation += all->result.deviation;
+        united.repaired += all->result.repaired;
+        all->result = united;
+        all->area = gis_buffer_area(&united.set);
+    }
+    sunder_sum_free(sum);
+    sunder_shape_free(shape);
+    return ok;
+}
+
+bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                            gis_error *error)
+{
+    size_t n, *feature = malloc((set->members + 1) * sizeof *feature);
+    in_block *members = malloc((set->members + 1) * sizeof *members);
+    gis_polygons polygons = {0};
+    double before = 0;
+    bool ok = ((feature && members) || gis_no_memory(error)) &&
+              find_blocks(buffer, set, how, members, &n, &before, error);
+    for (size_t i = 0; ok && i < n; i++)
+        feature[i] = members[i].feature;
+    set->none = ok && n == 0;
+    for (size_t i = 0, end; ok && i < n; i = end) {
+        for (end = i + 1; end < n && members[end].block == members[i].block;)
+            end++;
+        gis_buffer_set block = {.member = feature + i, .members = end - i};
+        part middle = {how, 0.2 + 0.6 * (double)i / (double)n, 0.2 + 0.6 * (double)end / (double)n};
+        const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle, .threads = how->threads};
+        ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
+        gis_buffer_set_clear(&block);
+    }
+    ok = ok && (set->none || unite_blocks(set, &polygons, how, error));
+    if (ok)
+        set->result.deviation += before;
+    gis_polygons_clear(&polygons);
+    free(members);
+    free(feature);
+    return ok;
+}

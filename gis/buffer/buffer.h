@@ -1,0 +1,62 @@
+/* buffer.h: what sunder buffer makes of a layer: sets of features, each grown or shrunk, in doubles. */
+#ifndef GIS_BUFFER_H
+#define GIS_BUFFER_H
+
+#include "read/layer_input.h"
+#include "sum/layers.h"
+#include "write/sink.h"
+
+/* One set of features (a single one, unless they are dissolved) and what became of it. */
+typedef struct gis_buffer_set {
+    const size_t *member; /* features, in their order; borrowed */
+    size_t members;
+    bool none;            /* none of them has a polygon: nothing is made, and a null geometry written */
+    gis_rounded result;
+    double *segment;      /* [4 * segments] ends, with --degenerate */
+    double *point;        /* [2 * points] */
+    size_t segments, points;
+    double area;
+} gis_buffer_set;
+
+typedef struct gis_buffer {
+    const gis_options *options;
+    gis_layer_input input;
+    sunder_shape *shape;
+    gis_source *shape_source; /* NULL: it is a text */
+    sunder_operation operation;
+    int field;             /* of --dissolve-field; -1: none */
+    bool dissolve;         /* into one set, or by the field */
+    gis_buffer_set *set;
+    size_t sets;
+    size_t *member;        /* features, set by set */
+    size_t empty, vertices, repaired;
+    double area, deviation;
+} gis_buffer;
+
+/* Deals the features to sets: by value of the field, in the order in which values come first (each null by itself), or
+ * all into one. */
+bool gis_buffer_gather(gis_buffer *buffer, gis_error *error);
+/* Makes the sets, on as many threads as the options ask for, and adds up the figures. */
+bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error);
+/* Makes one set, as it stands. */
+bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                         gis_error *error);
+/* All its members as one shape; *deviation is raised to what that moved. */
+bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
+                     gis_error *error);
+/* The area of polygons without overlaps. */
+double gis_buffer_area(const gis_polygons *set);
+void gis_buffer_set_clear(gis_buffer_set *set);
+/* --align (align.c): turns the shape to the main direction of a set of features; */
+bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);
+/* makes a dissolved set block by block, the shape turned for each. */
+bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
+                            gis_error *error);
+/* Takes corners out that are straight but for a few units in the last place (straight.c). */
+bool gis_buffer_straighten(gis_rounded *rounded, gis_error *error);
+void gis_buffer_clear(gis_buffer *buffer);
+
+/* LAYER, and with --degenerate LAYER_degenerate_segments and LAYER_degenerate_points. */
+bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error);
+
+#endif

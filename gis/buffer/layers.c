@@ -1,0 +1,127 @@
+/* layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished, or was
+ * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the field,
+ * if one was named, and the number of features in it. */
+#include "buffer/buffer.h"
+
+#include "options/progress.h"
+#include "write/layer_output.h"
+
+#include <string.h>
+
+/* Are all results single polygons, so that the layer may be one of polygons? */
+static bool is_multi(const gis_buffer *buffer)
+{
+    OGRwkbGeometryType type = wkbFlatten(gis_source_type(buffer->input.source));
+    if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->dissolve)
+        return true;
+    for (size_t k = 0; k < buffer->sets; k++)
+        if (buffer->set[k].result.set.polygons > 1)
+            return true;
+    return false;
+}
+
+static OGRGeometryH geometry_of(const gis_buffer_set *set, bool multi)
+{
+    const gis_polygons *polygons = &set->result.set;
+    if (polygons->polygons == 0)
+        return OGR_G_CreateGeometry(multi ? wkbMultiPolygon : wkbPolygon);
+    return gis_geometry_polygons(polygons->xy, polygons->ring_end, polygons->poly_end, polygons->polygons, multi);
+}
+
+/* The field of --dissolve-field, as it is. */
+static OGRFieldDefnH field_of(const gis_buffer *buffer)
+{
+    OGRFeatureDefnH layer = OGR_L_GetLayerDefn(gis_source_layer(buffer->input.source));
+    return OGR_FD_GetFieldDefn(layer, buffer->field);
+}
+
+static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *error)
+{
+    bool multi = is_multi(buffer);
+    gis_field number = {"features", OFTInteger64, 0};
+    gis_layer_request request = {.suffix = "", .type = multi ? wkbMultiPolygon : wkbPolygon,
+                                 .crs = gis_source_crs(buffer->input.source), .style = GIS_STYLE_RESULT};
+    request.like_source = !buffer->dissolve;
+    if (buffer->dissolve) {
+        request.fields = &number;
+        request.n_fields = 1;
+        if (buffer->field >= 0)
+            request.copied = field_of(buffer);
+        if (request.copied && EQUAL(OGR_Fld_GetNameRef(request.copied), number.name))
+            number.name = "n_features";
+    }
+    gis_sink_layer *layer;
+    if (!gis_sink_add(sink, &request, &layer, error))
+        return false;
+    for (size_t k = 0; k < buffer->sets; k++) {
+        const gis_buffer_set *set = &buffer->set[k];
+        if (gis_interrupted())
+            return gis_fail(error, "interrupted");
+        OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
+        if (!geometry && !set->none)
+            return gis_no_memory(error);
+        const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
+        bool of_feature = !buffer->dissolve || request.copied;
+        OGRFeatureH feature = of_feature ? gis_source_feature(buffer->input.source, set->member[0]) : NULL;
+        if (!gis_sink_write(layer, feature, geometry, &members, error))
+            return false;
+    }
+    return true;
+}
+
+/* Which feature a degenerate part is of: its FID and the user's key; null where features are dissolved. */
+typedef struct owner {
+    gis_value values[2];
+    gis_conflict_texts texts;
+} owner;
+
+static bool owner_of(const gis_buffer *buffer, const gis_buffer_set *set, owner *out, gis_error *error)
+{
+    *out = (owner){.values = {{.kind = GIS_NULL}, {.kind = GIS_NULL}}};
+    if (buffer->dissolve)
+        return true;
+    out->values[0] = gis_fid_value(&buffer->input, set->member[0]);
+    return gis_id_value(&buffer->input, set->member[0], &out->texts.id[0], &out->values[1], error);
+}
+
+static bool write_parts(gis_sink_layer *layer, const gis_buffer *buffer, bool points, gis_error *error)
+{
+    for (size_t k = 0; k < buffer->sets; k++) {
+        const gis_buffer_set *set = &buffer->set[k];
+        size_t n = points ? set->points : set->segments;
+        owner whose;
+        bool ok = n == 0 || owner_of(buffer, set, &whose, error);
+        for (size_t i = 0; ok && i < n; i++) {
+            OGRGeometryH geometry = points ? gis_geometry_point(set->point + 2 * i)
+                                           : gis_geometry_line(set->segment + 4 * i, set->segment + 4 * i + 2);
+            ok = geometry ? gis_sink_write(layer, NULL, geometry, whose.values, error) : gis_no_memory(error);
+        }
+        if (n > 0)
+            gis_conflict_texts_clear(&whose.texts);
+        if (!ok)
+            return false;
+    }
+    return true;
+}
+
+static bool write_degenerate(gis_sink *sink, const gis_buffer *buffer, bool points, gis_error *error)
+{
+    const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(&buffer->input), 0}};
+    const gis_layer_request request = {.suffix = points ? "degenerate_points" : "degenerate_segments",
+                                       .type = points ? wkbPoint : wkbLineString,
+                                       .crs = gis_source_crs(buffer->input.source),
+                                       .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields,
+                                       .style = GIS_STYLE_RESULT};
+    gis_sink_layer *layer;
+    return gis_sink_add(sink, &request, &layer, error) && write_parts(layer, buffer, points, error);
+}
+
+bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error)
+{
+    if (!write_main(sink, buffer, error))
+        return false;
+    if (!buffer->options->given[OPT_DEGENERATE] || !gis_sink_takes_more(sink))
+        return true;
+    return write_degenerate(sink, buffer, false, error) && write_degenerate(sink, buffer, true, error);
+}

@@ -1,0 +1,118 @@
+/* make.c: all sets, on several threads. Which thread takes which set is left to chance; what comes of it is not. */
+#include "buffer/buffer.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct making {
+    gis_buffer *buffer;
+    gis_progress *progress; /* told by whoever holds the lock */
+    unsigned threads;       /* for a single set */
+    atomic_size_t next;
+    atomic_bool stop;
+    pthread_mutex_t lock; /* of what follows */
+    size_t done, failed;  /* the least set that failed */
+    gis_error error;
+} making;
+
+/* The progress of a single large set comes from inside it; of several each can be stopped there. */
+static bool tell_inside(double fraction, void *user)
+{
+    making *m = user;
+    if (m->buffer->sets == 1)
+        return gis_progress_call(fraction, m->progress);
+    return !gis_interrupted() && !atomic_load(&m->stop);
+}
+
+static void tell(making *m)
+{
+    pthread_mutex_lock(&m->lock);
+    m->done++;
+    if (m->buffer->sets > 1 && !gis_progress_call((double)m->done / (double)m->buffer->sets, m->progress) &&
+        !atomic_exchange(&m->stop, true))
+        gis_fail(&m->error, "interrupted");
+    pthread_mutex_unlock(&m->lock);
+}
+
+static void fail(making *m, size_t set, const gis_error *error)
+{
+    char who[512] = "";
+    const gis_buffer *buffer = m->buffer;
+    if (!buffer->dissolve)
+        gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
+    pthread_mutex_lock(&m->lock);
+    if (set < m->failed) {
+        m->failed = set;
+        m->error = *error;
+        if (*who && strcmp(error->message, "interrupted") != 0)
+            gis_fail(&m->error, "%s: %s", who, error->message);
+    }
+    pthread_mutex_unlock(&m->lock);
+    atomic_store(&m->stop, true);
+}
+
+static void *work(void *argument)
+{
+    making *m = argument;
+    gis_error error;
+    const sunder_sum_options how = {.progress = tell_inside,
+                                    .progress_user = m,
+                                    .threads = m->buffer->sets == 1 ? m->threads : 1};
+    while (!atomic_load(&m->stop)) {
+        size_t k = atomic_fetch_add(&m->next, 1);
+        if (k >= m->buffer->sets)
+            break;
+        bool blocks = m->buffer->dissolve && m->buffer->options->given[OPT_ALIGN];
+        if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
+            fail(m, k, &error);
+        tell(m);
+    }
+    return NULL;
+}
+
+static size_t thread_count(const gis_buffer *buffer)
+{
+    double asked = buffer->options->given[OPT_THREADS] ? buffer->options->number[OPT_THREADS] : 0;
+    long there = sysconf(_SC_NPROCESSORS_ONLN);
+    return asked > 0 ? (size_t)fmin(asked, 4096) : there > 0 ? (size_t)there : 1;
+}
+
+static void add_up(gis_buffer *buffer)
+{
+    for (size_t k = 0; k < buffer->sets; k++) {
+        const gis_buffer_set *set = &buffer->set[k];
+        buffer->empty += !set->none && set->result.set.polygons == 0;
+        buffer->vertices += set->result.set.vertices;
+        buffer->repaired += set->result.repaired;
+        buffer->area += set->area;
+        buffer->deviation = fmax(buffer->deviation, set->result.deviation);
+    }
+}
+
+/* This thread works, too: where no other can be started it does everything. */
+bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error)
+{
+    size_t asked = thread_count(buffer), threads = asked < buffer->sets ? asked : buffer->sets, started = 0;
+    making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets, .threads = (unsigned)asked};
+    pthread_t *thread = calloc(threads + 1, sizeof *thread);
+    if (!thread)
+        return gis_no_memory(error);
+    pthread_mutex_init(&m.lock, NULL);
+    while (started + 1 < threads && pthread_create(&thread[started], NULL, work, &m) == 0)
+        started++;
+    work(&m);
+    for (size_t i = 0; i < started; i++)
+        pthread_join(thread[i], NULL);
+    pthread_mutex_destroy(&m.lock);
+    free(thread);
+    if (atomic_load(&m.stop)) {
+        *error = m.error;
+        return false;
+    }
+    add_up(buffer);
+    return true;
+}

@@ -1,0 +1,156 @@
+/* check.c: sunder check. The exact list of what overlaps or is too close, whoever made the layer. */
+#include "base/message.h"
+#include "commands/commands.h"
+#include "commands/report.h"
+#include "write/deliver.h"
+#include "write/layer_output.h"
+
+#include <cpl_conv.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct check_run {
+    const gis_options *options;
+    gis_layer_input input;
+    char *layer;    /* LAYER_conflicts, unless --output-layer gives another name; the sink borrows it */
+    gis_sink *sink; /* NULL: no OUTPUT */
+    sunder_report *report;
+    sunder_layer_summary summary;
+    gis_progress progress;
+} check_run;
+
+/* Opened before the work is done. */
+static bool open_sink(check_run *run, gis_error *error)
+{
+    const char *path = run->options->operand[1], *source = gis_source_name(run->input.source);
+    if (!path)
+        return true;
+    size_t size = strlen(source) + sizeof "_conflicts";
+    run->layer = malloc(size);
+    if (!run->layer)
+        return gis_no_memory(error);
+    snprintf(run->layer, size, "%s_conflicts", source);
+    gis_sink_request request = gis_options_sink(run->options, path, run->layer);
+    return gis_sink_open(&request, run->input.source, &run->sink, error);
+}
+
+/* All but the last step, which is gis_deliver()'s. */
+static bool check_and_write(check_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    if (!open_sink(run, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.3, 0.9);
+    if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.9, 1);
+    if (run->sink && (!gis_write_conflicts(run->sink, &run->input, run->report, "", error) ||
+                      !gis_sink_finish(run->sink, &result, error)))
+        return false;
+    gis_progress_done(&run->progress);
+    return true;
+}
+
+/* Tabs and line breaks in a user's key would break the columns: they become blanks. */
+static void print_text(const char *text)
+{
+    for (; *text; text++)
+        putchar(*text == '\t' || *text == '\n' || *text == '\r' ? ' ' : *text);
+}
+
+static void print_value(const gis_value *value)
+{
+    char number[GIS_NUMBER_MAX];
+    switch (value->kind) {
+    case GIS_NULL:
+        break;
+    case GIS_INTEGER:
+        printf(CPL_FRMT_GIB, value->as.integer);
+        break;
+    case GIS_REAL:
+        gis_number_text(value->as.real, number);
+        fputs(number, stdout);
+        break;
+    case GIS_TEXT:
+        print_text(value->as.text);
+        break;
+    }
+}
+
+static bool print_lines(const check_run *run, gis_error *error)
+{
+    size_t n;
+    const sunder_conflict *conflicts = sunder_report_conflicts(run->report, &n);
+    gis_conflict_texts scratch = {0};
+    bool ok = true;
+    for (size_t k = 0; ok && k < n; k++) {
+        gis_value values[N_CONFLICT_COLUMNS];
+        ok = gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
+        for (int column = 0; ok && column < N_CONFLICT_COLUMNS; column++) {
+            if (column)
+                putchar('\t');
+            print_value(&values[column]);
+        }
+        if (ok)
+            putchar('\n');
+    }
+    gis_conflict_texts_clear(&scratch);
+    return ok;
+}
+
+static bool print(const void *checked, gis_error *error)
+{
+    const check_run *run = checked;
+    if (!print_lines(run, error))
+        return false;
+    const sunder_conflict_counts *counts = &run->summary.before;
+    if (!run->options->given[OPT_QUIET])
+        printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, "
+               "duplicate %zu, inside blocks %zu\n",
+               gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
+               counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
+    return true;
+}
+
+static void json_check(gis_json *out, const check_run *run)
+{
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "check");
+    gis_json_key(out, "features");
+    gis_json_size(out, run->input.n);
+    gis_json_key(out, "pairs_tested");
+    gis_json_size(out, run->summary.pairs_tested);
+    gis_json_key(out, "conflicts");
+    gis_json_conflict_counts(out, &run->summary.before);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+static bool deliver(const check_run *run, bool taken, gis_error *error)
+{
+    gis_json stats = {0};
+    if (gis_stats_path(run->options))
+        json_check(&stats, run);
+    const gis_delivery delivery = {run->options, run->sink, &stats, taken ? NULL : print, run};
+    bool ok = gis_deliver(&delivery, error);
+    gis_json_clear(&stats);
+    return ok;
+}
+
+int gis_command_check(const gis_options *options)
+{
+    gis_error error;
+    check_run run = {.options = options, .progress = gis_progress_of(options)};
+    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
+    gis_progress_stage(&run.progress, 0, 0.3);
+    ok = ok && gis_layer_input_read(options, &run.input, &error) && check_and_write(&run, &error) &&
+         deliver(&run, taken, &error);
+    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.before);
+    gis_sink_free(run.sink);
+    free(run.layer);
+    sunder_report_free(run.report);
+    gis_layer_input_clear(&run.input);
+    return status;
+}

@@ -1,0 +1,14 @@
+/* commands.h: the commands, a file each. */
+#ifndef GIS_COMMANDS_H
+#define GIS_COMMANDS_H
+
+#include "options/options.h"
+
+int gis_command_separate(const gis_options *options);
+int gis_command_check(const gis_options *options);
+int gis_command_sum(const gis_options *options);
+int gis_command_pair(const gis_options *options);
+int gis_command_buffer(const gis_options *options);
+int gis_command_route(const gis_options *options);
+
+#endif

@@ -1,0 +1,111 @@
+/* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer
+ * `pair`: the line from the anchor of Q to where it goes. */
+#include "base/message.h"
+#include "commands/commands.h"
+#include "read/operand.h"
+#include "write/deliver.h"
+
+#include <math.h>
+
+static void json_pair(gis_json *out, const sunder_separation *answer)
+{
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "pair");
+    gis_json_key(out, "overlap");
+    gis_json_bool(out, answer->overlap);
+    gis_json_key(out, "dx");
+    gis_json_string(out, answer->dx_text);
+    gis_json_key(out, "dy");
+    gis_json_string(out, answer->dy_text);
+    gis_json_key(out, "distance_squared");
+    gis_json_string(out, answer->distance_squared_text);
+    gis_json_key(out, "distance");
+    gis_json_double(out, answer->distance);
+    gis_json_key(out, "contact");
+    gis_json_string(out, sunder_contact_string(answer->contact));
+    gis_json_key(out, "attained");
+    gis_json_bool(out, answer->attained);
+    gis_json_key(out, "rounded_is_free");
+    gis_json_bool(out, answer->rounded_is_free);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+static bool add_translation(gis_sink *sink, const gis_operands *operands, const sunder_separation *answer,
+                            gis_error *error)
+{
+    static const gis_field fields[] = {{"overlap", OFTInteger64, 0},  {"dx", OFTReal, 0},
+                                       {"dy", OFTReal, 0},            {"len", OFTReal, 0},
+                                       {"contact", OFTString, 20},    {"attained", OFTInteger64, 0},
+                                       {"free", OFTInteger64, 0}};
+    const gis_layer_request request = {.suffix = "", .type = wkbLineString, .crs = operands->crs, .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_DISPLACEMENT};
+    const gis_value values[] = {
+        {GIS_INTEGER, {.integer = answer->overlap}},
+        {GIS_REAL, {.real = answer->dx}},
+        {GIS_REAL, {.real = answer->dy}},
+        {GIS_REAL, {.real = answer->distance}},
+        {GIS_TEXT, {.text = sunder_contact_string(answer->contact)}},
+        {GIS_INTEGER, {.integer = answer->attained}},
+        {GIS_INTEGER, {.integer = answer->rounded_is_free}},
+    };
+    double from[2];
+    sunder_shape_anchor(operands->q, from);
+    const double to[2] = {from[0] + answer->dx, from[1] + answer->dy};
+    if (!isfinite(to[0]) || !isfinite(to[1]))
+        return gis_fail(error, "the translation leaves the range of doubles, which a layer holds; without OUTPUT it is "
+                        "given exactly");
+    OGRGeometryH line = gis_geometry_line(from, to);
+    gis_sink_layer *layer;
+    if (!line)
+        return gis_no_memory(error);
+    if (!gis_sink_add(sink, &request, &layer, error)) {
+        OGR_G_DestroyGeometry(line);
+        return false;
+    }
+    return gis_sink_write(layer, NULL, line, values, error);
+}
+
+static bool open_sink(const gis_options *options, const gis_operands *operands, gis_sink **sink, gis_error *error)
+{
+    gis_sink_request request = gis_options_sink(options, options->operand[2], "pair");
+    return gis_operands_spare(operands, options, options->operand[2], error) &&
+           gis_sink_open(&request, gis_operands_source(operands), sink, error);
+}
+
+static bool report(const gis_options *options, const gis_operands *operands, const sunder_separation *answer,
+                   gis_sink *sink, bool taken, gis_error *error)
+{
+    gis_json text = {0};
+    gis_sink_result result;
+    json_pair(&text, answer);
+    const gis_delivery delivery = {options, sink, &text, sink || taken ? NULL : gis_print_json, &text};
+    bool ok = (gis_json_text(&text) || gis_no_memory(error)) &&
+              (!sink || (add_translation(sink, operands, answer, error) && gis_sink_finish(sink, &result, error))) &&
+              gis_deliver(&delivery, error);
+    gis_json_clear(&text);
+    return ok;
+}
+
+int gis_command_pair(const gis_options *options)
+{
+    gis_error error;
+    gis_operands operands = {0};
+    sunder_separation answer = {0};
+    gis_sink *sink = NULL;
+    sunder_error why;
+    double gap = 0;
+    bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error) &&
+                     gis_stats_check(options, &error) && gis_operands_read(options, &operands, &error);
+    if (ok && options->given[OPT_GAP])
+        ok = gis_length_in_layer_units(&options->length[OPT_GAP], &operands.rule, "--gap", &gap, &error);
+    ok = ok && (!options->operand[2] || open_sink(options, &operands, &sink, &error));
+    if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
+        ok = gis_fail(&error, "%s", why.message);
+    ok = ok && report(options, &operands, &answer, sink, taken, &error);
+    gis_sink_free(sink);
+    sunder_separation_clear(&answer);
+    gis_operands_clear(&operands);
+    return ok ? GIS_DONE : gis_say_failure(&error);
+}

@@ -1,0 +1,48 @@
+/* report.c: see report.h. */
+#include "commands/report.h"
+
+#include "base/message.h"
+
+#include <math.h>
+
+static void count(gis_json *out, const char *key, uint64_t value)
+{
+    gis_json_key(out, key);
+    gis_json_size(out, value);
+}
+
+void gis_json_seconds(gis_json *out, const char *key, double seconds)
+{
+    gis_json_key(out, key);
+    gis_json_double(out, round(seconds * 1e9) / 1e9);
+}
+
+void gis_json_operations(gis_json *out, const sunder_operations *operations)
+{
+    count(out, "comparisons", operations->comparisons);
+    count(out, "orientation_tests", operations->orientation_tests);
+    count(out, "segment_intersections", operations->segment_intersections);
+    count(out, "exact_fallbacks", operations->exact_fallbacks);
+}
+
+void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts)
+{
+    gis_json_open(out, '{');
+    count(out, "overlap", counts->overlap);
+    count(out, "too_close", counts->too_close);
+    count(out, "barrier", counts->barrier);
+    count(out, "contained", counts->contained);
+    count(out, "duplicate", counts->duplicate);
+    count(out, "inside_blocks", counts->inside_blocks);
+    gis_json_close(out, '}');
+}
+
+bool gis_any_conflict(const sunder_conflict_counts *counts)
+{
+    return counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
+}
+
+int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts)
+{
+    return gis_any_conflict(counts) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS : GIS_DONE;
+}

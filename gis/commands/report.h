@@ -1,0 +1,19 @@
+/* report.h: pieces that the reports of several commands share. */
+#ifndef GIS_REPORT_H
+#define GIS_REPORT_H
+
+#include "base/json.h"
+#include "options/progress.h"
+#include "sunder.h"
+
+/* A time, to the nanosecond: more digits would be noise. */
+void gis_json_seconds(gis_json *out, const char *key, double seconds);
+void gis_json_operations(gis_json *out, const sunder_operations *operations);
+void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
+
+/* Is anything in conflict between blocks? */
+bool gis_any_conflict(const sunder_conflict_counts *counts);
+/* The exit status: is anything in conflict between blocks, and does that matter? */
+int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts);
+
+#endif

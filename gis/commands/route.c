@@ -1,0 +1,150 @@
+/* route.c: sunder route. A shortest way for a robot among obstacles, contact allowed, as JSON, or as layers. */
+#include "base/message.h"
+#include "commands/commands.h"
+#include "commands/report.h"
+#include "route/layers.h"
+#include "write/deliver.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct route_run {
+    gis_route_input input;
+    sunder_route *route;
+    gis_sink_request request; /* the sink borrows it */
+    gis_sink *sink;           /* NULL: no layers are written */
+    double max_deviation;     /* of layers; NaN: none are written */
+    char reason[640];         /* "" where there is a route */
+} route_run;
+
+static bool open_sink(route_run *run, const gis_options *options, gis_error *error)
+{
+    static const char *const suffixes[] = {"placements", "obstacles", "free_space", "degenerate_segments",
+                                           "degenerate_points", NULL};
+    static const char *const fewer[] = {"placements", NULL};
+    const char *path = options->operand[1];
+    if (!gis_source_spare(run->input.source, options, path, error) ||
+        !gis_source_spare(run->input.robot_source, options, path, error))
+        return false;
+    run->request = gis_options_sink(options, path, "route");
+    run->request.suffixes = options->given[OPT_FREE_SPACE] ? suffixes : fewer;
+    return gis_sink_open(&run->request, run->input.source ? run->input.source : run->input.robot_source, &run->sink,
+                         error);
+}
+
+static bool find(route_run *run, gis_error *error)
+{
+    sunder_error why;
+    gis_progress progress = gis_progress_of(run->input.options);
+    gis_progress_stage(&progress, 0, 1);
+    const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
+    sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot, &run->input.from,
+                                             &run->input.to, &how, &run->route, &why);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+    gis_progress_done(&progress);
+    size_t obstacle;
+    sunder_no_route reason = sunder_route_reason(run->route, &obstacle);
+    if (reason == SUNDER_ROUTE_DISCONNECTED) {
+        snprintf(run->reason, sizeof run->reason, "start and goal lie in different components of free space");
+    } else if (reason != SUNDER_ROUTE_FOUND) {
+        char name[512];
+        gis_route_obstacle_name(&run->input, obstacle, name, sizeof name);
+        snprintf(run->reason, sizeof run->reason, "at the %s the robot's interior meets %s",
+                 reason == SUNDER_ROUTE_START_COLLIDES ? "start" : "goal", name);
+    }
+    return true;
+}
+
+static bool json_path(gis_json *out, const route_run *run, gis_error *error)
+{
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < sunder_route_vertices(run->route); i++) {
+        gis_json_open(out, '[');
+        if (run->input.options->given[OPT_EXACT]) {
+            const char *x, *y;
+            sunder_route_vertex_text(run->route, i, &x, &y);
+            gis_json_string(out, x);
+            gis_json_string(out, y);
+        } else {
+            double xy[2];
+            sunder_route_vertex(run->route, i, xy);
+            if (!isfinite(xy[0]) || !isfinite(xy[1]))
+                return gis_fail(error, "the path leaves the range of doubles; --exact gives it as rationals");
+            gis_json_double(out, xy[0]);
+            gis_json_double(out, xy[1]);
+        }
+        gis_json_close(out, ']');
+    }
+    gis_json_close(out, ']');
+    return true;
+}
+
+static bool json_route(gis_json *out, const route_run *run, gis_error *error)
+{
+    const bool found = !run->reason[0];
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "route");
+    gis_json_key(out, "found");
+    gis_json_bool(out, found);
+    gis_json_key(out, "length");
+    gis_json_double(out, found ? sunder_route_length(run->route) : (double)NAN);
+    gis_json_key(out, "path");
+    if (!json_path(out, run, error))
+        return false;
+    gis_json_key(out, "rounded_is_free");
+    if (found)
+        gis_json_bool(out, sunder_route_rounded_is_free(run->route));
+    else
+        gis_json_null(out);
+    gis_json_key(out, "max_deviation");
+    gis_json_double(out, run->max_deviation);
+    gis_json_key(out, "reason");
+    gis_json_string(out, found ? NULL : run->reason);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+    return true;
+}
+
+static bool write_layers(route_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    if (!gis_write_route(run->sink, &run->input, run->route, &run->max_deviation, error) ||
+        !gis_sink_finish(run->sink, &result, error))
+        return false;
+    if (!result.exact)
+        run->max_deviation += result.deviation;
+    return true;
+}
+
+static bool report(route_run *run, bool taken, gis_error *error)
+{
+    gis_json text = {0};
+    bool ok = (!run->sink || write_layers(run, error)) && json_route(&text, run, error) &&
+              (gis_json_text(&text) || gis_no_memory(error));
+    const gis_delivery delivery = {run->input.options, run->sink, &text, taken ? NULL : gis_print_json, &text};
+    ok = ok && gis_deliver(&delivery, error);
+    gis_json_clear(&text);
+    return ok;
+}
+
+int gis_command_route(const gis_options *options)
+{
+    gis_error error;
+    route_run run = {.max_deviation = NAN};
+    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) &&
+                     gis_stats_check(options, &error);
+    if (ok && options->given[OPT_FREE_SPACE] && !options->operand[1])
+        ok = gis_fail_usage(&error, "--free-space needs OUTPUT: it writes layers");
+    ok = ok && gis_route_input_read(options, &run.input, &error);
+    ok = ok && (!options->operand[1] || open_sink(&run, options, &error));
+    ok = ok && find(&run, &error) && report(&run, taken, &error);
+    int status = !ok                                                            ? gis_say_failure(&error)
+                 : run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
+                                                                         : GIS_DONE;
+    gis_sink_free(run.sink);
+    sunder_route_free(run.route);
+    gis_route_input_clear(&run.input);
+    return status;
+}

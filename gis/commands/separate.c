@@ -1,0 +1,254 @@
+/* separate.c: sunder separate. Read, separate, write, say what came of it. */
+#include "base/message.h"
+#include "commands/commands.h"
+#include "commands/report.h"
+#include "write/deliver.h"
+#include "write/layer_output.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdio.h>
+
+typedef struct separate_run {
+    const gis_options *options;
+    gis_layer_input input;
+    const char *suffixes[4]; /* of the layers besides the main one; the sink borrows them */
+    gis_sink *sink;
+    sunder_report *report;
+    sunder_layer_summary summary;
+    gis_progress progress;
+    unsigned chosen; /* which layers are written */
+    bool verified;
+    double start, read, write;
+} separate_run;
+
+static bool write_layers(const separate_run *run, gis_error *error)
+{
+    unsigned chosen = run->chosen;
+    gis_sink *sink = run->sink;
+    const gis_layer_input *input = &run->input;
+    if ((chosen & GIS_LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
+        return false;
+    if ((chosen & GIS_LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error))
+        return false;
+    if ((chosen & GIS_LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error))
+        return false;
+    return !(chosen & GIS_LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
+}
+
+/* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
+static bool open_sink(separate_run *run, gis_error *error)
+{
+    size_t n = 0;
+    if (!gis_layers_chosen(run->options, run->input.points, &run->chosen, error))
+        return false;
+    if (run->chosen & GIS_LAYER_DISPLACEMENT)
+        run->suffixes[n++] = "displacement";
+    if (run->chosen & GIS_LAYER_CONFLICTS)
+        run->suffixes[n++] = "conflicts";
+    if (run->chosen & GIS_LAYER_SYMBOLS)
+        run->suffixes[n++] = "symbols";
+    gis_sink_request request =
+        gis_options_sink(run->options, run->options->operand[1], gis_source_name(run->input.source));
+    request.suffixes = run->suffixes;
+    if (!gis_sink_open(&request, run->input.source, &run->sink, error))
+        return false;
+    if (!gis_sink_takes_more(run->sink))
+        run->chosen = GIS_LAYER_MAIN;
+    return true;
+}
+
+/* All but the last step, which is gis_deliver()'s. */
+static bool solve_and_write(separate_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    if (!open_sink(run, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.1, 0.8);
+    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
+        return false;
+    gis_progress_stage(&run->progress, 0.8, 1);
+    double begin = gis_clock();
+    if (!write_layers(run, error) || !gis_sink_finish(run->sink, &result, error))
+        return false;
+    run->write = gis_clock() - begin;
+    run->verified = run->summary.verified && result.exact;
+    gis_progress_done(&run->progress);
+    return true;
+}
+
+static void json_number(gis_json *out, const char *key, double value)
+{
+    gis_json_key(out, key);
+    gis_json_double(out, value);
+}
+
+static void json_count(gis_json *out, const char *key, size_t value)
+{
+    gis_json_key(out, key);
+    gis_json_size(out, value);
+}
+
+/* What part of the cost is not proved to be needed; of a cost beyond doubles all of it, as far as a double can tell. */
+static double optimality_gap(const sunder_layer_summary *summary)
+{
+    if (isinf(summary->cost))
+        return 1;
+    return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
+}
+
+static void json_displacement(gis_json *out, const separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_key(out, "displacement");
+    gis_json_open(out, '{');
+    json_number(out, "total", summary->total);
+    json_number(out, "mean", summary->mean);
+    json_number(out, "max", summary->max);
+    gis_json_key(out, "max_fid");
+    if (summary->max_feature < run->input.n && gis_source_fid(run->input.source, summary->max_feature) != OGRNullFID)
+        gis_json_signed(out, gis_source_fid(run->input.source, summary->max_feature));
+    else
+        gis_json_null(out);
+    json_number(out, "cost", summary->cost);
+    json_number(out, "lower_bound", summary->lower_bound);
+    json_number(out, "optimality_gap", optimality_gap(summary));
+    gis_json_close(out, '}');
+}
+
+static const char *unit_name(const separate_run *run)
+{
+    OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
+    char *name = NULL;
+    if (!gis_crs_is_known(crs))
+        return "unknown";
+    if (run->input.rule.geographic)
+        OSRGetAngularUnits(crs, &name);
+    else
+        OSRGetLinearUnits(crs, &name);
+    return name ? name : "unknown"; /* the CRS owns it */
+}
+
+static void json_losses(gis_json *out, const gis_list *losses)
+{
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < losses->n; i++)
+        gis_json_string(out, losses->items[i]);
+    gis_json_close(out, ']');
+}
+
+static void json_separate(gis_json *out, const separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "separate");
+    gis_json_key(out, "layer");
+    gis_json_string(out, gis_source_name(run->input.source));
+    gis_json_key(out, "unit");
+    gis_json_string(out, unit_name(run));
+    json_count(out, "features", run->input.n);
+    json_count(out, "vertices", summary->vertices);
+    json_count(out, "blocks", summary->blocks);
+    json_count(out, "clusters", summary->clusters);
+    gis_json_key(out, "clusters_optimal"); /* nothing proves optimality yet */
+    gis_json_null(out);
+    gis_json_line(out);
+    gis_json_key(out, "conflicts");
+    gis_json_open(out, '{');
+    gis_json_key(out, "before");
+    gis_json_conflict_counts(out, &summary->before);
+    gis_json_key(out, "after");
+    gis_json_conflict_counts(out, &summary->after);
+    gis_json_close(out, '}');
+    gis_json_line(out);
+    json_count(out, "moved", summary->moved);
+    json_count(out, "blocked", summary->blocked);
+    json_count(out, "skipped", summary->skipped);
+    json_count(out, "invalid", run->input.invalid);
+    json_count(out, "null", run->input.null);
+    json_count(out, "rounded", summary->rounded);
+    gis_json_line(out);
+    json_displacement(out, run);
+    gis_json_line(out);
+    gis_json_key(out, "verified");
+    gis_json_bool(out, run->verified);
+    gis_json_key(out, "losses");
+    json_losses(out, gis_sink_losses(run->sink));
+    gis_json_line(out);
+    gis_json_key(out, "seconds");
+    gis_json_open(out, '{');
+    gis_json_seconds(out, "read", run->read);
+    gis_json_seconds(out, "solve", summary->seconds_solve);
+    gis_json_seconds(out, "verify", summary->seconds_verify);
+    gis_json_seconds(out, "write", run->write);
+    gis_json_seconds(out, "total", gis_clock() - run->start);
+    gis_json_close(out, '}');
+    json_count(out, "peak_rss_bytes", gis_peak_rss());
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+}
+
+static bool print_summary(const void *separated, gis_error *error)
+{
+    const separate_run *run = separated;
+    (void)error; /* what stdio refuses shows when it is flushed */
+    const sunder_layer_summary *summary = &run->summary;
+    const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
+    const struct {
+        const char *name;
+        size_t before, after;
+    } rows[] = {{"overlap", before->overlap, after->overlap},
+                {"too close", before->too_close, after->too_close},
+                {"barrier", before->barrier, after->barrier},
+                {"contained", before->contained, after->contained},
+                {"duplicate", before->duplicate, after->duplicate},
+                {"inside blocks", before->inside_blocks, after->inside_blocks}};
+    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
+           run->input.n, summary->vertices, summary->blocks, summary->clusters);
+    printf("conflicts           before      after\n");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
+    printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved,
+           summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
+    printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean,
+           summary->max);
+    if (summary->max_feature < run->input.n)
+        printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
+    printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
+           optimality_gap(summary));
+    if (gis_any_conflict(after) && (run->chosen & GIS_LAYER_CONFLICTS))
+        printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
+               gis_options_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
+    printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
+           gis_clock() - run->start);
+    return true;
+}
+
+static bool deliver(const separate_run *run, bool taken, gis_error *error)
+{
+    gis_json stats = {0};
+    if (gis_stats_path(run->options))
+        json_separate(&stats, run);
+    const gis_delivery delivery = {run->options, run->sink, &stats,
+                                   taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+    bool ok = gis_deliver(&delivery, error);
+    gis_json_clear(&stats);
+    return ok;
+}
+
+int gis_command_separate(const gis_options *options)
+{
+    gis_error error;
+    separate_run run = {.options = options, .progress = gis_progress_of(options), .start = gis_clock()};
+    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
+    gis_progress_stage(&run.progress, 0, 0.1);
+    ok = ok && gis_layer_input_read(options, &run.input, &error);
+    run.read = gis_clock() - run.start;
+    ok = ok && solve_and_write(&run, &error) && deliver(&run, taken, &error);
+    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.after);
+    gis_sink_free(run.sink);
+    sunder_report_free(run.report);
+    gis_layer_input_clear(&run.input);
+    return status;
+}

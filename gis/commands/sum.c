@@ -1,0 +1,353 @@
+/* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
+#include "base/message.h"
+#include "commands/commands.h"
+#include "commands/report.h"
+#include "read/operand.h"
+#include "sum/layers.h"
+#include "write/deliver.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct sum_run {
+    const gis_options *options;
+    sunder_sum_options how;
+    gis_operands operands;
+    sunder_shape *reflected; /* -Q, with --reflect */
+    sunder_sum *sum;
+    gis_sink_request request; /* the sink borrows it */
+    gis_sink *sink;           /* NULL: no layers are written */
+    double max_deviation; /* of layers; NaN: none are written */
+    double read, decompose, compute, write, start;
+} sum_run;
+
+/* The number of the word among the names of an enumeration, in which every choice of the option is found. */
+static unsigned choice(const char *word, const char *(*name)(unsigned))
+{
+    unsigned i = 0;
+    while (strcmp(name(i), word) != 0)
+        i++;
+    return i;
+}
+
+static const char *algorithm_name(unsigned i)
+{
+    return sunder_algorithm_string((sunder_algorithm)i);
+}
+
+static const char *decomposition_name(unsigned i)
+{
+    return sunder_decomposition_string((sunder_decomposition)i);
+}
+
+static const char *order_name(unsigned i)
+{
+    return sunder_order_string((sunder_order)i);
+}
+
+/* How the sum is to be made. The planar map is refused where nobody would see it, or nothing makes it. */
+static bool choose_road(sum_run *run, gis_error *error)
+{
+    const gis_options *options = run->options;
+    run->how.algorithm = (sunder_algorithm)choice(options->text[OPT_ALGORITHM], algorithm_name);
+    run->how.decomposition = (sunder_decomposition)choice(options->text[OPT_DECOMPOSITION], decomposition_name);
+    run->how.order = (sunder_order)choice(options->text[OPT_ORDER], order_name);
+    run->how.seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
+    run->how.keep_map = options->given[OPT_PLANAR_MAP];
+    if (!run->how.keep_map)
+        return true;
+    if (run->how.algorithm == SUNDER_CONVOLUTION)
+        return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
+    if (!options->operand[2] || strcmp(options->operand[2], "/vsistdout/") == 0)
+        return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
+    return true;
+}
+
+static bool compute(sum_run *run, gis_error *error)
+{
+    sunder_error why;
+    const sunder_shape *q = run->operands.q;
+    gis_progress progress = gis_progress_of(run->options);
+    gis_progress_stage(&progress, 0, 1);
+    run->decompose = run->operands.building;
+    if (run->options->given[OPT_REFLECT]) {
+        double begin = gis_clock();
+        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK)
+            return gis_fail(error, "Q: %s", why.message);
+        q = run->reflected;
+        run->decompose += gis_clock() - begin;
+    }
+    sunder_sum_options how = run->how;
+    how.progress = gis_progress_call;
+    how.progress_user = &progress;
+    double begin = gis_clock();
+    sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+    run->compute = run->decompose + (gis_clock() - begin);
+    gis_progress_done(&progress);
+    return true;
+}
+
+/* One coordinate pair: rationals as strings, or decimals. */
+static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_error *error)
+{
+    gis_json_open(out, '[');
+    if (run->options->given[OPT_EXACT]) {
+        char *x, *y;
+        sunder_error why;
+        if (sunder_sum_vertex_text(run->sum, vertex, &x, &y, &why) != SUNDER_OK)
+            return gis_fail(error, "%s", why.message);
+        gis_json_string(out, x);
+        gis_json_string(out, y);
+        sunder_free(x);
+        sunder_free(y);
+    } else {
+        double xy[2];
+        sunder_sum_vertex(run->sum, vertex, xy);
+        if (!isfinite(xy[0]) || !isfinite(xy[1]))
+            return gis_fail(error, "the sum leaves the range of doubles; --exact gives it as rationals");
+        gis_json_double(out, xy[0]);
+        gis_json_double(out, xy[1]);
+    }
+    gis_json_close(out, ']');
+    return true;
+}
+
+static bool json_ring(gis_json *out, const sum_run *run, size_t polygon, size_t ring, gis_error *error)
+{
+    size_t n;
+    const uint32_t *vertices = sunder_sum_ring(run->sum, polygon, ring, &n);
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < n; i++)
+        if (!json_vertex(out, run, vertices[i], error))
+            return false;
+    gis_json_close(out, ']');
+    return true;
+}
+
+static bool json_polygon(gis_json *out, const sum_run *run, size_t polygon, gis_error *error)
+{
+    gis_json_open(out, '{');
+    gis_json_key(out, "outer");
+    if (!json_ring(out, run, polygon, 0, error))
+        return false;
+    gis_json_key(out, "holes");
+    gis_json_open(out, '[');
+    for (size_t r = 1; r < sunder_sum_rings(run->sum, polygon); r++)
+        if (!json_ring(out, run, polygon, r, error))
+            return false;
+    gis_json_close(out, ']');
+    gis_json_close(out, '}');
+    return true;
+}
+
+/* The keys polygons, degenerate_segments and degenerate_points, to follow those of the summary. */
+static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
+{
+    sunder_sum_counts counts;
+    sunder_sum_count(run->sum, &counts);
+    gis_json_line(out);
+    gis_json_key(out, "polygons");
+    gis_json_open(out, '[');
+    for (size_t p = 0; p < counts.polygons; p++) {
+        gis_json_line(out);
+        if (!json_polygon(out, run, p, error))
+            return false;
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+    gis_json_key(out, "degenerate_segments");
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < counts.degenerate_segments; i++) {
+        uint32_t ends[2];
+        sunder_sum_segment(run->sum, i, ends);
+        gis_json_open(out, '[');
+        if (!json_vertex(out, run, ends[0], error) || !json_vertex(out, run, ends[1], error))
+            return false;
+        gis_json_close(out, ']');
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+    gis_json_key(out, "degenerate_points");
+    gis_json_open(out, '[');
+    for (size_t i = 0; i < counts.degenerate_points; i++)
+        if (!json_vertex(out, run, sunder_sum_point(run->sum, i), error))
+            return false;
+    gis_json_close(out, ']');
+    return true;
+}
+
+static void json_operand(gis_json *out, const char *key, const sunder_shape *shape)
+{
+    gis_json_key(out, key);
+    gis_json_open(out, '{');
+    gis_json_key(out, "polygons");
+    gis_json_size(out, sunder_shape_polygons(shape));
+    gis_json_key(out, "vertices");
+    gis_json_size(out, sunder_shape_vertices(shape));
+    gis_json_close(out, '}');
+}
+
+static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
+{
+    sunder_sum_counts counts;
+    char *area;
+    sunder_error why;
+    sunder_sum_count(run->sum, &counts);
+    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK)
+        return gis_fail(error, "%s", why.message);
+    gis_json_key(out, "result");
+    gis_json_open(out, '{');
+    gis_json_key(out, "polygons");
+    gis_json_size(out, counts.polygons);
+    gis_json_key(out, "holes");
+    gis_json_size(out, counts.holes);
+    gis_json_key(out, "vertices");
+    gis_json_size(out, counts.vertices);
+    gis_json_key(out, "degenerate_segments");
+    gis_json_size(out, counts.degenerate_segments);
+    gis_json_key(out, "degenerate_points");
+    gis_json_size(out, counts.degenerate_points);
+    gis_json_key(out, "area");
+    gis_json_string(out, area);
+    gis_json_key(out, "max_deviation");
+    gis_json_double(out, run->max_deviation);
+    gis_json_close(out, '}');
+    sunder_free(area);
+    return true;
+}
+
+static void json_seconds(gis_json *out, const sum_run *run)
+{
+    double decompose, subsums, unite;
+    sunder_sum_seconds(run->sum, &decompose, &subsums, &unite);
+    decompose += run->decompose;
+    const struct {
+        const char *key;
+        double seconds;
+    } times[] = {{"read", run->read}, {"decompose", decompose}, {"subsums", subsums}, {"union", unite},
+                 {"write", run->write}, {"compute", run->compute}, {"total", gis_clock() - run->start}};
+    gis_json_key(out, "seconds");
+    gis_json_open(out, '{');
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
+        gis_json_seconds(out, times[i].key, times[i].seconds);
+    gis_json_close(out, '}');
+}
+
+/* The convolution has no phases that count for themselves. */
+static void json_operations(gis_json *out, const sum_run *run)
+{
+    static const char *const phase[] = {"decompose", "subsums", "union"};
+    sunder_operations operations;
+    sunder_sum_operations(run->sum, &operations);
+    gis_json_key(out, "operations");
+    gis_json_open(out, '{');
+    gis_json_operations(out, &operations);
+    gis_json_key(out, "phases");
+    gis_json_open(out, '{');
+    for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
+        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &operations))
+            break;
+        gis_json_key(out, phase[i]);
+        gis_json_open(out, '{');
+        gis_json_operations(out, &operations);
+        gis_json_close(out, '}');
+    }
+    gis_json_close(out, '}');
+    gis_json_close(out, '}');
+}
+
+/* The summary, with `geometry` (its keys, ready) at the end unless that is NULL. */
+static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gis_error *error)
+{
+    sunder_sum_method method;
+    sunder_sum_get_method(run->sum, &method);
+    bool united = method.decomposition != SUNDER_DECOMPOSITION_AUTO; /* the convolution's pieces are its own affair */
+    gis_json_open(out, '{');
+    gis_json_key(out, "command");
+    gis_json_string(out, "sum");
+    gis_json_key(out, "algorithm");
+    gis_json_string(out, sunder_algorithm_string(method.algorithm));
+    gis_json_key(out, "decomposition");
+    gis_json_string(out, united ? sunder_decomposition_string(method.decomposition) : NULL);
+    gis_json_key(out, "order");
+    gis_json_string(out, united ? sunder_order_string(method.order) : NULL);
+    json_operand(out, "p", run->operands.p);
+    json_operand(out, "q", run->operands.q);
+    gis_json_line(out);
+    if (!json_result(out, run, error))
+        return false;
+    gis_json_line(out);
+    json_operations(out, run);
+    gis_json_line(out);
+    json_seconds(out, run);
+    gis_json_key(out, "peak_rss_bytes");
+    gis_json_size(out, gis_peak_rss());
+    if (geometry)
+        gis_json_raw(out, geometry);
+    gis_json_close(out, '}');
+    gis_json_raw(out, "\n");
+    return true;
+}
+
+/* Opened before the work is done: what can be refused is refused at once. */
+static bool open_sink(sum_run *run, const char *path, gis_error *error)
+{
+    static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", "faces", "edges", "vertices",
+                                           NULL};
+    static const char *const without_map[] = {"degenerate_segments", "degenerate_points", NULL};
+    run->request = gis_options_sink(run->options, path, "sum");
+    run->request.suffixes = run->how.keep_map ? suffixes : without_map;
+    return gis_operands_spare(&run->operands, run->options, path, error) &&
+           gis_sink_open(&run->request, gis_operands_source(&run->operands), &run->sink, error);
+}
+
+/* All but the last step, which is gis_deliver()'s. */
+static bool write_layers(sum_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    if (!gis_write_sum(run->sink, run->sum, run->operands.crs, &run->max_deviation, error) ||
+        (run->how.keep_map && !gis_write_map(run->sink, sunder_sum_map(run->sum), run->operands.crs, error)) ||
+        !gis_sink_finish(run->sink, &result, error))
+        return false;
+    if (!result.exact)
+        run->max_deviation += result.deviation;
+    return true;
+}
+
+static bool report(sum_run *run, bool taken, gis_error *error)
+{
+    bool wanted = !run->sink && !taken; /* the whole sum, on standard output */
+    gis_json geometry = {.need_comma = true}, whole = {0}, stats = {0};
+    double begin = gis_clock();
+    bool ok = run->sink ? write_layers(run, error)
+                        : !wanted || (json_geometry(&geometry, run, error) &&
+                                      (gis_json_text(&geometry) || gis_no_memory(error)));
+    run->write = gis_clock() - begin;
+    ok = ok && (!gis_stats_path(run->options) || json_sum(&stats, run, NULL, error));
+    ok = ok && (!wanted || (json_sum(&whole, run, gis_json_text(&geometry), error) &&
+                            (gis_json_text(&whole) || gis_no_memory(error))));
+    const gis_delivery delivery = {run->options, run->sink, &stats, wanted ? gis_print_json : NULL, &whole};
+    ok = ok && gis_deliver(&delivery, error);
+    gis_json_clear(&geometry);
+    gis_json_clear(&whole);
+    gis_json_clear(&stats);
+    return ok;
+}
+
+int gis_command_sum(const gis_options *options)
+{
+    gis_error error;
+    sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
+    bool taken, ok = choose_road(&run, &error) && gis_stdout_taken(options, options->operand[2], &taken, &error);
+    ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
+    run.read = gis_clock() - run.start - run.operands.building;
+    ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));
+    ok = ok && compute(&run, &error) && report(&run, taken, &error);
+    gis_sink_free(run.sink);
+    sunder_sum_free(run.sum);
+    sunder_shape_free(run.reflected);
+    gis_operands_clear(&run.operands);
+    return ok ? GIS_DONE : gis_say_failure(&error);
+}

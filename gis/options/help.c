@@ -1,0 +1,113 @@
+/* help.c: --help, made from the table of options. It fits a screen: options of our own have a line each, those known
+ * from ogr2ogr are listed by name, wrapped, with their defaults. */
+#include "options/options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define SCREEN_WIDTH 96
+#define HELP_COLUMN 37
+
+static const char *const group_titles[GIS_N_GROUPS] = {
+    [GIS_GROUP_OWN] = "Options [default]:",
+    [GIS_GROUP_INPUT] = "Which features, as in ogr2ogr:",
+    [GIS_GROUP_OUTPUT] = "Output, as in ogr2ogr:",
+    [GIS_GROUP_TROUBLE] = "Trouble:",
+    [GIS_GROUP_RUNNING] = "Running:",
+};
+
+/* "--gap LENGTH", with other spellings in brackets if wanted. Returns the length. */
+static size_t describe(const gis_option *option, bool spellings, char *text, size_t size)
+{
+    size_t n = strcspn(option->names, " ");
+    const char *joint = option->type == GIS_TYPE_OPTIONAL ? "[=" : " ";
+    int length = snprintf(text, size, "%.*s%s%s%s", (int)n, option->names, option->metavar ? joint : "",
+                          option->metavar ? option->metavar : "",
+                          option->metavar && option->type == GIS_TYPE_OPTIONAL ? "]" : "");
+    const char *others = option->names + n;
+    if (spellings && *others) {
+        length += snprintf(text + length, size - (size_t)length, " (");
+        for (const char *c = others + 1; *c; c++)
+            length += snprintf(text + length, size - (size_t)length, *c == ' ' ? ", " : "%c", *c);
+        length += snprintf(text + length, size - (size_t)length, ")");
+    }
+    if (spellings && option->fallback)
+        length += snprintf(text + length, size - (size_t)length, " [%s]", option->fallback);
+    return (size_t)length;
+}
+
+static void print_own(unsigned command)
+{
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_option *option = &gis_option_table[i];
+        if (option->group != GIS_GROUP_OWN || !(option->commands & command))
+            continue;
+        char name[256];
+        describe(option, false, name, sizeof name);
+        printf("  %-*s %s", HELP_COLUMN - 3, name, option->help);
+        if (option->fallback)
+            printf(" [%s]", option->fallback);
+        printf("\n");
+    }
+}
+
+static void print_packed(unsigned command, gis_option_group group)
+{
+    size_t column = 0;
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_option *option = &gis_option_table[i];
+        if (option->group != group || !(option->commands & command))
+            continue;
+        char name[256];
+        size_t length = describe(option, true, name, sizeof name);
+        if (column && column + 2 + length > SCREEN_WIDTH) {
+            printf(",\n");
+            column = 0;
+        } else if (column) {
+            printf(", ");
+            column += 2;
+        }
+        if (!column)
+            column = (size_t)printf("  ");
+        printf("%s", name);
+        column += length;
+    }
+    printf("\n");
+}
+
+void gis_help_command(const gis_command *command)
+{
+    printf("Usage: sunder %s [options] %s\n%s.\n\n", command->name, command->operands, command->summary);
+    for (int group = 0; group < GIS_GROUP_HIDDEN; group++) {
+        printf("%s\n", group_titles[group]);
+        if (group == GIS_GROUP_OWN)
+            print_own(command->bit);
+        else
+            print_packed(command->bit, (gis_option_group)group);
+    }
+    if (command->bit & GIS_SHAPES)
+        printf("P, Q: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N], square:SIDE,\n"
+               "rectangle:WxH, or a data source. ");
+    if (command->bit & GIS_ROUTE)
+        printf("OBSTACLES, SHAPE: a data source, WKT, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N],\n"
+               "square:SIDE, rectangle:WxH. ");
+    if (command->bit & GIS_BUFFER)
+        printf("SHAPE: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N] (around the disc), inside-disc:R[:N],\n"
+               "square:SIDE or rectangle:WxH. ");
+    printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
+           "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n"
+           "Example: sunder %s %s\n",
+           command->bit & GIS_LAYERS  ? ", 3 conflicts"
+           : command->bit & GIS_ROUTE ? ", 3 no route"
+                                      : "", command->name, command->example);
+}
+
+void gis_help_program(void)
+{
+    printf("Usage: sunder COMMAND [options] OPERANDS\n"
+           "Exact Minkowski sums, and map features taken apart by the least amount.\n\nCommands:\n");
+    for (size_t i = 0; i < gis_n_commands; i++)
+        printf("  %-10s %-18s %s\n", gis_commands[i].name, gis_commands[i].operands, gis_commands[i].summary);
+    printf("\n`sunder COMMAND --help` lists the options of a command; `sunder --version` prints the version.\n"
+           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n");
+}

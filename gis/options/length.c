@@ -1,0 +1,125 @@
+/* length.c: see length.h. Conversions are done so that equal units cancel: 10us-ft on a layer in US survey feet is the
+ * double 10, not 10 * (1200 / 3937) / 0.304800609601219. */
+#include "options/length.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Metres in a unit as numerator / denominator, both exact doubles. */
+typedef struct unit {
+    const char *suffix;
+    gis_length_unit unit;
+    double numerator, denominator;
+} unit;
+
+static const unit units[] = {
+    {"", GIS_LAYER_UNIT, 1, 1},       {"m", GIS_METRE, 1, 1},           {"km", GIS_KILOMETRE, 1000, 1},
+    {"ft", GIS_FOOT, 3048, 10000},  {"us-ft", GIS_US_FOOT, 1200, 3937}, {"mm", GIS_SHEET_MILLIMETRE, 1, 1000},
+};
+#define N_UNITS (sizeof units / sizeof units[0])
+
+/* CRS definitions give their unit as a decimal of some ten digits; two that agree to this are the same unit (the
+ * international and the US foot differ by 2e-6). */
+static const double same_unit = 1e-9;
+
+bool gis_length_parse_number(const char *text, size_t n, double *value)
+{
+    char digits[64];
+    if (n == 0 || n >= sizeof digits)
+        return false;
+    for (size_t i = 0; i < n; i++)
+        if (!strchr("0123456789+-.eE", text[i]) || text[i] == '\0')
+            return false;
+    memcpy(digits, text, n);
+    digits[n] = '\0';
+    char *end;
+    double read = strtod(digits, &end);
+    if (end != digits + n || !isfinite(read))
+        return false;
+    *value = read;
+    return true;
+}
+
+/* How much of the text is the number: all up to a letter that starts a unit. The e of an exponent is followed by a
+ * digit or a sign. */
+static size_t number_part(const char *text, size_t n)
+{
+    size_t i = 0;
+    while (i < n && (strchr("0123456789+-.", text[i]) ||
+                     ((text[i] == 'e' || text[i] == 'E') && i + 1 < n && strchr("0123456789+-", text[i + 1]))))
+        i++;
+    return i;
+}
+
+bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **why)
+{
+    size_t split = number_part(text, n);
+    double value;
+    if (!gis_length_parse_number(text, split, &value)) {
+        *why = "not a finite number with a unit (m, km, ft, us-ft, mm) or without";
+        return false;
+    }
+    if (value < 0) {
+        *why = "negative";
+        return false;
+    }
+    for (size_t u = 0; u < N_UNITS; u++) {
+        if (strlen(units[u].suffix) == n - split && memcmp(text + split, units[u].suffix, n - split) == 0) {
+            *out = (gis_length){value == 0 ? 0.0 : value, units[u].unit};
+            return true;
+        }
+    }
+    *why = "unknown unit; known are m, km, ft, us-ft, and mm on the sheet";
+    return false;
+}
+
+/* Is the unit of so many metres? */
+static bool is_unit(const unit *candidate, double metres)
+{
+    double own = candidate->numerator / candidate->denominator;
+    return fabs(own - metres) <= same_unit * own;
+}
+
+bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, const char *what, double *out,
+                               gis_error *error)
+{
+    if (given->value == 0) { /* zero is zero in every unit, on every layer */
+        *out = 0;
+        return true;
+    }
+    if (rule->geographic) {
+        return gis_fail(error, "%s: the layer's coordinates are degrees, in which no length can be measured; "
+                        "reproject it first (ogr2ogr -t_srs)", what);
+    }
+    if (given->unit == GIS_LAYER_UNIT) {
+        *out = given->value;
+        return true;
+    }
+    if (given->unit == GIS_SHEET_MILLIMETRE && rule->scale == 0) {
+        return gis_fail(error, "%s: mm are measured on the sheet; give the map's scale, as in --scale 25000", what);
+    }
+    if (!rule->has_crs) {
+        return gis_fail(error, "%s: there is no CRS that would tell its unit; give the length without a unit, or "
+                        "give the layer a CRS (--input-crs), or reproject it first", what);
+    }
+    size_t from = 0, to = 0;
+    while (units[from].unit != given->unit)
+        from++;
+    while (to < N_UNITS && !is_unit(&units[to], rule->unit_metres))
+        to++;
+    double value = given->value;
+    if (given->unit == GIS_SHEET_MILLIMETRE)
+        value *= rule->scale;
+    if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
+        value = value * units[from].numerator / units[from].denominator / rule->unit_metres;
+    else if (units[to].numerator * units[from].denominator != units[from].numerator * units[to].denominator)
+        value =
+            value * (units[from].numerator * units[to].denominator) / (units[from].denominator * units[to].numerator);
+    if (!isfinite(value)) {
+        return gis_fail(error, "%s: too long for a double", what);
+    }
+    *out = value;
+    return true;
+}

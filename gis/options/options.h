@@ -1,0 +1,116 @@
+/* options.h: the one table of options. It feeds the parser (options.c), --help (help.c) and the test that compares both
+ * with the manual page. */
+#ifndef GIS_OPTIONS_H
+#define GIS_OPTIONS_H
+
+#include "base/error.h"
+#include "options/length.h"
+
+/* Commands, as bits. */
+enum {
+    GIS_SEPARATE = 1,
+    GIS_CHECK = 2,
+    GIS_SUM = 4,
+    GIS_PAIR = 8,
+    GIS_BUFFER = 16,
+    GIS_ROUTE = 32,
+    GIS_LAYERS = GIS_SEPARATE | GIS_CHECK,
+    GIS_SHAPES = GIS_SUM | GIS_PAIR,
+    GIS_ALL = GIS_LAYERS | GIS_SHAPES | GIS_BUFFER | GIS_ROUTE
+};
+
+typedef enum gis_option_id {
+    OPT_GAP, OPT_MAX_SHIFT, OPT_WEIGHT, OPT_WEIGHT_FIELD, OPT_FIXED_WHERE, OPT_IGNORE_WHERE, OPT_TOUCH_TOLERANCE,
+    OPT_BLOCK_FIELD, OPT_NO_BLOCKS, OPT_CONTAINED, OPT_SYMBOL, OPT_SYMBOL_FIELD, OPT_ID_FIELD, OPT_LIST_INSIDE,
+    OPT_SCALE, OPT_REFLECT, OPT_EXACT, OPT_ALGORITHM, OPT_DECOMPOSITION, OPT_ORDER, OPT_SEED, OPT_PLANAR_MAP,
+    OPT_ROBOT, OPT_FROM, OPT_TO, OPT_FREE_SPACE,
+    OPT_ALLOW_CONFLICTS,
+    OPT_SHAPE, OPT_OPERATION, OPT_DISSOLVE, OPT_DISSOLVE_FIELD, OPT_ALIGN, OPT_DEGENERATE,
+    OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX, OPT_IF, OPT_OO, OPT_CONFIG, OPT_INPUT_CRS,
+    OPT_OUTPUT, OPT_OF, OPT_LCO, OPT_CO, OPT_OUTPUT_LAYER, OPT_LAYERS, OPT_OVERWRITE, OPT_UPDATE, OPT_OVERWRITE_LAYER,
+    OPT_OGR_OVERWRITE, OPT_NO_STYLES,
+    OPT_INVALID, OPT_STRICT, OPT_ALLOW_INEXACT_OUTPUT,
+    OPT_THREADS, OPT_PROGRESS, OPT_QUIET, OPT_STATS, OPT_HELP,
+    OPT_N
+} gis_option_id;
+
+typedef enum gis_option_type {
+    GIS_TYPE_FLAG,
+    GIS_TYPE_TEXT,
+    GIS_TYPE_LIST,     /* repeatable text */
+    GIS_TYPE_PAIRS,    /* repeatable K=V; also as two arguments, K V, as older GDAL takes --config */
+    GIS_TYPE_CHOICE,   /* one of metavar's words, parted by | */
+    GIS_TYPE_LENGTH,   /* gis_length, >= 0 */
+    GIS_TYPE_COUNT,    /* an integer >= 0 */
+    GIS_TYPE_SCALE,    /* N or 1:N, > 0 */
+    GIS_TYPE_BOX,      /* four numbers with commas, or, as -spat has them, four arguments */
+    GIS_TYPE_OPTIONAL  /* alone, or with =metavar */
+} gis_option_type;
+
+/* Sections of --help. What is peculiar to the commands gets a line each; the rest is known from ogr2ogr. */
+typedef enum gis_option_group {
+    GIS_GROUP_OWN,
+    GIS_GROUP_INPUT,
+    GIS_GROUP_OUTPUT,
+    GIS_GROUP_TROUBLE,
+    GIS_GROUP_RUNNING,
+    GIS_GROUP_HIDDEN, /* a spelling, described with the option that it stands for */
+    GIS_N_GROUPS
+} gis_option_group;
+
+typedef struct gis_option {
+    gis_option_id id;
+    const char *names; /* the long name, then other spellings, parted by blanks */
+    gis_option_type type;
+    unsigned commands;
+    gis_option_group group;
+    const char *metavar;  /* NULL: takes no value */
+    const char *fallback; /* what holds if it is not given, or NULL */
+    const char *help;     /* with the unit of lengths */
+} gis_option;
+
+/* Indexed by gis_option_id, in the order of --help. */
+extern const gis_option gis_option_table[OPT_N];
+
+typedef struct gis_options gis_options;
+
+typedef struct gis_command {
+    unsigned bit;
+    const char *name;
+    const char *operands; /* as in the usage line */
+    size_t least, most;   /* how many operands */
+    const char *summary;
+    const char *example; /* operands and options of a usual call */
+    int (*run)(const gis_options *options); /* prints its own errors; returns the exit status */
+} gis_command;
+
+extern const gis_command gis_commands[];
+extern const size_t gis_n_commands;
+
+struct gis_options {
+    const gis_command *command;
+    bool given[OPT_N];
+    const char *text[OPT_N]; /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
+    const char **list[OPT_N]; /* of LIST and PAIRS: NULL-terminated, or NULL */
+    gis_length length[OPT_N];
+    double number[OPT_N];     /* of COUNT, SCALE */
+    double box[4];
+    const char *operand[3];   /* NULL where not given */
+    size_t n_operands;
+    char **owned; /* texts made here (K=V from two arguments) */
+    size_t n_owned;
+};
+
+/* Reads the arguments after the command's name. Strings are borrowed. With --help among them, given[OPT_HELP] is set
+ * and nothing else is asked of them. Failures are GIS_USAGE. Clear in any case. */
+bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error);
+void gis_options_clear(gis_options *options);
+
+/* Is the word one of the choice's (a|b|c)? */
+bool gis_options_word(const char *choices, const char *word, size_t n);
+
+/* --help of the program and of one command, on stdout. */
+void gis_help_program(void);
+void gis_help_command(const gis_command *command);
+
+#endif

@@ -1,0 +1,78 @@
+/* ruler.c: what a CRS says about lengths on its map. */
+#include "base/message.h"
+#include "read/operand.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A GeoPackage layer without a CRS is written, and read, with one called undefined (srs_id 0 or -1); that GDAL calls
+ * the first one geographic says nothing about the coordinates. */
+bool gis_crs_is_known(OGRSpatialReferenceH crs)
+{
+    const char *name = crs ? OSRGetName(crs) : NULL;
+    return crs && !(name && EQUALN(name, "undefined", 9));
+}
+
+gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options)
+{
+    if (!gis_crs_is_known(crs))
+        crs = NULL;
+    gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = options->number[OPT_SCALE]};
+    if (crs) {
+        rule.geographic = OSRIsGeographic(crs) != 0;
+        if (!rule.geographic)
+            rule.unit_metres = OSRGetLinearUnits(crs, NULL);
+    }
+    return rule;
+}
+
+/* Latitude, in degrees, of the middle of the box; NaN if PROJ cannot tell. */
+static double middle_latitude(OGRSpatialReferenceH crs, const double *box)
+{
+    double x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2, latitude = NAN;
+    OGRSpatialReferenceH geographic = OSRCloneGeogCS(crs);
+    OGRSpatialReferenceH projected = OSRClone(crs);
+    if (geographic && projected) {
+        OSRSetAxisMappingStrategy(geographic, OAMS_TRADITIONAL_GIS_ORDER);
+        OSRSetAxisMappingStrategy(projected, OAMS_TRADITIONAL_GIS_ORDER);
+        OGRCoordinateTransformationH inverse = OCTNewCoordinateTransformation(projected, geographic);
+        if (inverse && OCTTransform(inverse, 1, &x, &y, NULL))
+            latitude = y;
+        OCTDestroyCoordinateTransformation(inverse);
+    }
+    OSRRelease(geographic);
+    OSRRelease(projected);
+    return latitude;
+}
+
+/* On a Mercator map a length is that on the ground times the scale factor, cos(standard parallel) / cos(latitude) to
+ * the accuracy a warning needs (the ellipsoid changes it by less than a hundredth). */
+static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const double *box)
+{
+    const char *projection = OSRGetAttrValue(crs, "PROJECTION", 0);
+    if (!projection || strncmp(projection, "Mercator", 8) != 0)
+        return;
+    double degree = acos(-1.0) / 180;
+    double parallel = OSRGetProjParm(crs, "standard_parallel_1", 0, NULL);
+    double latitude = box ? middle_latitude(crs, box) : NAN;
+    double factor = cos(parallel * degree) / cos(latitude * degree);
+    if (isfinite(factor) && factor > 0)
+        gis_say_warning("%s: on this Mercator projection lengths are about %.4g times those on the ground (at latitude "
+                        "%.2f); reproject for lengths in true units", layer, factor, latitude);
+    else
+        gis_say_warning("%s: on a Mercator projection lengths are not those on the ground; reproject for true units",
+                        layer);
+}
+
+void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
+{
+    if (!gis_crs_is_known(crs))
+        return;
+    if (OSRIsGeographic(crs))
+        gis_say_warning(
+            "%s: the coordinates are degrees; distances and moves are measured in them, which are no lengths on "
+            "the ground",
+            layer);
+    else
+        warn_mercator(crs, layer, box);
+}

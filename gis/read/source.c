@@ -1,0 +1,429 @@
+/* source.c: opening, selecting, reading. The choice of the layer is in source_layer.c. */
+#define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "read/source.h"
+#include "read/source_layer.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct gis_source {
+    GDALDatasetH dataset;
+    OGRLayerH layer;
+    bool is_result; /* the layer is a result set of --sql */
+    OGRSpatialReferenceH crs;
+    char *path, *name, *where;
+    OGRFeatureH *features;
+    unsigned char *contents;
+    size_t n, capacity;
+    bool fids_unique;
+    gis_list warnings;
+};
+
+/* ---- Opening ---------------------------------------------------------------------------------------------- */
+
+static void keep_warnings(gis_source *source, const gis_listener *listener)
+{
+    for (size_t i = 0; i < listener->warnings.n; i++)
+        gis_list_add(&source->warnings, "%s", listener->warnings.items[i]);
+}
+
+static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
+    if (strncmp(request->path, "/vsistdin/", 10) == 0 && !CPLGetConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", NULL))
+        CPLSetThreadLocalConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", "-1");
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    source->dataset = GDALOpenEx(request->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                 request->drivers, request->open_options, NULL);
+    gis_listen_end();
+    if (!source->dataset) {
+        VSIStatBufL status;
+        if (VSIStatExL(request->path, &status, VSI_STAT_EXISTS_FLAG) != 0 && !strchr(request->path, ':'))
+            gis_fail(error, "%s: no such file", request->path);
+        else
+            gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,
+                     gis_listener_reason(&listener, "no driver knows it"));
+    }
+    keep_warnings(source, &listener);
+    gis_listener_clear(&listener);
+    return source->dataset != NULL;
+}
+
+static OGRGeometryH box_polygon(const double box[4])
+{
+    const double xy[] = {box[0], box[1], box[2], box[1], box[2], box[3], box[0], box[3]};
+    const size_t ring_end[] = {4}, poly_end[] = {1};
+    return gis_geometry_polygons(xy, ring_end, poly_end, 1, false);
+}
+
+static bool execute(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    OGRGeometryH box = request->bbox ? box_polygon(request->bbox) : NULL;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    source->layer = GDALDatasetExecuteSQL(source->dataset, request->sql, box, request->dialect);
+    gis_listen_end();
+    source->is_result = source->layer != NULL;
+    if (box)
+        OGR_G_DestroyGeometry(box);
+    if (!source->layer)
+        gis_fail(error, "%s: --sql: %s", request->path,
+                 gis_listener_reason(&listener, "the statement gives no layer"));
+    gis_listener_clear(&listener);
+    return source->layer != NULL;
+}
+
+static bool select_features(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    if (request->bbox && !request->sql)
+        OGR_L_SetSpatialFilterRect(source->layer, request->bbox[0], request->bbox[1], request->bbox[2],
+                                   request->bbox[3]);
+    if (!request->where)
+        return true;
+    source->where = CPLStrdup(request->where);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    OGRErr status = OGR_L_SetAttributeFilter(source->layer, request->where);
+    gis_listen_end();
+    if (status != OGRERR_NONE)
+        gis_fail_usage(error, "--where \"%s\": %s", request->where,
+                       gis_listener_reason(&listener, "not understood"));
+    gis_listener_clear(&listener);
+    return status == OGRERR_NONE;
+}
+
+static bool choose_crs(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    if (!request->input_crs) {
+        OGRSpatialReferenceH own = OGR_L_GetSpatialRef(source->layer);
+        source->crs = own ? OSRClone(own) : NULL;
+        return true;
+    }
+    source->crs = OSRNewSpatialReference(NULL);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    OGRErr status = source->crs ? OSRSetFromUserInput(source->crs, request->input_crs) : OGRERR_NOT_ENOUGH_MEMORY;
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    if (status != OGRERR_NONE)
+        return gis_fail_usage(error, "--input-crs %s: not a coordinate reference system", request->input_crs);
+    /* Data is x, y as GIS draws it, whatever axis order the authority gives. */
+    OSRSetAxisMappingStrategy(source->crs, OAMS_TRADITIONAL_GIS_ORDER);
+    return true;
+}
+
+/* ---- Reading ---------------------------------------------------------------------------------------------- */
+
+static bool keep(gis_source *source, OGRFeatureH feature)
+{
+    if (source->n == source->capacity) {
+        size_t capacity = source->capacity ? 2 * source->capacity : 1024;
+        OGRFeatureH *features = realloc(source->features, capacity * sizeof(OGRFeatureH));
+        if (features)
+            source->features = features;
+        unsigned char *contents = realloc(source->contents, capacity);
+        if (contents)
+            source->contents = contents;
+        if (!features || !contents)
+            return false;
+        source->capacity = capacity;
+    }
+    source->contents[source->n] = (unsigned char)gis_geometry_content(OGR_F_GetGeometryRef(feature));
+    source->features[source->n++] = feature;
+    return true;
+}
+
+static bool read_features(gis_source *source, gis_error *error)
+{
+    OGR_L_ResetReading(source->layer);
+    for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL;) {
+        if (!gis_geometry_is_finite(OGR_F_GetGeometryRef(feature))) {
+            GIntBig fid = OGR_F_GetFID(feature);
+            OGR_F_Destroy(feature);
+            return gis_fail(error, "layer %s, FID %" PRId64 ": a coordinate is not a finite number", source->name,
+                            (int64_t)fid);
+        }
+        if (!keep(source, feature)) {
+            OGR_F_Destroy(feature);
+            return gis_no_memory(error);
+        }
+    }
+    return true;
+}
+
+static bool read_all(gis_source *source, gis_error *error)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = read_features(source, error);
+    gis_listen_end();
+    if (done && listener.failures && source->where && source->n == 0)
+        done = gis_fail_usage(error, "--where \"%s\": %s", source->where,
+                              gis_listener_reason(&listener, "not understood"));
+    else if (done && listener.failures)
+        done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
+                        source->n, gis_listener_reason(&listener, "no reason given"));
+    keep_warnings(source, &listener);
+    gis_listener_clear(&listener);
+    return done;
+}
+
+static int compare_fids(const void *a, const void *b)
+{
+    GIntBig p = *(const GIntBig *)a, q = *(const GIntBig *)b;
+    return (p > q) - (p < q);
+}
+
+static bool look_at_fids(gis_source *source, gis_error *error)
+{
+    bool rising = true, missing = false;
+    for (size_t i = 0; i < source->n; i++) {
+        missing = missing || gis_source_fid(source, i) == OGRNullFID;
+        rising = rising && (i == 0 || gis_source_fid(source, i - 1) < gis_source_fid(source, i));
+    }
+    source->fids_unique = !missing && rising;
+    if (missing || rising)
+        return true;
+    GIntBig *fids = malloc(source->n * sizeof *fids);
+    if (!fids)
+        return gis_no_memory(error);
+    for (size_t i = 0; i < source->n; i++)
+        fids[i] = gis_source_fid(source, i);
+    qsort(fids, source->n, sizeof *fids, compare_fids);
+    source->fids_unique = true;
+    for (size_t i = 1; i < source->n; i++)
+        source->fids_unique = source->fids_unique && fids[i - 1] != fids[i];
+    free(fids);
+    return true;
+}
+
+static bool fill(gis_source *source, const gis_source_request *request, gis_error *error)
+{
+    source->path = CPLStrdup(request->path);
+    if (!open_dataset(source, request, error))
+        return false;
+    if (request->sql) {
+        source->name = CPLStrdup(CPLGetBasename(request->path));
+        if (!execute(source, request, error))
+            return false;
+    } else {
+        source->layer = gis_choose_layer(source->dataset, request->path, request->layer, request->takes, error);
+        if (!source->layer)
+            return false;
+        source->name = CPLStrdup(OGR_L_GetName(source->layer));
+    }
+    return gis_layer_fits(source->layer, source->name, request->takes, error) &&
+           select_features(source, request, error) && choose_crs(source, request, error) &&
+           read_all(source, error) && look_at_fids(source, error);
+}
+
+bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)
+{
+    gis_source *source = calloc(1, sizeof *source);
+    if (!source)
+        return gis_no_memory(error);
+    if (!fill(source, request, error)) {
+        gis_source_close(source);
+        return false;
+    }
+    *out = source;
+    return true;
+}
+
+void gis_source_close(gis_source *source)
+{
+    if (!source)
+        return;
+    for (size_t i = 0; i < source->n; i++)
+        OGR_F_Destroy(source->features[i]);
+    free(source->features);
+    free(source->contents);
+    if (source->crs)
+        OSRRelease(source->crs);
+    if (source->is_result)
+        GDALDatasetReleaseResultSet(source->dataset, source->layer);
+    if (source->dataset)
+        GDALClose(source->dataset);
+    CPLFree(source->path);
+    CPLFree(source->name);
+    CPLFree(source->where);
+    gis_list_clear(&source->warnings);
+    free(source);
+}
+
+/* ---- Marking features by an expression -------------------------------------------------------------------- */
+
+typedef struct fid_index {
+    GIntBig fid;
+    size_t index;
+} fid_index;
+
+static int compare_fid_index(const void *a, const void *b)
+{
+    return compare_fids(&((const fid_index *)a)->fid, &((const fid_index *)b)->fid);
+}
+
+/* Marks by asking the layer again with both filters; FIDs tell which features came. */
+static bool mark_by_filter(gis_source *source, const char *where, bool *marks, gis_error *error)
+{
+    fid_index *table = malloc((source->n + 1) * sizeof *table);
+    if (!table)
+        return gis_no_memory(error);
+    for (size_t i = 0; i < source->n; i++)
+        table[i] = (fid_index){gis_source_fid(source, i), i};
+    qsort(table, source->n, sizeof *table, compare_fid_index);
+    char *both = CPLStrdup(source->where ? CPLSPrintf("(%s) AND (%s)", source->where, where) : where);
+    bool done = OGR_L_SetAttributeFilter(source->layer, both) == OGRERR_NONE;
+    CPLFree(both);
+    if (done) {
+        OGR_L_ResetReading(source->layer);
+        for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL; OGR_F_Destroy(feature)) {
+            fid_index key = {OGR_F_GetFID(feature), 0};
+            fid_index *found = bsearch(&key, table, source->n, sizeof *table, compare_fid_index);
+            if (found)
+                marks[found->index] = true;
+        }
+    }
+    OGR_L_SetAttributeFilter(source->layer, source->where);
+    free(table);
+    return done;
+}
+
+static GDALDriverH memory_driver(void)
+{
+    GDALDriverH driver = GDALGetDriverByName("MEM"); /* for vectors since 3.11, else raster only */
+    if (!driver || !GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL))
+        driver = GDALGetDriverByName("Memory");
+    return driver;
+}
+
+/* The features of a result set may share FIDs, and a filter would renumber them: so the attributes are laid out in a
+ * layer of memory whose FIDs are our own numbers, and that is asked, in OGR's SQL. */
+static bool mark_in_memory(gis_source *source, const char *where, bool *marks, gis_error *error)
+{
+    GDALDriverH driver = memory_driver();
+    GDALDatasetH memory = driver ? GDALCreate(driver, "", 0, 0, 0, GDT_Unknown, NULL) : NULL;
+    OGRLayerH layer = memory ? GDALDatasetCreateLayer(memory, source->name, NULL, wkbNone, NULL) : NULL;
+    bool done = layer != NULL;
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source->layer);
+    for (int f = 0; done && f < OGR_FD_GetFieldCount(definition); f++)
+        done = OGR_L_CreateField(layer, OGR_FD_GetFieldDefn(definition, f), TRUE) == OGRERR_NONE;
+    for (size_t i = 0; done && i < source->n; i++) {
+        OGRFeatureH copy = OGR_F_Create(OGR_L_GetLayerDefn(layer));
+        OGR_F_SetFrom(copy, source->features[i], TRUE);
+        OGR_F_SetFID(copy, (GIntBig)i);
+        done = OGR_L_CreateFeature(layer, copy) == OGRERR_NONE;
+        OGR_F_Destroy(copy);
+    }
+    done = done && OGR_L_SetAttributeFilter(layer, where) == OGRERR_NONE;
+    if (done) {
+        OGR_L_ResetReading(layer);
+        for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(layer)) != NULL; OGR_F_Destroy(feature))
+            marks[OGR_F_GetFID(feature)] = true;
+    }
+    if (memory)
+        GDALClose(memory);
+    return done || gis_fail(error, "not understood");
+}
+
+bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error)
+{
+    for (size_t i = 0; i < source->n; i++)
+        marks[i] = false;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool in_place = !source->is_result && source->fids_unique;
+    bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
+    gis_listen_end();
+    if (!done || listener.failures)
+        done = gis_fail_usage(error, "the expression \"%s\": %s", where,
+                              gis_listener_reason(&listener, "not understood"));
+    gis_listener_clear(&listener);
+    return done;
+}
+
+/* ---- Getters ---------------------------------------------------------------------------------------------- */
+
+size_t gis_source_count(const gis_source *source)
+{
+    return source->n;
+}
+
+OGRFeatureH gis_source_feature(const gis_source *source, size_t i)
+{
+    return source->features[i];
+}
+
+OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
+{
+    return OGR_F_GetGeometryRef(source->features[i]);
+}
+
+GIntBig gis_source_fid(const gis_source *source, size_t i)
+{
+    return OGR_F_GetFID(source->features[i]);
+}
+
+bool gis_source_fids_unique(const gis_source *source)
+{
+    return source->fids_unique;
+}
+
+gis_content gis_source_content(const gis_source *source, size_t i)
+{
+    return (gis_content)source->contents[i];
+}
+
+size_t gis_source_content_count(const gis_source *source, gis_content content)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < source->n; i++)
+        count += source->contents[i] == (unsigned char)content;
+    return count;
+}
+
+const char *gis_source_name(const gis_source *source)
+{
+    return source->name;
+}
+
+const char *gis_source_path(const gis_source *source)
+{
+    return source->path;
+}
+
+GDALDatasetH gis_source_dataset(const gis_source *source)
+{
+    return source->dataset;
+}
+
+OGRLayerH gis_source_layer(const gis_source *source)
+{
+    return source->layer;
+}
+
+OGRwkbGeometryType gis_source_type(const gis_source *source)
+{
+    return OGR_L_GetGeomType(source->layer);
+}
+
+OGRSpatialReferenceH gis_source_crs(const gis_source *source)
+{
+    return source->crs;
+}
+
+int gis_source_field(const gis_source *source, const char *name)
+{
+    return OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(source->layer), name);
+}
+
+const gis_list *gis_source_warnings(const gis_source *source)
+{
+    return &source->warnings;
+}

@@ -1,0 +1,76 @@
+/* source.h: reading one layer, whole, as ogr2ogr would select it.
+ *
+ * All selected features are read and kept as OGR features, attributes and all, so that they can be written back with
+ * nothing lost. The dataset stays open until gis_source_close(). */
+#ifndef GIS_SOURCE_H
+#define GIS_SOURCE_H
+
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+
+#include "base/error.h"
+#include "read/geometry.h"
+
+/* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
+enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };
+
+/* What to read; zeroed members mean "not given". Strings are borrowed for the call. Lists end with NULL. */
+typedef struct gis_source_request {
+    const char *path;
+    const char *const *drivers;      /* --if */
+    const char *const *open_options; /* --oo */
+    const char *layer;               /* --input-layer; not together with sql */
+    const char *sql, *dialect;       /* --sql, --dialect */
+    const char *where;               /* --where */
+    const double *bbox;              /* --bbox: xmin, ymin, xmax, ymax */
+    const char *input_crs;           /* --input-crs: replaces the layer's */
+    unsigned takes;                  /* GIS_TAKES_... */
+} gis_source_request;
+
+typedef struct gis_source gis_source;
+
+/* Opens, chooses the layer and reads it. GDALAllRegister() must have been called.
+ *
+ * Fails with one sentence: no such file, not readable by GDAL, no such layer (the layers there are listed), several
+ * layers of a fitting kind and none named (they are listed), a layer of another kind, no geometry column, a bad --where
+ * or --sql or CRS, a coordinate that is not finite (naming layer and FID), a read error midway. A layer without
+ * features, or a filter that selects none, is no error: n = 0. */
+bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error);
+void gis_source_close(gis_source *source);
+
+size_t gis_source_count(const gis_source *source);
+/* Feature i, in the order read; its geometry and attributes are the source's own. Borrowed, do not change. */
+OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
+/* Its geometry; NULL if it has none. */
+OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
+/* Its FID as read; OGRNullFID if it has none. */
+GIntBig gis_source_fid(const gis_source *source, size_t i);
+/* Are all FIDs set and different? False may happen with --sql. */
+bool gis_source_fids_unique(const gis_source *source);
+gis_content gis_source_content(const gis_source *source, size_t i);
+/* How many features are of this content. */
+size_t gis_source_content_count(const gis_source *source, gis_content content);
+
+/* Name for messages and for the output layer: the layer's name; with --sql, the stem of the source's file. */
+const char *gis_source_name(const gis_source *source);
+const char *gis_source_path(const gis_source *source);
+GDALDatasetH gis_source_dataset(const gis_source *source);
+OGRLayerH gis_source_layer(const gis_source *source);
+/* The declared geometry type. */
+OGRwkbGeometryType gis_source_type(const gis_source *source);
+/* NULL if there is none. */
+OGRSpatialReferenceH gis_source_crs(const gis_source *source);
+
+/* Index of a field (case-insensitive, as OGR), or -1. Values through OGR_F_GetFieldAs... of the feature. */
+int gis_source_field(const gis_source *source, const char *name);
+
+/* For --fixed-where and --ignore-where: marks[i] says whether feature i satisfies `where`. A plain layer
+ * answers in the SQL that its --where speaks; the result of --sql, whose FIDs mean nothing, in OGR's. marks has
+ * gis_source_count() entries. A bad expression is GIS_USAGE. */
+bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error);
+
+/* What GDAL warned of while opening and reading. */
+const gis_list *gis_source_warnings(const gis_source *source);
+
+#endif

@@ -1,0 +1,301 @@
+/* input.c: obstacles of a layer of any kind, or of a text; the robot; start and goal. */
+#include "route/input.h"
+
+#include "base/message.h"
+#include "options/progress.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text, size_t size)
+{
+    if (!input->source)
+        snprintf(text, size, "OBSTACLES");
+    else if (gis_source_fid(input->source, i) == OGRNullFID)
+        snprintf(text, size, "layer %s, feature %zu", gis_source_name(input->source), i + 1);
+    else
+        snprintf(text, size, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(input->source),
+                 gis_source_fid(input->source, i));
+}
+
+/* ---- Lines and points --------------------------------------------------------------------------------------- */
+
+static bool grow(void **array, size_t *capacity, size_t need, size_t size, gis_error *error)
+{
+    if (need <= *capacity)
+        return true;
+    size_t larger = *capacity < 8 ? 16 : 2 * *capacity;
+    while (larger < need)
+        larger *= 2;
+    void *grown = realloc(*array, larger * size);
+    if (!grown)
+        return gis_no_memory(error);
+    *array = grown;
+    *capacity = larger;
+    return true;
+}
+
+static bool append_line(OGRGeometryH line, gis_lines *out, gis_error *error)
+{
+    int n = OGR_G_GetPointCount(line);
+    if (n <= 0)
+        return true;
+    void *xy = out->xy, *end = out->end;
+    bool ok = grow(&xy, &out->xy_capacity, 2 * (out->points + (size_t)n), sizeof *out->xy, error);
+    out->xy = xy;
+    ok = ok && grow(&end, &out->end_capacity, out->lines + 1, sizeof *out->end, error);
+    out->end = end;
+    if (!ok)
+        return false;
+    double *to = out->xy + 2 * out->points;
+    OGR_G_GetPoints(line, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
+    out->points += (size_t)n;
+    out->end[out->lines++] = out->points;
+    return true;
+}
+
+/* Recurses on the depth of collections, which GDAL's readers bound. */
+static bool append_lines(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_error *error)
+{
+    if (OGR_G_IsEmpty(geometry))
+        return true;
+    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (flat == wkbPoint || flat == wkbLineString)
+        return append_line(geometry, out, error);
+    if (flat == wkbCircularString || flat == wkbCompoundCurve) {
+        OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
+        *arcs = true;
+        bool ok = linear ? append_line(linear, out, error) : gis_fail(error, "GDAL cannot linearise an arc");
+        OGR_G_DestroyGeometry(linear);
+        return ok;
+    }
+    if (flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle)
+        return true;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        if (!append_lines(OGR_G_GetGeometryRef(geometry, i), out, arcs, error))
+            return false;
+    return true;
+}
+
+/* ---- Obstacles ---------------------------------------------------------------------------------------------- */
+
+static bool make_room(gis_route_input *input, size_t n, gis_error *error)
+{
+    input->shape = calloc(n + 1, sizeof *input->shape);
+    input->lines = calloc(n + 1, sizeof *input->lines);
+    input->obstacle = calloc(n + 1, sizeof *input->obstacle);
+    if (!input->shape || !input->lines || !input->obstacle)
+        return gis_no_memory(error);
+    input->n = n;
+    return true;
+}
+
+/* The polygons of a feature after --invalid, and its lines and points. */
+static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_rings *rings, gis_error *error)
+{
+    char who[512];
+    gis_invalid policy = gis_options_invalid(input->options);
+    bool arcs = false, invalid = false;
+    gis_error reason;
+    if (!geometry)
+        return true;
+    gis_route_obstacle_name(input, i, who, sizeof who);
+    if (!gis_geometry_rings(geometry, rings, error) || !append_lines(geometry, &input->lines[i], &arcs, error))
+        return false;
+    if (rings->linearised > 0)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        rings->linearised);
+    if (arcs)
+        gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
+    if (!rings->set.polygons)
+        return true;
+    bool ok = gis_shape_of_polygons(&rings->set, policy, who, &input->shape[i], &invalid, &reason, error);
+    if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
+        return false;
+    if (invalid)
+        gis_say_warning("%s: %s; %s", who, reason.message,
+                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
+    return true;
+}
+
+static bool read_layer(gis_route_input *input, gis_error *error)
+{
+    gis_source_request request = gis_options_source(input->options, input->options->operand[0],
+                                                    GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS);
+    const char *meant = gis_shape_prefix_meant(input->options->operand[0]);
+    if (!gis_source_open(&request, &input->source, error)) {
+        if (meant && strstr(error->message, "no such file"))
+            gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?",
+                     input->options->operand[0], meant);
+        return false;
+    }
+    gis_say_warnings(gis_source_warnings(input->source));
+    input->crs = gis_source_crs(input->source);
+    if (!make_room(input, gis_source_count(input->source), error))
+        return false;
+    gis_rings rings = {0};
+    bool ok = true;
+    for (size_t i = 0; ok && i < input->n; i++)
+        ok = gis_interrupted() ? gis_fail(error, "interrupted")
+                               : read_feature(input, i, gis_source_geometry(input->source, i), &rings, error);
+    gis_rings_clear(&rings);
+    return ok;
+}
+
+/* Does the WKT name a kind that gis_shape_from_text() does not know, lines or points? */
+static bool is_other_wkt(const char *text)
+{
+    static const char *const kinds[] = {"POINT", "MULTIPOINT", "LINESTRING", "MULTILINESTRING", "GEOMETRYCOLLECTION"};
+    text += strspn(text, " \t\n\r");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t n = strlen(kinds[i]);
+        if (EQUALN(text, kinds[i], n) && (text[n] == '(' || text[n] == ' '))
+            return true;
+    }
+    return false;
+}
+
+/* A literal is part of the command line, and what is wrong with it wrong usage; a file is not. */
+static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, bool literal, gis_error *error)
+{
+    char *at = CPLStrdup(wkt), *rest = at;
+    OGRGeometryH geometry = NULL;
+    gis_rings rings = {0};
+    bool ok = OGR_G_CreateFromWkt(&rest, NULL, &geometry) == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\r\n")];
+    if (!ok || !gis_geometry_is_finite(geometry))
+        ok = literal ? gis_fail_usage(error, "OBSTACLES: this WKT cannot be read: %.60s", wkt)
+                     : gis_fail(error, "%s: this WKT cannot be read: %.60s", who, wkt);
+    ok = ok && read_feature(input, 0, geometry, &rings, error);
+    gis_rings_clear(&rings);
+    OGR_G_DestroyGeometry(geometry);
+    CPLFree(at);
+    return ok;
+}
+
+static bool read_text(gis_route_input *input, const char *text, gis_error *error)
+{
+    double unasked = 0;
+    char who[640], *held = NULL;
+    const gis_invalid policy = gis_options_invalid(input->options);
+    gis_shape_name("OBSTACLES", text, who, sizeof who);
+    if (!make_room(input, 1, error) || (text[0] == '@' && !gis_shape_read_file(text + 1, who, &held, error)))
+        return false;
+    const char *wkt = held ? held : text;
+    bool ok;
+    if (is_other_wkt(wkt))
+        ok = read_wkt(input, wkt, who, !held, error);
+    else if (held)
+        ok = gis_shape_of_wkt(wkt, who, policy, &input->shape[0], &unasked, error);
+    else
+        ok = gis_shape_from_text(text, "OBSTACLES", &input->rule, policy, &input->shape[0], NULL, error);
+    free(held);
+    return ok;
+}
+
+/* ---- Start and goal ---------------------------------------------------------------------------------------------- */
+
+/* One coordinate: a decimal, taken as the nearest double, or a fraction of whole numbers, taken as it is. */
+static bool read_coordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
+{
+    const char *slash = memchr(text, '/', n);
+    if (!slash)
+        return gis_length_parse_number(text, n, value);
+    size_t start = text[0] == '-' || text[0] == '+', m = (size_t)(slash - text);
+    if (strspn(text + start, "0123456789") != m - start || m == start || n == m + 1 ||
+        strspn(slash + 1, "0123456789") < n - m - 1 || strspn(slash + 1, "0") >= n - m - 1)
+        return false;
+    *fraction = malloc(n + 1);
+    if (!*fraction)
+        return false;
+    memcpy(*fraction, text, n);
+    (*fraction)[n] = '\0';
+    *exact = *fraction;
+    return true;
+}
+
+static bool read_place(const gis_options *options, gis_option_id id, const char *name, sunder_place *out,
+                       char **fractions, gis_error *error)
+{
+    const char *text = options->text[id];
+    if (!text)
+        return gis_fail_usage(error, "%s X,Y is missing", name);
+    const char *comma = strchr(text, ',');
+    if (!comma || !read_coordinate(text, (size_t)(comma - text), &out->xy[0], &fractions[0], &out->text[0]) ||
+        !read_coordinate(comma + 1, strlen(comma + 1), &out->xy[1], &fractions[1], &out->text[1]))
+        return gis_fail_usage(error, "%s %s: expected X,Y, each a decimal or num/den", name, text);
+    return true;
+}
+
+static void join_place(double box[4], double x, double y)
+{
+    box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
+    box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
+}
+
+/* With the scale in the middle of the obstacles, where lengths are not those on the ground. */
+static void warn_of_crs(const gis_route_input *input)
+{
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    if (!input->crs)
+        return;
+    for (size_t i = 0; i < input->n; i++) {
+        double one[4];
+        for (size_t k = 0; k < input->lines[i].points; k++)
+            join_place(box, input->lines[i].xy[2 * k], input->lines[i].xy[2 * k + 1]);
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
+            continue;
+        sunder_shape_box(input->shape[i], one);
+        join_place(box, one[0], one[1]);
+        join_place(box, one[2], one[3]);
+    }
+    gis_ruler_warn(input->crs, gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+}
+
+bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_error *error)
+{
+    *out = (gis_route_input){.options = options};
+    const char *obstacles = options->operand[0];
+    bool text = gis_shape_is_text(obstacles);
+    /* What is wrong with the call is said before anything is read. */
+    if (!read_place(options, OPT_FROM, "--from", &out->from, out->text, error) ||
+        !read_place(options, OPT_TO, "--to", &out->to, out->text + 2, error))
+        return false;
+    if (!options->text[OPT_ROBOT])
+        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
+    if (!text && !read_layer(out, error))
+        return false;
+    out->rule = gis_ruler_of(out->crs, options);
+    if (text && !read_text(out, obstacles, error))
+        return false;
+    warn_of_crs(out);
+    if (!gis_shape_of_option(options, OPT_ROBOT, &out->rule, out->crs, &out->robot_source, &out->robot, error))
+        return false;
+    if (options->given[OPT_GAP] &&
+        !gis_length_in_layer_units(&options->length[OPT_GAP], &out->rule, "--gap", &out->gap, error))
+        return false;
+    for (size_t i = 0; i < out->n; i++)
+        out->obstacle[i] =
+            (sunder_obstacle){out->shape[i], out->lines[i].xy, out->lines[i].end, out->lines[i].lines};
+    return true;
+}
+
+void gis_route_input_clear(gis_route_input *input)
+{
+    for (size_t i = 0; i < input->n; i++) {
+        sunder_shape_free(input->shape[i]);
+        free(input->lines[i].xy);
+        free(input->lines[i].end);
+    }
+    free(input->shape);
+    free(input->lines);
+    free(input->obstacle);
+    for (int k = 0; k < 4; k++)
+        free(input->text[k]);
+    sunder_shape_free(input->robot);
+    gis_source_close(input->robot_source);
+    gis_source_close(input->source);
+    *input = (gis_route_input){0};
+}

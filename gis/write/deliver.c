@@ -1,0 +1,113 @@
+/* deliver.c: see deliver.h. */
+#include "write/deliver.h"
+
+#include "base/message.h"
+#include "base/text_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char *gis_stats_path(const gis_options *options)
+{
+    return options->given[OPT_STATS] ? options->text[OPT_STATS] : NULL;
+}
+
+/* Would both be the same file? Of what does not exist yet the names are compared. */
+static bool same_file(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    if (stat(a, &of_a) == 0 && stat(b, &of_b) == 0)
+        return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+    while (strncmp(a, "./", 2) == 0)
+        a += 2;
+    while (strncmp(b, "./", 2) == 0)
+        b += 2;
+    return strcmp(a, b) == 0;
+}
+
+bool gis_stats_check(const gis_options *options, gis_error *error)
+{
+    const char *path = gis_stats_path(options);
+    struct stat info;
+    if (!path || strcmp(path, "-") == 0)
+        return true;
+    for (size_t i = 0; i < options->n_operands; i++)
+        if (same_file(path, options->operand[i] + (options->operand[i][0] == '@')))
+            return gis_fail_usage(error, "--stats %s: that is %s; give another file", path,
+                                  i + 1 == options->command->most ? "the output" : "an input");
+    bool there = stat(path, &info) == 0;
+    if (there && S_ISDIR(info.st_mode))
+        return gis_fail(error, "--stats: %s is a directory", path);
+    if (there && access(path, W_OK) != 0)
+        return gis_fail(error, "--stats: cannot write %s: %s", path, strerror(errno));
+    char directory[4096];
+    const char *slash = strrchr(path, '/');
+    snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
+    if ((!there || S_ISREG(info.st_mode)) && access(directory, W_OK) != 0)
+        return gis_fail(error, "--stats: cannot write to %s: %s", directory, strerror(errno));
+    return true;
+}
+
+bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error)
+{
+    bool by_stats = options->given[OPT_STATS] && strcmp(options->text[OPT_STATS], "-") == 0;
+    bool by_layer = output && strncmp(output, "/vsistdout", 10) == 0;
+    if (by_stats && by_layer)
+        return gis_fail_usage(error, "--stats - and the output /vsistdout/ cannot share standard output");
+    *taken = by_stats || by_layer;
+    return true;
+}
+
+gis_sink_request gis_options_sink(const gis_options *options, const char *path, const char *main_layer)
+{
+    return (gis_sink_request){
+        .path = path,
+        .format = options->text[OPT_OF],
+        .layer_options = options->list[OPT_LCO],
+        .dataset_options = options->list[OPT_CO],
+        .main_layer = options->given[OPT_OUTPUT_LAYER] ? options->text[OPT_OUTPUT_LAYER] : main_layer,
+        .overwrite = options->given[OPT_OVERWRITE],
+        .update = options->given[OPT_UPDATE],
+        .overwrite_layer = options->given[OPT_OVERWRITE_LAYER],
+        .strict = options->given[OPT_STRICT],
+        .allow_inexact = options->given[OPT_ALLOW_INEXACT_OUTPUT],
+        .no_styles = options->given[OPT_NO_STYLES],
+    };
+}
+
+bool gis_print_json(const void *json, gis_error *error)
+{
+    const gis_json *text = json;
+    return fwrite(gis_json_text(text), 1, text->length, stdout) == text->length ||
+           gis_fail(error, "cannot write to standard output: %s", strerror(errno));
+}
+
+static bool flush_stdout(gis_error *error)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return true;
+    return gis_fail(error, "cannot write to standard output: %s", strerror(errno));
+}
+
+bool gis_deliver(const gis_delivery *delivery, gis_error *error)
+{
+    static const char *const what = "--stats";
+    const char *path = gis_stats_path(delivery->options);
+    gis_text_file file = {0};
+    bool ok = !path || gis_json_text(delivery->stats) || gis_no_memory(error);
+    if (ok && path && strcmp(path, "-") == 0)
+        ok = gis_print_json(delivery->stats, error);
+    else if (ok && path)
+        ok = gis_text_file_write(&file, path, gis_json_text(delivery->stats), delivery->stats->length, what, error);
+    ok = ok && (!delivery->print || delivery->print(delivery->run, error)) && flush_stdout(error) &&
+         gis_text_file_place(&file, what, error) && (!delivery->sink || gis_sink_publish(delivery->sink, error));
+    gis_text_file_end(&file, ok);
+    if (ok && delivery->sink) {
+        gis_say_warnings(gis_sink_warnings(delivery->sink));
+        gis_say_warnings(gis_sink_losses(delivery->sink));
+    }
+    return ok;
+}

@@ -1,0 +1,28 @@
+/* format.h: what is known of the formats that can be written. */
+#ifndef GIS_FORMAT_H
+#define GIS_FORMAT_H
+
+#include <gdal.h>
+
+#include "base/error.h"
+
+typedef struct gis_format {
+    GDALDriverH driver;
+    const char *name;    /* GDAL's short name */
+    bool database;       /* the path is a connection, not a file */
+    bool one_layer;      /* one layer a file: further layers become files of their own */
+    bool keeps_fids;     /* any 64-bit FID comes back as it was */
+    bool keeps_doubles;  /* coordinates are stored in binary as they are, no need to look */
+    bool keeps_order;    /* features come back in the order written */
+    bool reprojects;     /* turns coordinates to WGS 84 */
+    bool shapefile, geopackage;
+} gis_format;
+
+/* The format called `name`, or with name NULL the one that the path's ending or prefix tells. */
+bool gis_format_find(const char *path, const char *name, const char *const *layer_options, gis_format *out,
+                     gis_error *error);
+
+/* Does the driver know this layer creation option? */
+bool gis_format_has_option(const gis_format *format, const char *option);
+
+#endif

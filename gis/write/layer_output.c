@@ -1,0 +1,164 @@
+/* layer_output.c: the layers of separate but the conflicts. */
+#include "write/layer_output.h"
+
+#include "options/progress.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <string.h>
+
+bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen, gis_error *error)
+{
+    static const char *const names[] = {"main", "displacement", "conflicts", "symbols"};
+    unsigned apply = GIS_LAYER_MAIN | GIS_LAYER_DISPLACEMENT | GIS_LAYER_CONFLICTS | (points ? GIS_LAYER_SYMBOLS : 0u);
+    const char *list = options->text[OPT_LAYERS];
+    *chosen = list ? 0 : apply;
+    while (list) {
+        size_t n = strcspn(list, ","), k = 0;
+        while (k < 4 && (strlen(names[k]) != n || memcmp(names[k], list, n) != 0))
+            k++;
+        if (k == 4)
+            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
+                                  list);
+        *chosen |= 1u << k;
+        list = list[n] ? list + n + 1 : NULL;
+    }
+    *chosen &= apply;
+    return *chosen ||
+           gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", options->text[OPT_LAYERS]);
+}
+
+static gis_value block_value(const sunder_report *report, size_t feature)
+{
+    int64_t block = sunder_report_block(report, feature);
+    return block < 0 ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = block}};
+}
+
+bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
+{
+    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
+                                       {"sunder_dy", OFTReal, 0},
+                                       {"sunder_len", OFTReal, 0},
+                                       {"sunder_st", OFTString, 7},
+                                       {"sunder_blk", OFTInteger64, 0}};
+    const gis_layer_request request = {.suffix = "", .like_source = true, .as_source = true, .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_STATUS};
+    gis_sink_layer *layer;
+    if (!gis_sink_add(sink, &request, &layer, error))
+        return false;
+    for (size_t i = 0; i < input->n; i++) {
+        double dx, dy;
+        if (gis_interrupted())
+            return gis_fail(error, "interrupted");
+        sunder_report_move(report, i, &dx, &dy);
+        const gis_value values[] = {
+            {GIS_REAL, {.real = dx}},
+            {GIS_REAL, {.real = dy}},
+            {GIS_REAL, {.real = hypot(dx, dy)}},
+            {GIS_TEXT, {.text = sunder_feature_status_string(sunder_report_status(report, i))}},
+            block_value(report, i),
+        };
+        if (!gis_sink_write_moved(layer, gis_source_feature(input->source, i), dx, dy, values, error))
+            return false;
+    }
+    return true;
+}
+
+/* Where the arrow of a feature starts: a point itself, or the anchor of a polygon. */
+static bool arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error)
+{
+    sunder_shape_anchor(input->shape[i], from);
+    if (!input->points)
+        return true;
+    double *xy;
+    size_t n;
+    if (!gis_geometry_points(gis_source_geometry(input->source, i), &xy, &n, error))
+        return false;
+    if (n > 0)
+        memcpy(from, xy, 2 * sizeof *xy);
+    CPLFree(xy);
+    return true;
+}
+
+static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report, size_t i,
+                        const double move[2], gis_error *error)
+{
+    double from[2];
+    if (!arrow_start(input, i, from, error))
+        return false;
+    gis_conflict_texts scratch = {0};
+    gis_value id;
+    if (!gis_id_value(input, i, &scratch.id[0], &id, error))
+        return false;
+    const gis_value values[] = {gis_fid_value(input, i),
+                                id,
+                                {GIS_REAL, {.real = move[0]}},
+                                {GIS_REAL, {.real = move[1]}},
+                                {GIS_REAL, {.real = hypot(move[0], move[1])}},
+                                block_value(report, i)};
+    const double to[2] = {from[0] + move[0], from[1] + move[1]};
+    OGRGeometryH line = gis_geometry_line(from, to);
+    bool ok = line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
+    gis_conflict_texts_clear(&scratch);
+    return ok;
+}
+
+bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
+{
+    const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(input), 0}, {"dx", OFTReal, 0},
+                                {"dy", OFTReal, 0},       {"len", OFTReal, 0},           {"block", OFTInteger64, 0}};
+    const gis_layer_request request = {.suffix = "displacement",
+                                       .type = wkbLineString,
+                                       .crs = gis_source_crs(input->source),
+                                       .fields = fields,
+                                       .n_fields = sizeof fields / sizeof *fields,
+                                       .style = GIS_STYLE_DISPLACEMENT};
+    gis_sink_layer *layer;
+    if (!gis_sink_add(sink, &request, &layer, error))
+        return false;
+    for (size_t i = 0; i < input->n; i++) {
+        double move[2];
+        sunder_report_move(report, i, &move[0], &move[1]);
+        if ((move[0] != 0 || move[1] != 0) && !write_arrow(layer, input, report, i, move, error))
+            return false;
+    }
+    return true;
+}
+
+/* The shape moved: its corners plus the move, which the core chose so that they are doubles. */
+static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double dy, bool multi, gis_error *error)
+{
+    gis_polygons all = {0};
+    bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
+    OGRGeometryH geometry = ok ? gis_geometry_polygons(all.xy, all.ring_end, all.poly_end, all.polygons, multi) : NULL;
+    if (ok && !geometry)
+        gis_no_memory(error);
+    gis_polygons_clear(&all);
+    return geometry;
+}
+
+bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
+{
+    bool multi = false;
+    for (size_t i = 0; i < input->n; i++)
+        multi = multi || (input->shape[i] && sunder_shape_polygons(input->shape[i]) > 1);
+    const gis_layer_request request = {.suffix = "symbols", .like_source = true,
+                                       .type = multi ? wkbMultiPolygon : wkbPolygon,
+                                       .crs = gis_source_crs(input->source), .style = GIS_STYLE_SYMBOLS};
+    gis_sink_layer *layer;
+    if (!gis_sink_add(sink, &request, &layer, error))
+        return false;
+    for (size_t i = 0; i < input->n; i++) {
+        double dx, dy;
+        OGRGeometryH symbol = NULL;
+        sunder_report_move(report, i, &dx, &dy);
+        if (input->shape[i] && !sunder_shape_is_empty(input->shape[i])) {
+            symbol = symbol_geometry(input->shape[i], dx, dy, multi, error);
+            if (!symbol)
+                return false;
+        }
+        if (!gis_sink_write(layer, gis_source_feature(input->source, i), symbol, NULL, error))
+            return false;
+    }
+    return true;
+}

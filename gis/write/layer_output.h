@@ -1,0 +1,53 @@
+/* layer_output.h: the layers that separate and check write. */
+#ifndef GIS_LAYER_OUTPUT_H
+#define GIS_LAYER_OUTPUT_H
+
+#include "read/layer_input.h"
+#include "write/sink.h"
+
+/* Bits of --layers. */
+enum {
+    GIS_LAYER_MAIN = 1,
+    GIS_LAYER_DISPLACEMENT = 2,
+    GIS_LAYER_CONFLICTS = 4,
+    GIS_LAYER_SYMBOLS = 8
+};
+
+/* What --layers chooses of those that apply; an unknown name is wrong usage. */
+bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen, gis_error *error);
+
+/* LAYER: every feature, moved, with sunder_dx, sunder_dy, sunder_len, sunder_st, sunder_blk. */
+bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+/* LAYER_displacement: a line for each feature that moved. */
+bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report,
+                            gis_error *error);
+/* LAYER_conflicts. The layer is called MAIN_suffix, or MAIN if suffix is "". */
+bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, const char *suffix,
+                         gis_error *error);
+/* LAYER_symbols: the symbols of points where they stand now. */
+bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+
+/* The FID as a value; null if there is none. */
+gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
+/* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with
+ * NULL, free at the end). */
+OGRFieldType gis_id_type(const gis_layer_input *input);
+bool gis_id_value(const gis_layer_input *input, size_t feature, char **copy, gis_value *value, gis_error *error);
+
+/* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
+ * same scratch, which starts zeroed and is cleared at the end. */
+enum {
+    COLUMN_FID_A, COLUMN_ID_A, COLUMN_FID_B, COLUMN_ID_B, COLUMN_BARRIER, COLUMN_BARR_FID, COLUMN_KIND, COLUMN_REASON,
+    COLUMN_DISTANCE, COLUMN_BEFORE, COLUMN_DEPTH, COLUMN_REQUIRED, COLUMN_BLOCKED_BY, N_CONFLICT_COLUMNS
+};
+
+typedef struct gis_conflict_texts {
+    char *id[2]; /* OGR lends a text only until the next one is asked for: these are copies */
+    char *blocked_by;
+} gis_conflict_texts;
+
+bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *conflict, gis_conflict_texts *scratch,
+                         gis_value values[N_CONFLICT_COLUMNS], gis_error *error);
+void gis_conflict_texts_clear(gis_conflict_texts *scratch);
+
+#endif

@@ -1,0 +1,374 @@
+/* rtree.c: packing a SQLite R-tree.
+ *
+ * The tree is three tables (SQLite's documentation of its R*Tree module, "Shadow Tables"): _node holds the nodes as
+ * blobs, _rowid tells the leaf of each row, _parent the parent of each node but the root, which is node 1. A node is,
+ * big-endian: two bytes of depth (in the root only), two bytes that count its cells, then cells of 24 bytes: the row or
+ * child in 8 and four floats. Leaves are filled with consecutive boxes along a Hilbert curve through their centres
+ * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
+#include "write/rtree.h"
+
+#include "read/sql.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HEADER = 4, CELL = 24 };
+
+/* ---- SQL -------------------------------------------------------------------------------------------------- */
+
+/* One statement. */
+static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
+{
+    return gis_sql_run(dataset, sql, "the spatial index", error);
+}
+
+/* The text in the first column of the first row, or NULL; CPLFree(). */
+static char *ask(GDALDatasetH dataset, const char *sql)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
+    OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
+    char *text = row && OGR_F_IsFieldSetAndNotNull(row, 0) ? CPLStrdup(OGR_F_GetFieldAsString(row, 0)) : NULL;
+    if (row)
+        OGR_F_Destroy(row);
+    if (result)
+        GDALDatasetReleaseResultSet(dataset, result);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return text;
+}
+
+/* "rtree_TABLE_COLUMN" and a suffix, with quotes doubled and around; CPLFree(). */
+static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
+{
+    char *plain = CPLStrdup(CPLSPrintf("rtree_%s_%s%s", OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), suffix));
+    char *quoted = CPLMalloc(2 * strlen(plain) + 3), *to = quoted;
+    *to++ = quote;
+    for (const char *from = plain; *from; from++) {
+        if (*from == quote)
+            *to++ = quote;
+        *to++ = *from;
+    }
+    *to++ = quote;
+    *to = '\0';
+    CPLFree(plain);
+    return quoted;
+}
+
+/* A statement made of a head and many rows, run whenever it grows long. */
+typedef struct rows {
+    GDALDatasetH dataset;
+    char *head, *sql;
+    size_t head_length, n, capacity;
+} rows;
+
+static rows begin_rows(GDALDatasetH dataset, OGRLayerH layer, const char *table)
+{
+    char *name = tree_name(layer, table, '"');
+    rows all = {.dataset = dataset, .head = CPLStrdup(CPLSPrintf("INSERT INTO %s VALUES ", name))};
+    CPLFree(name);
+    all.head_length = strlen(all.head);
+    return all;
+}
+
+static bool flush(rows *all, gis_error *error)
+{
+    if (all->n <= all->head_length)
+        return true;
+    all->sql[all->n - 1] = '\0'; /* the last comma */
+    all->n = 0;
+    return run(all->dataset, all->sql, error);
+}
+
+/* Appends a row's text (it ends with a comma). SQLite takes statements of a million bytes. */
+static bool add_row(rows *all, const char *text, size_t length, gis_error *error)
+{
+    static const size_t limit = 250000;
+    if (all->n + length > limit && !flush(all, error))
+        return false;
+    if (all->n + length + all->head_length + 1 > all->capacity) {
+        all->capacity = all->n + length + all->head_length + limit + 1;
+        all->sql = CPLRealloc(all->sql, all->capacity);
+    }
+    if (all->n == 0) {
+        memcpy(all->sql, all->head, all->head_length);
+        all->n = all->head_length;
+    }
+    memcpy(all->sql + all->n, text, length + 1);
+    all->n += length;
+    return true;
+}
+
+static bool end_rows(rows *all, bool so_far, gis_error *error)
+{
+    bool done = so_far && flush(all, error);
+    CPLFree(all->head);
+    CPLFree(all->sql);
+    return done;
+}
+
+/* ---- Gathering -------------------------------------------------------------------------------------------- */
+
+void gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes)
+{
+    const char *column = OGR_L_GetGeometryColumn(layer);
+    if (!column || !column[0])
+        return;
+    char *literal = tree_name(layer, "_insert", '\'');
+    char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
+    CPLFree(ask(dataset, "SELECT 1")); /* any SQL makes GDAL create tables and indexes that it had put off */
+    boxes->trigger = ask(dataset, find);
+    CPLFree(find);
+    CPLFree(literal);
+    if (!boxes->trigger)
+        return;
+    char *name = tree_name(layer, "_insert", '"');
+    char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
+    if (!run(dataset, drop, NULL)) {
+        CPLFree(boxes->trigger);
+        boxes->trigger = NULL;
+    }
+    CPLFree(drop);
+    CPLFree(name);
+}
+
+static float below(double x)
+{
+    float f = (float)x;
+    return (double)f > x ? nextafterf(f, -INFINITY) : f;
+}
+
+static float above(double x)
+{
+    float f = (float)x;
+    return (double)f < x ? nextafterf(f, INFINITY) : f;
+}
+
+bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
+{
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry))
+        return true;
+    if (boxes->n == boxes->capacity) {
+        size_t capacity = boxes->capacity ? 2 * boxes->capacity : 256;
+        struct gis_box *larger = realloc(boxes->at, capacity * sizeof *larger);
+        if (!larger)
+            return gis_no_memory(error);
+        boxes->at = larger;
+        boxes->capacity = capacity;
+    }
+    OGREnvelope box;
+    OGR_G_GetEnvelope(geometry, &box);
+    boxes->at[boxes->n++] = (struct gis_box){
+        OGR_F_GetFID(feature), {below(box.MinX), above(box.MaxX), below(box.MinY), above(box.MaxY)}};
+    return true;
+}
+
+void gis_boxes_clear(gis_boxes *boxes)
+{
+    free(boxes->at);
+    CPLFree(boxes->trigger);
+    *boxes = (gis_boxes){0};
+}
+
+/* ---- Order ------------------------------------------------------------------------------------------------ */
+
+typedef struct place {
+    uint32_t along; /* position of the centre on the Hilbert curve of a 65536 x 65536 grid */
+    struct gis_box box;
+} place;
+
+/* Position of a cell of the grid along the curve: at each level the quadrant in which it lies, then the quadrant's own
+ * turn of the plane. */
+static uint32_t hilbert(uint32_t x, uint32_t y)
+{
+    uint32_t along = 0;
+    for (uint32_t s = 1u << 15; s; s >>= 1) {
+        uint32_t right = (x & s) != 0, up = (y & s) != 0;
+        along += s * s * ((3 * right) ^ up);
+        if (!up) {
+            if (right) {
+                x = 0xFFFF - x;
+                y = 0xFFFF - y;
+            }
+            uint32_t swap = x;
+            x = y;
+            y = swap;
+        }
+    }
+    return along;
+}
+
+static uint32_t cell_of(double centre, double from, double to)
+{
+    double t = to > from ? (centre - from) / (to - from) : 0;
+    return (uint32_t)(fmin(fmax(t, 0), 1) * 65535);
+}
+
+static int compare_places(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    if (p->along != q->along)
+        return p->along < q->along ? -1 : 1;
+    return (p->box.fid > q->box.fid) - (p->box.fid < q->box.fid);
+}
+
+/* Sorts the boxes along the curve; false if memory is out. */
+static bool sort_boxes(gis_boxes *boxes)
+{
+    place *places = malloc(boxes->n * sizeof *places);
+    if (!places)
+        return false;
+    double around[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    for (size_t i = 0; i < boxes->n; i++)
+        for (int k = 0; k < 4; k++)
+            around[k] = k % 2 ? fmax(around[k], boxes->at[i].side[k]) : fmin(around[k], boxes->at[i].side[k]);
+    for (size_t i = 0; i < boxes->n; i++) {
+        const float *side = boxes->at[i].side;
+        uint32_t x = cell_of(((double)side[0] + side[1]) / 2, around[0], around[1]);
+        uint32_t y = cell_of(((double)side[2] + side[3]) / 2, around[2], around[3]);
+        places[i] = (place){hilbert(x, y), boxes->at[i]};
+    }
+    qsort(places, boxes->n, sizeof *places, compare_places);
+    for (size_t i = 0; i < boxes->n; i++)
+        boxes->at[i] = places[i].box;
+    free(places);
+    return true;
+}
+
+/* ---- Nodes ------------------------------------------------------------------------------------------------ */
+
+static char *put_hex(char *to, uint64_t value, int bytes)
+{
+    static const char digits[] = "0123456789ABCDEF";
+    for (int shift = 8 * bytes - 4; shift >= 0; shift -= 4)
+        *to++ = digits[value >> shift & 15];
+    return to;
+}
+
+static char *put_float(char *to, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return put_hex(to, bits, 4);
+}
+
+typedef struct packing {
+    rows nodes, parents, leaves;
+    size_t capacity; /* cells in a node */
+    char *text;      /* room for one row of a node */
+    GIntBig next;    /* number of the next node */
+} packing;
+
+/* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
+ * node 1. */
+static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool leaf, int root_depth,
+                       struct gis_box *made, gis_error *error)
+{
+    bool root = root_depth >= 0;
+    made->fid = root ? 1 : all->next++;
+    memcpy(made->side, cells[0].side, sizeof made->side);
+    char *to = all->text + sprintf(all->text, "(%" PRId64 ",x'", (int64_t)made->fid);
+    to = put_hex(to, root ? (uint64_t)root_depth : 0, 2);
+    to = put_hex(to, n, 2);
+    for (size_t i = 0; i < n; i++) {
+        to = put_hex(to, (uint64_t)cells[i].fid, 8);
+        for (int k = 0; k < 4; k++) {
+            to = put_float(to, cells[i].side[k]);
+            made->side[k] = k % 2 ? fmaxf(made->side[k], cells[i].side[k]) : fminf(made->side[k], cells[i].side[k]);
+        }
+        char link[64];
+        int length = snprintf(link, sizeof link, "(%" PRId64 ",%" PRId64 "),", (int64_t)cells[i].fid,
+                              (int64_t)made->fid);
+        if (!add_row(leaf ? &all->leaves : &all->parents, link, (size_t)length, error))
+            return false;
+    }
+    size_t unused = 2 * CELL * (all->capacity - n);
+    memset(to, '0', unused);
+    to += unused;
+    memcpy(to, "'),", 4);
+    return add_row(&all->nodes, all->text, (size_t)(to + 3 - all->text), error);
+}
+
+/* Level upon level, in place: the boxes of a level's nodes become the cells of the next. */
+static bool write_levels(packing *all, gis_boxes *boxes, gis_error *error)
+{
+    size_t n = boxes->n;
+    for (int depth = 0;; depth++) {
+        bool top = n <= all->capacity;
+        size_t made = 0;
+        for (size_t first = 0; first < n; first += all->capacity) {
+            size_t count = n - first < all->capacity ? n - first : all->capacity;
+            struct gis_box node;
+            if (!write_node(all, boxes->at + first, count, depth == 0, top ? depth : -1, &node, error))
+                return false;
+            boxes->at[made++] = node; /* made <= first: these cells are written already */
+        }
+        if (top)
+            return true;
+        n = made;
+    }
+}
+
+static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error)
+{
+    static const char *const tables[] = {"_node", "_parent", "_rowid"};
+    bool done = true;
+    for (size_t i = 0; done && i < sizeof tables / sizeof *tables; i++) {
+        char *name = tree_name(layer, tables[i], '"');
+        char *sql = CPLStrdup(CPLSPrintf("DELETE FROM %s", name));
+        done = run(dataset, sql, error);
+        CPLFree(sql);
+        CPLFree(name);
+    }
+    return done;
+}
+
+/* Cells in a node of this tree: SQLite chose the size of a node by the size of a page. */
+static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
+{
+    char *name = tree_name(layer, "_node", '"');
+    char *sql = CPLStrdup(CPLSPrintf("SELECT length(data) FROM %s WHERE nodeno = 1", name));
+    char *length = ask(dataset, sql);
+    long bytes = length ? atol(length) : 0;
+    CPLFree(length);
+    CPLFree(sql);
+    CPLFree(name);
+    return bytes < HEADER + 2 * CELL ? 0 : (size_t)(bytes - HEADER) / CELL;
+}
+
+static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
+{
+    size_t capacity = node_capacity(dataset, layer);
+    if (!capacity)
+        return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
+    if (!sort_boxes(boxes))
+        return gis_no_memory(error);
+    packing all = {begin_rows(dataset, layer, "_node"),
+                   begin_rows(dataset, layer, "_parent"),
+                   begin_rows(dataset, layer, "_rowid"),
+                   capacity,
+                   CPLMalloc(2 * (HEADER + CELL * capacity) + 64),
+                   2};
+    bool done = empty_tables(dataset, layer, error) && write_levels(&all, boxes, error);
+    done = end_rows(&all.nodes, done, error);
+    done = end_rows(&all.parents, done, error);
+    done = end_rows(&all.leaves, done, error);
+    CPLFree(all.text);
+    return done;
+}
+
+bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
+{
+    if (!boxes->trigger)
+        return true;
+    bool done = (boxes->n == 0 || fill(dataset, layer, boxes, error)) && run(dataset, boxes->trigger, error);
+    gis_boxes_clear(boxes);
+    return done;
+}

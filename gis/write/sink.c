@@ -1,0 +1,411 @@
+/* sink.c: the life of a sink, and all that can be refused before any work is done. */
+#define _GNU_SOURCE
+#include "write/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* ---- Names ------------------------------------------------------------------------------------------------ */
+
+char *gis_sink_inside(const gis_sink *sink, const char *file)
+{
+    if (sink->place == GIS_PLACE_DATABASE)
+        return CPLStrdup(sink->request.path);
+    return sink->stage ? gis_stage_inside(sink->stage, file) : CPLStrdup(CPLSPrintf("%s/%s", sink->memory, file));
+}
+
+char *gis_sink_name_for(const gis_sink *sink, const char *suffix)
+{
+    return CPLStrdup(suffix[0] ? CPLSPrintf("%s_%s", sink->request.main_layer, suffix) : sink->request.main_layer);
+}
+
+static const char *double_ending(const char *name)
+{
+    size_t length = strlen(name);
+    return length > 8 && EQUAL(name + length - 8, ".shp.zip") ? name + length - 8 : NULL;
+}
+
+char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
+{
+    const char *name = CPLGetFilename(sink->request.path);
+    const char *ending = double_ending(name);
+    if (!ending)
+        ending = strrchr(name, '.');
+    if (!ending)
+        ending = name + strlen(name);
+    if (!suffix[0])
+        return CPLStrdup(name);
+    return CPLStrdup(CPLSPrintf("%.*s_%s%s", (int)(ending - name), name, suffix, ending));
+}
+
+/* ---- Is it the input? ------------------------------------------------------------------------------------- */
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    if (strcmp(a, b) == 0)
+        return true;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
+static bool belongs_to_source(const gis_sink *sink, const char *path)
+{
+    if (!sink->source)
+        return false;
+    if (same_file(gis_source_path(sink->source), path))
+        return true;
+    char **files = GDALGetFileList(gis_source_dataset(sink->source));
+    bool found = false;
+    for (char **file = files; file && *file; file++)
+        found = found || same_file(*file, path);
+    CSLDestroy(files);
+    return found;
+}
+
+/* ---- What exists ------------------------------------------------------------------------------------------ */
+
+bool gis_sink_exists(const char *path)
+{
+    VSIStatBufL status;
+    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG) == 0;
+}
+
+bool gis_sink_is_directory(const char *path)
+{
+    VSIStatBufL status;
+    return VSIStatExL(path, &status, VSI_STAT_EXISTS_FLAG | VSI_STAT_NATURE_FLAG) == 0 && VSI_ISDIR(status.st_mode);
+}
+
+static GDALDatasetH open_quietly(const char *path, unsigned flags, const gis_format *format)
+{
+    const char *drivers[] = {format ? format->name : NULL, NULL};
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | flags, format ? drivers : NULL, NULL, NULL);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return dataset;
+}
+
+static bool has_layer(GDALDatasetH dataset, const char *name)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool found = GDALDatasetGetLayerByName(dataset, name) != NULL;
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return found;
+}
+
+/* The layer that the output is to have exists, or is the very input. */
+static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, const char *suffix, bool is_source,
+                             gis_error *error)
+{
+    char *name = gis_sink_name_for(sink, suffix);
+    bool done = true;
+    if (is_source && EQUAL(name, OGR_L_GetName(gis_source_layer(sink->source))))
+        done = gis_fail(error, "layer %s of %s is the input itself; give the output another name with --output-layer",
+                        name, sink->request.path);
+    else if (!sink->request.overwrite_layer && has_layer(dataset, name))
+        done = gis_fail(error, "%s has a layer %s already; --overwrite-layer replaces it, --output-layer names another",
+                        sink->request.path, name);
+    CPLFree(name);
+    return done;
+}
+
+static bool check_layer_names(const gis_sink *sink, gis_error *error)
+{
+    GDALDatasetH dataset = open_quietly(sink->request.path, GDAL_OF_READONLY, NULL);
+    if (!dataset)
+        return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
+    bool is_source = belongs_to_source(sink, sink->request.path);
+    bool done = check_layer_name(sink, dataset, "", is_source, error);
+    for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix; suffix++)
+        done = check_layer_name(sink, dataset, *suffix, is_source, error);
+    GDALClose(dataset);
+    return done;
+}
+
+/* What is renamed over is gone: a device or a pipe would be taken from the whole system. */
+static bool check_is_file(const char *path, gis_error *error)
+{
+    struct stat status;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
+    return true;
+}
+
+/* A file that the output is to have, of a format of one layer a file. */
+static bool check_file(const gis_sink *sink, const char *suffix, gis_error *error)
+{
+    char *name = gis_sink_file_for(sink, suffix);
+    char *path = CPLStrdup(CPLFormFilename(CPLGetPath(sink->request.path), name, NULL));
+    bool replace = sink->request.overwrite || sink->request.overwrite_layer;
+    bool done = true;
+    if (gis_sink_exists(path)) {
+        if (belongs_to_source(sink, path))
+            done = gis_fail(error, "%s: input and output are the same", path);
+        else if (!replace)
+            done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
+        else if (gis_sink_is_directory(path))
+            done = gis_fail(error, "%s is a directory; it is not replaced by a file", path);
+        else
+            done = check_is_file(path, error);
+    }
+    CPLFree(name);
+    CPLFree(path);
+    return done;
+}
+
+static bool check_files(const gis_sink *sink, gis_error *error)
+{
+    bool done = check_file(sink, "", error);
+    for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix && !sink->to_stdout; suffix++)
+        done = check_file(sink, *suffix, error);
+    return done;
+}
+
+static bool check_whole(gis_sink *sink, gis_error *error)
+{
+    const char *path = sink->request.path;
+    if (!gis_sink_exists(path))
+        return true;
+    if (!check_is_file(path, error))
+        return false;
+    if (sink->request.update) {
+        sink->updating = true;
+        return check_layer_names(sink, error);
+    }
+    if (belongs_to_source(sink, path))
+        return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
+    if (!sink->request.overwrite)
+        return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
+    if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
+        GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
+        if (!old)
+            return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);
+        GDALClose(old);
+    }
+    return true;
+}
+
+static bool check_database(gis_sink *sink, gis_error *error)
+{
+    if (sink->request.overwrite)
+        return gis_fail_usage(error, "--overwrite would replace a whole database; use --overwrite-layer");
+    sink->updating = true;
+    return check_layer_names(sink, error);
+}
+
+static bool check_existing(gis_sink *sink, gis_error *error)
+{
+    if (sink->to_stdout)
+        return true;
+    if (sink->place == GIS_PLACE_DATABASE)
+        return check_database(sink, error);
+    return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
+}
+
+/* ---- Formats that cannot hold the coordinates ------------------------------------------------------------- */
+
+static bool is_wgs84(OGRSpatialReferenceH crs)
+{
+    const char *code = OSRGetAuthorityCode(crs, NULL), *authority = OSRGetAuthorityName(crs, NULL);
+    return code && authority &&
+           ((EQUAL(authority, "EPSG") && EQUAL(code, "4326")) || (EQUAL(authority, "OGC") && EQUAL(code, "CRS84")));
+}
+
+static bool check_reprojection(const gis_sink *sink, gis_error *error)
+{
+    OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : NULL;
+    if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs))
+        return true;
+    return gis_fail(error,
+                    "%s: %s would reproject the coordinates to WGS 84, so that nothing could be said of the written "
+                    "features; write another format, or give --allow-inexact-output",
+                    sink->request.path, sink->format.name);
+}
+
+/* ---- Life ------------------------------------------------------------------------------------------------- */
+
+/* SOURCE_DATE_EPOCH (reproducible-builds.org) fixes the dates that GDAL writes into a GeoPackage. */
+static void fix_date(gis_sink *sink)
+{
+    const char *epoch = getenv("SOURCE_DATE_EPOCH");
+    if (!epoch || !epoch[0] || CPLGetConfigOption("OGR_CURRENT_DATE", NULL))
+        return;
+    char *end;
+    time_t seconds = (time_t)strtoll(epoch, &end, 10);
+    struct tm broken;
+    char text[40];
+    if (*end || !gmtime_r(&seconds, &broken))
+        return;
+    strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S.000Z", &broken);
+    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", text);
+    sink->set_date = true;
+}
+
+static void choose_place(gis_sink *sink)
+{
+    const char *path = sink->request.path;
+    sink->to_stdout = strcmp(path, "/vsistdout/") == 0 || strcmp(path, "/dev/stdout") == 0;
+    if (sink->format.database)
+        sink->place = GIS_PLACE_DATABASE;
+    else if (sink->to_stdout || strncmp(path, "/vsi", 4) == 0)
+        sink->place = GIS_PLACE_MEMORY;
+    else
+        sink->place = GIS_PLACE_FILE;
+}
+
+static bool prepare_place(gis_sink *sink, gis_error *error)
+{
+    if (sink->place == GIS_PLACE_FILE) {
+        if (!gis_stage_new(sink->request.path, &sink->stage, error))
+            return false;
+        sink->main_file = CPLStrdup(gis_stage_main(sink->stage));
+    } else if (sink->place == GIS_PLACE_MEMORY) {
+        if (sink->updating)
+            return gis_fail(error, "%s: --update works on plain files and databases only", sink->request.path);
+        sink->memory = CPLStrdup(CPLSPrintf("/vsimem/sunder-%p", (void *)sink));
+        const char *ending = GDALGetMetadataItem(sink->format.driver, GDAL_DMD_EXTENSION, NULL);
+        sink->main_file = CPLStrdup(sink->to_stdout ? CPLResetExtension("output", ending ? ending : "")
+                                                    : CPLGetFilename(sink->request.path));
+        VSIMkdir(sink->memory, 0700);
+    }
+    return true;
+}
+
+static bool check_request(const gis_sink_request *request, gis_error *error)
+{
+    if (request->overwrite && request->update)
+        return gis_fail_usage(error, "--overwrite replaces the whole output and --update keeps it: give one of them");
+    if (request->overwrite_layer && !request->update)
+        return gis_fail_usage(error, "--overwrite-layer needs --update");
+    return true;
+}
+
+bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gis_sink **out, gis_error *error)
+{
+    gis_format format;
+    if (!check_request(request, error) ||
+        !gis_format_find(request->path, request->format, request->layer_options, &format, error))
+        return false;
+    gis_sink *sink = calloc(1, sizeof *sink);
+    if (!sink)
+        return gis_no_memory(error);
+    sink->request = *request;
+    sink->source = source;
+    sink->format = format;
+    sink->fids_kept = format.keeps_fids && (!source || gis_source_fids_unique(source));
+    choose_place(sink);
+    fix_date(sink);
+    if (!check_reprojection(sink, error) || !check_existing(sink, error) || !prepare_place(sink, error)) {
+        gis_sink_free(sink);
+        return false;
+    }
+    *out = sink;
+    return true;
+}
+
+bool gis_sink_takes_more(const gis_sink *sink)
+{
+    return !sink->to_stdout;
+}
+
+static void free_layer(gis_sink_layer *layer)
+{
+    gis_sink_forget_sent(layer);
+    gis_boxes_clear(&layer->boxes);
+    CPLFree(layer->name);
+    CPLFree(layer->file);
+    free(layer->changes);
+    CPLFree(layer->field_map);
+    CPLFree(layer->own);
+    CSLDestroy(layer->created);
+    CPLFree((void *)layer->request.fields);
+    CPLFree((void *)layer->request.suffix);
+    free(layer);
+}
+
+static gis_sink_layer *new_layer(gis_sink *sink, const gis_layer_request *request)
+{
+    gis_sink_layer *layer = calloc(1, sizeof *layer);
+    if (!layer)
+        return NULL;
+    layer->sink = sink;
+    layer->request = *request;
+    layer->request.suffix = CPLStrdup(request->suffix);
+    gis_field *fields = CPLMalloc((request->n_fields + 1) * sizeof *fields);
+    if (request->n_fields)
+        memcpy(fields, request->fields, request->n_fields * sizeof *fields);
+    layer->request.fields = fields;
+    layer->name = gis_sink_name_for(sink, request->suffix);
+    if (sink->format.one_layer)
+        layer->file = sink->to_stdout || !request->suffix[0] ? CPLStrdup(sink->main_file)
+                                                             : gis_sink_file_for(sink, request->suffix);
+    layer->fid_field = -1;
+    return layer;
+}
+
+bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_layer **out, gis_error *error)
+{
+    gis_sink_layer *previous = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
+    if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error))
+        return false;
+    if (!gis_sink_flush(sink, error))
+        return false;
+    gis_sink_layer **layers = realloc(sink->layers, (sink->n_layers + 1) * sizeof *layers);
+    if (layers)
+        sink->layers = layers;
+    gis_sink_layer *layer = layers ? new_layer(sink, request) : NULL;
+    if (!layer)
+        return gis_no_memory(error);
+    sink->layers[sink->n_layers++] = layer; /* a layer that fails now is freed with the sink */
+    if (!gis_sink_dataset_for(sink, layer, error) || !gis_sink_create_layer(layer, error))
+        return false;
+    *out = layer;
+    return true;
+}
+
+void gis_sink_free(gis_sink *sink)
+{
+    if (!sink)
+        return;
+    gis_sink_drop(sink);
+    for (size_t i = 0; i < sink->n_layers; i++)
+        free_layer(sink->layers[i]);
+    free(sink->layers);
+    gis_stage_free(sink->stage);
+    if (sink->memory)
+        VSIRmdirRecursive(sink->memory);
+    CPLFree(sink->memory);
+    CPLFree(sink->main_file);
+    if (sink->set_rewind)
+        CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", NULL);
+    if (sink->set_date)
+        CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", NULL);
+    gis_list_clear(&sink->losses);
+    gis_list_clear(&sink->warnings);
+    free(sink);
+}
+
+const gis_list *gis_sink_losses(const gis_sink *sink)
+{
+    return &sink->losses;
+}
+
+const gis_list *gis_sink_warnings(const gis_sink *sink)
+{
+    return &sink->warnings;
+}
+
+const char *gis_sink_layer_name(const gis_sink_layer *layer)
+{
+    return layer->name;
+}

@@ -1,0 +1,118 @@
+/* sink.h: writing layers so that they appear together, or not at all.
+ *
+ *   gis_sink_open      checks what can be checked before the work: format, permission, what exists
+ *   gis_sink_add       adds a layer; the first is the main one. Write it whole before adding the next:
+ *   gis_sink_write     one feature
+ *   gis_sink_finish    closes, and reads back where the format may have rounded
+ *   gis_sink_publish   puts all in place
+ *   gis_sink_free      when published: releases; else: undoes everything
+ *
+ * Files are made in a new directory beside the output and renamed into place; the main file last; an update works on
+ * a copy. A database gets one transaction. /vsistdout/ gets the main layer only, when it is complete. */
+#ifndef GIS_SINK_H
+#define GIS_SINK_H
+
+#include "read/source.h"
+
+/* Where and how; zeroed members mean "not given". Strings and lists are borrowed until gis_sink_free(). */
+typedef struct gis_sink_request {
+    const char *path;
+    const char *format;                /* --of; NULL: from the name */
+    const char *const *layer_options;  /* --lco */
+    const char *const *dataset_options; /* --co, -dsco */
+    const char *main_layer;            /* name of the main layer: --output-layer, else gis_source_name() ("sum") */
+    const char *const *suffixes;       /* of the layers that will be added besides the main one: checked at once */
+    bool overwrite, update, overwrite_layer;
+    bool strict;                       /* any loss is an error */
+    bool allow_inexact;                /* --allow-inexact-output */
+    bool no_styles;
+} gis_sink_request;
+
+typedef struct gis_sink gis_sink;
+typedef struct gis_sink_layer gis_sink_layer;
+
+/* source  the input, or NULL if there is none that is a dataset; must live until gis_sink_free().
+ * Fails with one sentence, nothing touched: unknown format or one that cannot be written; output exists and neither
+ * overwrite nor update is given; overwrite with update; input and output the same (save update with new names); a
+ * directory missing or not writable; a format that reprojects, unless allow_inexact. */
+bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gis_sink **out, gis_error *error);
+
+/* False for /vsistdout/: only the main layer is wanted. */
+bool gis_sink_takes_more(const gis_sink *sink);
+
+typedef struct gis_field {
+    const char *name; /* at most 10 characters */
+    OGRFieldType type; /* OFTInteger64, OFTReal, OFTString */
+    int width;        /* for texts; 0: as the format likes */
+} gis_field;
+
+/* Styles that a GeoPackage layer can carry. */
+typedef enum gis_style {
+    GIS_STYLE_NONE,
+    GIS_STYLE_STATUS,       /* by sunder_st; polygons or points, by the layer's type */
+    GIS_STYLE_DISPLACEMENT, /* arrows */
+    GIS_STYLE_CONFLICTS,    /* thick lines */
+    GIS_STYLE_SYMBOLS,      /* polygons around points */
+    GIS_STYLE_RESULT        /* sums: polygons, lines or points by the layer's type */
+} gis_style;
+
+typedef struct gis_layer_request {
+    const char *suffix;      /* "" for the main layer; "displacement": the layer is MAIN_displacement, the file of a
+                                one-layer format OUT_displacement.shp */
+    bool like_source;        /* all fields of the source's layer come first, with their constraints; FIDs are kept */
+    bool as_source;          /* and its geometry type and column names, identifier, description: the main layer */
+    OGRwkbGeometryType type; /* if not as_source */
+    OGRSpatialReferenceH crs; /* if there is no source; NULL: none */
+    const gis_field *fields; /* the program's own; one of the same name in the source is replaced, with a warning */
+    size_t n_fields;
+    OGRFieldDefnH copied;    /* NULL, or one field of the source, which comes after those, if not like_source */
+    gis_style style;
+} gis_layer_request;
+
+/* The layer is owned by the sink. Fails if it exists already (without overwrite_layer), or GDAL cannot make it. */
+bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_layer **out, gis_error *error);
+
+/* One value of a field of the program's own. */
+typedef struct gis_value {
+    enum { GIS_NULL, GIS_INTEGER, GIS_REAL, GIS_TEXT } kind;
+    union {
+        GIntBig integer;
+        double real;
+        const char *text; /* UTF-8, borrowed for the call */
+    } as;
+} gis_value;
+
+/* Writes one feature.
+ *
+ * feature   of the source: its FID and attributes are written, for like_source layers; the value of the field that
+ *           is copied, for those; else NULL
+ * geometry  taken over, also on failure; NULL: a null geometry
+ * values    n_fields of them, in the order of the request */
+bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
+                    gis_error *error);
+
+/* A source feature moved by (dx, dy): the translate of its own geometry (null stays null). The memory of a copy. */
+bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
+                          gis_error *error);
+
+typedef struct gis_sink_result {
+    bool exact;       /* what reads back are the very doubles that were written: `verified` may stand */
+    double deviation; /* else: the largest distance of a vertex from where it was sent; INFINITY: shapes changed,
+                         or the geometries are not there */
+} gis_sink_result;
+
+/* Closes everything (errors of closing count), compares with what was sent where the format needs it, applies strict:
+ * all that can fail, but for the last step. Once only. */
+bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error);
+/* The last step: renames, or ends the transaction. On failure what was there before is there again. */
+bool gis_sink_publish(gis_sink *sink, gis_error *error);
+void gis_sink_free(gis_sink *sink);
+
+/* What the format could not hold, a sentence each (a field is named once); complete when finished. */
+const gis_list *gis_sink_losses(const gis_sink *sink);
+/* Other things worth a warning (fields replaced, what GDAL said). */
+const gis_list *gis_sink_warnings(const gis_sink *sink);
+/* Where the main layer can be opened when published, and its name there. */
+const char *gis_sink_layer_name(const gis_sink_layer *layer);
+
+#endif

@@ -1,0 +1,279 @@
+/* sink_dataset.c: the datasets of a sink: made in the stage, copied there for an update, or a database. */
+#define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "write/sink_internal.h"
+#include "write/style.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <string.h>
+
+/* What SQLite leaves beside a file that is open or was not closed well: part of the data. */
+static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
+enum { COMPANIONS_WITH_DATA = 2 };
+
+/* ---- What is replaced ------------------------------------------------------------------------------------- */
+
+/* All files of the dataset at `path`, which is about to be replaced, will step aside. */
+static void supersede(gis_sink *sink, const char *path)
+{
+    gis_stage_supersede(sink->stage, path);
+    if (gis_sink_is_directory(path))
+        return;
+    for (size_t i = 0; i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
+        char *companion = CPLStrdup(CPLSPrintf("%s%s", path, sqlite_companions[i]));
+        if (gis_sink_exists(companion))
+            gis_stage_supersede(sink->stage, companion);
+        CPLFree(companion);
+    }
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALDatasetH old = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    char **files = old ? GDALGetFileList(old) : NULL;
+    char *directory = CPLStrdup(CPLGetPath(path));
+    for (char **file = files; file && *file; file++)
+        if (strcmp(CPLGetPath(*file), directory) == 0)
+            gis_stage_supersede(sink->stage, *file);
+    CPLFree(directory);
+    CSLDestroy(files);
+    if (old)
+        GDALClose(old);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+}
+
+static void supersede_existing(gis_sink *sink, const char *file)
+{
+    if (sink->place != GIS_PLACE_FILE)
+        return;
+    char *outside = gis_stage_outside(sink->stage, file);
+    if (gis_sink_exists(outside))
+        supersede(sink, outside);
+    CPLFree(outside);
+}
+
+/* ---- Making and opening ----------------------------------------------------------------------------------- */
+
+/* A staged file is thrown away if anything fails, and synced before it is published: SQLite need not sync each step. A
+ * choice that the user made by --config stands. */
+static bool relax_sqlite(void)
+{
+    bool relaxed = !CPLGetConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+    if (relaxed)
+        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
+    return relaxed;
+}
+
+static void restore_sqlite(bool relaxed)
+{
+    if (relaxed)
+        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+}
+
+static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
+{
+    char **all = sink->source ? GDALGetMetadata(gis_source_dataset(sink->source), NULL) : NULL;
+    if (sink->format.geopackage && CSLCount(all) > 0)
+        GDALSetMetadata(to, all, NULL);
+}
+
+static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
+{
+    char *path = gis_sink_inside(sink, file);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool relaxed = relax_sqlite();
+    *out = GDALCreate(sink->format.driver, path, 0, 0, 0, GDT_Unknown, (CSLConstList)sink->request.dataset_options);
+    restore_sqlite(relaxed);
+    if (*out)
+        copy_metadata(sink, *out);
+    gis_listen_end();
+    CPLFree(path);
+    if (!*out)
+        gis_fail(error, "%s: cannot be created as %s: %s", sink->request.path, sink->format.name,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    gis_listener_clear(&listener);
+    return *out != NULL;
+}
+
+static bool copy_in(gis_sink *sink, gis_error *error)
+{
+    char *outside = gis_stage_outside(sink->stage, sink->main_file);
+    bool done = true;
+    for (size_t i = 0; done && i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
+        char *companion = CPLStrdup(CPLSPrintf("%s%s", outside, sqlite_companions[i]));
+        if (gis_sink_exists(companion)) {
+            if (i < COMPANIONS_WITH_DATA)
+                done = gis_stage_copy_in(sink->stage, companion, error);
+            else
+                gis_stage_supersede(sink->stage, companion);
+        }
+        CPLFree(companion);
+    }
+    done = done && gis_stage_copy_in(sink->stage, outside, error);
+    CPLFree(outside);
+    return done;
+}
+
+static bool open_for_update(gis_sink *sink, gis_error *error)
+{
+    if (sink->place == GIS_PLACE_FILE && !copy_in(sink, error))
+        return false;
+    char *path = gis_sink_inside(sink, sink->main_file);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool relaxed = relax_sqlite();
+    sink->dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
+    restore_sqlite(relaxed);
+    gis_listen_end();
+    CPLFree(path);
+    if (!sink->dataset)
+        gis_fail(error, "%s: cannot be opened to add layers: %s", sink->request.path,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    else if (!GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer))
+        gis_fail(error, "%s: no layers can be added to it", sink->request.path);
+    gis_listener_clear(&listener);
+    return sink->dataset && GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer);
+}
+
+static bool remove_layer(gis_sink *sink, const char *name, gis_error *error)
+{
+    for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
+        if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name))
+            continue;
+        if (sink->format.geopackage)
+            gis_styles_forget(sink->dataset, name);
+        gis_listener listener = {0};
+        gis_listen_begin(&listener);
+        bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE;
+        gis_listen_end();
+        if (!done)
+            gis_fail(error, "%s: layer %s cannot be replaced: %s", sink->request.path, name,
+                     gis_listener_reason(&listener, "GDAL gives no reason"));
+        gis_listener_clear(&listener);
+        return done;
+    }
+    return true;
+}
+
+static bool begin_transaction(gis_sink *sink, gis_error *error)
+{
+    if (!GDALDatasetTestCapability(sink->dataset, ODsCTransactions)) {
+        if (sink->place == GIS_PLACE_DATABASE)
+            return gis_fail(error, "%s: the database has no transactions", sink->request.path);
+        return true;
+    }
+    sink->in_transaction = GDALDatasetStartTransaction(sink->dataset, FALSE) == OGRERR_NONE;
+    return sink->in_transaction || gis_fail(error, "%s: no transaction can be started", sink->request.path);
+}
+
+bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
+{
+    if (sink->stage && !gis_stage_make(sink->stage, error))
+        return false;
+    if (layer->file) {
+        supersede_existing(sink, layer->file);
+        return create(sink, layer->file, &layer->dataset, error);
+    }
+    if (!sink->dataset) {
+        if (!sink->updating)
+            supersede_existing(sink, sink->main_file);
+        if (!(sink->updating ? open_for_update(sink, error)
+                             : create(sink, sink->main_file, &sink->dataset, error)) ||
+            !begin_transaction(sink, error))
+            return false;
+    }
+    layer->dataset = sink->dataset;
+    return !sink->updating || remove_layer(sink, layer->name, error);
+}
+
+/* ---- Closing ---------------------------------------------------------------------------------------------- */
+
+static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
+{
+    for (size_t i = 0; i < sink->n_layers; i++)
+        if (sink->layers[i]->dataset == dataset) {
+            sink->layers[i]->dataset = NULL;
+            sink->layers[i]->layer = NULL;
+        }
+    if (sink->dataset == dataset)
+        sink->dataset = NULL;
+}
+
+bool gis_sink_flush(gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *last = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
+    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer)
+        return true;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALFlushCache(sink->dataset);
+    gis_listen_end();
+    bool done = !listener.failures;
+    if (!done)
+        gis_fail(error, "%s, layer %s: writing failed: %s", sink->request.path, last->name,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    gis_listener_clear(&listener);
+    return done;
+}
+
+bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
+{
+    if (!sink->in_transaction)
+        return true;
+    sink->in_transaction = false;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
+    gis_listen_end();
+    if (!done)
+        gis_fail(error, "%s: writing failed: %s", sink->request.path,
+                 gis_listener_reason(&listener, "the transaction cannot be committed"));
+    gis_listener_clear(&listener);
+    return done;
+}
+
+bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
+{
+    GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
+    if (!dataset)
+        return true;
+    if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error))
+        return false;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    GDALFlushCache(dataset);
+    GDALClose(dataset);
+    gis_listen_end();
+    forget_handles(sink, dataset);
+    bool done = !listener.failures;
+    if (!done)
+        gis_fail(error, "%s: writing failed: %s", sink->request.path,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    for (size_t i = 0; i < listener.warnings.n; i++)
+        gis_list_add(&sink->warnings, "%s", listener.warnings.items[i]);
+    gis_listener_clear(&listener);
+    return done;
+}
+
+void gis_sink_drop(gis_sink *sink)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    if (sink->in_transaction)
+        GDALDatasetRollbackTransaction(sink->dataset);
+    sink->in_transaction = false;
+    for (size_t i = 0; i < sink->n_layers; i++)
+        if (sink->layers[i]->file && sink->layers[i]->dataset) {
+            GDALDatasetH own = sink->layers[i]->dataset;
+            forget_handles(sink, own);
+            GDALClose(own);
+        }
+    if (sink->dataset) {
+        GDALDatasetH common = sink->dataset;
+        forget_handles(sink, common);
+        GDALClose(common);
+    }
+    gis_listen_end();
+    gis_listener_clear(&listener);
+}

@@ -1,0 +1,117 @@
+/* sink_internal.h: what the files of the sink share.
+ *
+ *   sink.c          requests, checks before the work, the life of a sink
+ *   sink_dataset.c  datasets made, opened for update, closed
+ *   sink_schema.c   layers and fields made
+ *   sink_losses.c   what the format dropped of them
+ *   sink_write.c    features
+ *   sink_compare.c  what reads back beside what was sent
+ *   sink_commit.c   closing, comparing, putting in place */
+#ifndef GIS_SINK_INTERNAL_H
+#define GIS_SINK_INTERNAL_H
+
+#include "write/format.h"
+#include "write/rtree.h"
+#include "write/sink.h"
+#include "write/stage.h"
+
+/* One feature as it was sent, so that it can be compared: a source feature and its move, or a geometry of its own. */
+typedef struct gis_sent {
+    OGRFeatureH feature; /* borrowed from the source; NULL if it came from none */
+    OGRGeometryH made;   /* owned; NULL: a null geometry, unless it is */
+    bool moved;          /* the feature's geometry moved by (dx, dy) */
+    double dx, dy;
+} gis_sent;
+
+/* What became of the values of one field of the source. */
+typedef struct gis_change {
+    int index;    /* of the field as written; -1: not there */
+    size_t count; /* values that read back as others */
+    GIntBig first; /* the first feature with one */
+} gis_change;
+
+struct gis_sink_layer {
+    gis_sink *sink;
+    gis_layer_request request; /* its field list is copied */
+    char *name;                /* of the layer */
+    char *file;                /* base name of its file, where it has one of its own; else NULL */
+    GDALDatasetH dataset;      /* NULL when closed */
+    OGRLayerH layer;           /* NULL when closed */
+    OGRwkbGeometryType type;   /* as asked for */
+    bool promote;              /* Polygons become MultiPolygons: the source said Polygon and meant both */
+    bool wind;                 /* rings are turned as Shapefiles want them before they are written */
+    int *field_map;            /* field of the source -> field of the layer, -1: not written */
+    int *own;                  /* the program's own fields -> field of the layer */
+    int fid_field;             /* where sunder_fid is, or -1 */
+    char **created;            /* names of the layer's fields, by field of the source; "" where not written */
+    bool can_measure, can_curve;
+    size_t written;
+    gis_boxes boxes; /* for the spatial index of a GeoPackage */
+    bool keep_sent;
+    gis_sent *sent;
+    size_t n_sent, capacity;
+    gis_change *changes; /* by field of the source; NULL: not looked for */
+};
+
+typedef enum gis_place {
+    GIS_PLACE_FILE,    /* staged beside the output, renamed */
+    GIS_PLACE_MEMORY,  /* staged in memory, copied out: /vsistdout/ and other virtual files */
+    GIS_PLACE_DATABASE /* one transaction */
+} gis_place;
+
+struct gis_sink {
+    gis_sink_request request;
+    const gis_source *source;
+    gis_format format;
+    gis_place place;
+    bool to_stdout;
+    bool updating;     /* the output exists and gets more layers */
+    bool fids_kept;    /* FIDs of the source are set; else sunder_fid holds them */
+    gis_stage *stage;  /* of GIS_PLACE_FILE */
+    char *memory;      /* directory of GIS_PLACE_MEMORY */
+    char *main_file;   /* base name of the main file in the stage */
+    GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
+    bool in_transaction, set_date, set_rewind;
+    gis_sink_layer **layers;
+    size_t n_layers;
+    gis_list losses, warnings;
+};
+
+/* Is it the main layer, with the fields of the source? Then what is lost of them is told, once. */
+static inline bool gis_sink_tells(const gis_sink_layer *layer)
+{
+    return layer->request.like_source && !layer->request.suffix[0];
+}
+
+/* Path of a file in the stage or in memory, or the connection of a database; CPLFree(). */
+char *gis_sink_inside(const gis_sink *sink, const char *file);
+/* Name of the layer with this suffix, and its file in a one-layer format; CPLFree(). */
+char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
+char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
+
+/* Of any path that GDAL knows. */
+bool gis_sink_exists(const char *path);
+bool gis_sink_is_directory(const char *path);
+
+bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
+/* A database may have put off rows of the last layer written: sends them, and hears what it thinks of them. */
+bool gis_sink_flush(gis_sink *sink, gis_error *error);
+/* Commits the transaction of the common dataset, if one is open. */
+bool gis_sink_end_transaction(gis_sink *sink, gis_error *error);
+/* Closes the dataset of a layer that has its own, or with NULL the common one; errors of closing fail. */
+bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
+void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */
+
+bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
+/* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses, one
+ * sentence a field, in which the changes of its values stand as well. */
+void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
+
+/* Fails with the sentence that says how many features came back of those written. */
+bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);
+void gis_sink_forget_sent(gis_sink_layer *layer);
+/* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills changes.
+ */
+bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);
+
+#endif

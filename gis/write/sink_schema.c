@@ -1,0 +1,350 @@
+/* sink_schema.c: layers made with all that the source's layer has, as far as the format knows it. */
+#include "write/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <inttypes.h>
+#include <string.h>
+
+#define FID_FIELD "sunder_fid"
+
+static OGRFeatureDefnH source_definition(const gis_sink_layer *layer)
+{
+    return layer->request.like_source && layer->sink->source
+               ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))
+               : NULL;
+}
+
+static bool is_own(const gis_sink_layer *layer, const char *name)
+{
+    for (size_t i = 0; i < layer->request.n_fields; i++)
+        if (EQUAL(layer->request.fields[i].name, name))
+            return true;
+    if (layer->request.copied && EQUAL(OGR_Fld_GetNameRef(layer->request.copied), name))
+        return true;
+    return !layer->sink->fids_kept && EQUAL(name, FID_FIELD);
+}
+
+/* ---- Creation options ------------------------------------------------------------------------------------- */
+
+static char **offer(const gis_sink_layer *layer, char **options, const char *name, const char *value)
+{
+    if (value && value[0] && !CSLFetchNameValue(options, name) &&
+        gis_format_has_option(&layer->sink->format, name))
+        options = CSLSetNameValue(options, name, value);
+    return options;
+}
+
+static bool any_field_is(const gis_sink_layer *layer, const char *name)
+{
+    OGRFeatureDefnH source = source_definition(layer);
+    return is_own(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
+}
+
+/* What drivers call these columns unless told; lists end with NULL. */
+static const char *const usual_fid[] = {"fid", "ogc_fid", "OBJECTID", NULL};
+static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry", "SHAPE", NULL};
+
+/* The FID and geometry columns keep their names. A layer without such names leaves the choice to the driver (NULL),
+ * unless an ordinary field has a name that the driver might choose: then the first name that is free. */
+static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual)
+{
+    if (wanted && wanted[0] && !any_field_is(layer, wanted))
+        return wanted;
+    bool taken = false;
+    const char *found = NULL;
+    for (const char *const *each = usual; *each; each++) {
+        if (any_field_is(layer, *each))
+            taken = true;
+        else if (!found)
+            found = *each;
+    }
+    for (int i = 1; taken && !found; i++) {
+        const char *numbered = CPLSPrintf("%s_%d", usual[0], i);
+        if (!any_field_is(layer, numbered))
+            found = numbered;
+    }
+    return taken ? found : NULL;
+}
+
+static bool identifier_taken(const gis_sink *sink, const char *identifier)
+{
+    char *quoted = CPLEscapeString(identifier, -1, CPLES_SQL);
+    char *sql = CPLStrdup(CPLSPrintf("SELECT 1 FROM gpkg_contents WHERE identifier = '%s'", quoted));
+    OGRLayerH result = GDALDatasetExecuteSQL(sink->dataset, sql, NULL, NULL);
+    OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
+    bool taken = row != NULL;
+    if (row)
+        OGR_F_Destroy(row);
+    if (result)
+        GDALDatasetReleaseResultSet(sink->dataset, result);
+    CPLFree(quoted);
+    CPLFree(sql);
+    return taken;
+}
+
+static char **offer_texts(const gis_sink_layer *layer, char **options)
+{
+    OGRLayerH source = gis_source_layer(layer->sink->source);
+    const char *identifier = OGR_L_GetName(source);
+    const char *own = GDALGetMetadataItem(source, "IDENTIFIER", NULL);
+    /* An identifier that only repeats the table's name belongs to that name, and is unique in a GeoPackage. */
+    if (own && !EQUAL(own, identifier)) {
+        if (layer->sink->format.geopackage && layer->sink->updating && identifier_taken(layer->sink, own))
+            gis_list_add(&layer->sink->warnings, "the identifier \"%s\" is taken; layer %s gets its name as identifier",
+                         own, layer->name);
+        else
+            options = offer(layer, options, "IDENTIFIER", own);
+    }
+    return offer(layer, options, "DESCRIPTION", GDALGetMetadataItem(source, "DESCRIPTION", NULL));
+}
+
+static char **offer_source_names(const gis_sink_layer *layer, char **options)
+{
+    OGRLayerH source = gis_source_layer(layer->sink->source);
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source);
+    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid));
+    if (OGR_FD_GetGeomFieldCount(definition) > 0) {
+        OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
+        options = offer(layer, options, "GEOMETRY_NAME",
+                        free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
+        /* What is made of a geometry may be null where that was not. */
+        if (layer->request.as_source && !OGR_GFld_IsNullable(geometry))
+            options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
+    }
+    return layer->request.as_source ? offer_texts(layer, options) : options;
+}
+
+/* A Shapefile from a Shapefile keeps the code page of its texts; any other is UTF-8. */
+static const char *shapefile_encoding(const gis_sink *sink)
+{
+    if (!sink->source)
+        return "UTF-8";
+    GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(sink->source));
+    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile"))
+        return "UTF-8";
+    OGRLayerH layer = gis_source_layer(sink->source);
+    const char *encoding = GDALGetMetadataItem(layer, "SOURCE_ENCODING", "SHAPEFILE");
+    return encoding && encoding[0] ? encoding : "UTF-8";
+}
+
+static char **layer_options(const gis_sink_layer *layer)
+{
+    gis_sink *sink = layer->sink;
+    char **options = CSLDuplicate((CSLConstList)sink->request.layer_options);
+    if (layer->request.like_source && sink->source)
+        options = offer_source_names(layer, options);
+    else {
+        options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid));
+        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry));
+    }
+    options = offer(layer, options, "LAUNDER", "NO");
+    options = offer(layer, options, "GEOMETRY", "AS_WKT");
+    if (!sink->to_stdout)
+        options = offer(layer, options, "CREATE_CSVT", "YES");
+    if (sink->format.shapefile)
+        options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
+    if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double */
+        options = offer(layer, options, "SIGNIFICANT_FIGURES", "17");
+    return options;
+}
+
+/* ---- The layer -------------------------------------------------------------------------------------------- */
+
+/* Some formats (Shapefile) say Polygon and mean Polygon or MultiPolygon. Elsewhere the word binds: there the layer is
+ * declared as the wider type, and every feature written as it. */
+static bool must_promote(const gis_sink_layer *layer, OGRwkbGeometryType type)
+{
+    const gis_source *source = layer->sink->source;
+    if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon)
+        return false;
+    GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
+    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile"))
+        return false;
+    for (size_t i = 0; i < gis_source_count(source); i++) {
+        OGRGeometryH geometry = gis_source_geometry(source, i);
+        if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
+            return true;
+    }
+    return false;
+}
+
+static void copy_metadata(const gis_sink_layer *layer)
+{
+    if (!layer->sink->format.geopackage)
+        return;
+    char **all = CSLDuplicate(GDALGetMetadata(gis_source_layer(layer->sink->source), NULL));
+    const char *const set_otherwise[] = {"IDENTIFIER", "DESCRIPTION", "DBF_DATE_LAST_UPDATE"};
+    for (size_t i = 0; i < sizeof set_otherwise / sizeof *set_otherwise; i++)
+        all = CSLSetNameValue(all, set_otherwise[i], NULL);
+    if (CSLCount(all) > 0)
+        GDALSetMetadata(layer->layer, all, NULL);
+    CSLDestroy(all);
+}
+
+static void copy_domain(gis_sink_layer *layer, OGRFieldDefnH field)
+{
+    const char *name = OGR_Fld_GetDomainName(field);
+    if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name))
+        return;
+    OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->sink->source), name);
+    if (domain) /* where it fails the field comes out without it, which is found when it is read back */
+        GDALDatasetAddFieldDomain(layer->dataset, domain, NULL);
+}
+
+static int create_field(gis_sink_layer *layer, OGRFieldDefnH field)
+{
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
+    int before = OGR_FD_GetFieldCount(definition);
+    bool created = OGR_L_CreateField(layer->layer, field, TRUE) == OGRERR_NONE;
+    return created && OGR_FD_GetFieldCount(definition) > before ? before : -1;
+}
+
+static void create_source_fields(gis_sink_layer *layer)
+{
+    OGRFeatureDefnH source = source_definition(layer);
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
+    int n = source ? OGR_FD_GetFieldCount(source) : 0;
+    layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
+    for (int i = 0; i < n; i++) {
+        OGRFieldDefnH field = OGR_FD_GetFieldDefn(source, i);
+        layer->field_map[i] = -1;
+        if (is_own(layer, OGR_Fld_GetNameRef(field))) {
+            if (gis_sink_tells(layer))
+                gis_list_add(&layer->sink->warnings, "field %s of the input is replaced", OGR_Fld_GetNameRef(field));
+        } else {
+            copy_domain(layer, field);
+            layer->field_map[i] = create_field(layer, field);
+            if (layer->field_map[i] < 0 && gis_sink_tells(layer))
+                gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                             OGR_Fld_GetNameRef(field), layer->sink->format.name,
+                             OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
+        }
+        int to = layer->field_map[i];
+        layer->created = CSLAddString(layer->created,
+                                      to < 0 ? "" : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, to)));
+    }
+}
+
+static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
+{
+    OGRFieldDefnH field = OGR_Fld_Create(name, type);
+    if (!field)
+        return -1;
+    OGR_Fld_SetWidth(field, width);
+    int index = create_field(layer, field);
+    OGR_Fld_Destroy(field);
+    return index;
+}
+
+/* A format without 64-bit integers gets them as reals (FIDs and block numbers beyond 2^53 are not met), one without
+ * attributes loses the field. */
+static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
+{
+    int index = create_field_of(layer, name, type, width);
+    if (index < 0 && type == OFTInteger64)
+        index = create_field_of(layer, name, OFTReal, 0);
+    if (index < 0)
+        gis_list_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name, name,
+                     layer->sink->format.name);
+    return index;
+}
+
+/* The field that is copied alone: its values are mapped as those of a whole feature are. */
+static void create_copy(gis_sink_layer *layer)
+{
+    OGRFieldDefnH like = layer->request.copied;
+    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
+    int n = OGR_FD_GetFieldCount(source);
+    OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
+    if (!field)
+        return;
+    OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
+    OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
+    OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
+    OGR_Fld_SetAlternativeName(field, OGR_Fld_GetAlternativeNameRef(like));
+    OGR_Fld_SetDomainName(field, OGR_Fld_GetDomainName(like));
+    copy_domain(layer, field);
+    int index = create_field(layer, field);
+    OGR_Fld_Destroy(field);
+    if (index < 0)
+        gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                     OGR_Fld_GetNameRef(like), layer->sink->format.name, OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
+    const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer->layer), index));
+    if (name && strcmp(name, OGR_Fld_GetNameRef(like)) != 0)
+        gis_list_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
+    CPLFree(layer->field_map);
+    layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
+    for (int i = 0; i < n; i++)
+        layer->field_map[i] = EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), OGR_Fld_GetNameRef(like)) ? index : -1;
+}
+
+static void create_own_fields(gis_sink_layer *layer)
+{
+    size_t n = layer->request.n_fields;
+    layer->own = CPLMalloc((n + 1) * sizeof *layer->own);
+    for (size_t i = 0; i < n; i++) {
+        const gis_field *field = &layer->request.fields[i];
+        layer->own[i] = create_own_field(layer, field->name, field->type, field->width);
+    }
+    if (layer->request.copied)
+        create_copy(layer);
+    if (source_definition(layer) && !layer->sink->fids_kept)
+        layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
+}
+
+/* Some formats allow few signs in the name of a layer. One of a layer a file may call it after the file. */
+static void note_name(gis_sink_layer *layer)
+{
+    const char *name = OGR_L_GetName(layer->layer);
+    if (strcmp(name, layer->name) == 0)
+        return;
+    if (!layer->file)
+        gis_list_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
+    CPLFree(layer->name);
+    layer->name = CPLStrdup(name);
+}
+
+bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
+{
+    gis_sink *sink = layer->sink;
+    layer->type = layer->request.as_source ? gis_source_type(sink->source) : layer->request.type;
+    layer->promote = must_promote(layer, layer->type);
+    if (layer->promote)
+        layer->type = OGR_GT_SetModifier(wkbMultiPolygon, OGR_GT_HasZ(layer->type), OGR_GT_HasM(layer->type));
+    /* shapelib, asked to turn the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it comes
+     * back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
+     * holes: they are turned before, and shapelib is told to keep them. */
+    layer->wind = sink->format.shapefile;
+    if (layer->wind && !CPLGetConfigOption("SHAPE_REWIND_ON_WRITE", NULL)) {
+        CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");
+        sink->set_rewind = true;
+    }
+    OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : layer->request.crs;
+    char **options = layer_options(layer);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    layer->layer = GDALDatasetCreateLayer(layer->dataset, layer->name, crs, layer->type, options);
+    bool done = layer->layer != NULL;
+    if (done) {
+        note_name(layer);
+        if (layer->request.as_source)
+            copy_metadata(layer);
+        create_source_fields(layer);
+        create_own_fields(layer);
+        if (sink->format.geopackage)
+            gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes);
+        layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
+        layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
+    } else {
+        gis_fail(error, "%s: layer %s cannot be made: %s", sink->request.path, layer->name,
+                 gis_listener_reason(&listener, "GDAL gives no reason"));
+    }
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    CSLDestroy(options);
+    /* What is promised is promised of the features; arrows and links may be rounded. */
+    bool promised = layer->request.like_source || !layer->request.suffix[0];
+    layer->keep_sent = promised && !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+    return done;
+}

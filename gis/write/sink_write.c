@@ -1,0 +1,152 @@
+/* sink_write.c: features on their way out. */
+#include "write/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <inttypes.h>
+#include <stdlib.h>
+
+static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
+{
+    if (layer->n_sent == layer->capacity) {
+        size_t capacity = layer->capacity ? 2 * layer->capacity : 256;
+        gis_sent *larger = realloc(layer->sent, capacity * sizeof *larger);
+        if (!larger) {
+            OGR_G_DestroyGeometry(sent.made);
+            return gis_no_memory(error);
+        }
+        layer->sent = larger;
+        layer->capacity = capacity;
+    }
+    layer->sent[layer->n_sent++] = sent;
+    return true;
+}
+
+void gis_sink_forget_sent(gis_sink_layer *layer)
+{
+    for (size_t i = 0; i < layer->n_sent; i++)
+        OGR_G_DestroyGeometry(layer->sent[i].made);
+    free(layer->sent);
+    layer->sent = NULL;
+    layer->n_sent = layer->capacity = 0;
+}
+
+/* ---- Attributes ------------------------------------------------------------------------------------------- */
+
+static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
+                           gis_error *error)
+{
+    if (feature && (layer->request.like_source || layer->request.copied)) {
+        if (OGR_F_SetFromWithMap(to, feature, TRUE, layer->field_map) != OGRERR_NONE)
+            return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
+                            (int64_t)OGR_F_GetFID(feature));
+        GIntBig fid = OGR_F_GetFID(feature);
+        if (layer->fid_field >= 0 && fid != OGRNullFID)
+            OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
+        OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
+    }
+    for (size_t i = 0; i < layer->request.n_fields; i++) {
+        int field = layer->own[i];
+        if (field < 0)
+            continue;
+        switch (values[i].kind) {
+        case GIS_NULL: OGR_F_SetFieldNull(to, field); break;
+        case GIS_INTEGER: OGR_F_SetFieldInteger64(to, field, values[i].as.integer); break;
+        case GIS_REAL: OGR_F_SetFieldDouble(to, field, values[i].as.real); break;
+        case GIS_TEXT: OGR_F_SetFieldString(to, field, values[i].as.text); break;
+        }
+    }
+    return true;
+}
+
+/* ---- Geometry --------------------------------------------------------------------------------------------- */
+
+static void promote(OGRFeatureH to)
+{
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
+    if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbPolygon)
+        OGR_F_SetGeometryDirectly(to, OGR_G_ForceToMultiPolygon(OGR_F_StealGeometry(to)));
+}
+
+/* GDAL drops M values and draws arcs as chords without a word where a format has neither. */
+static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
+{
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
+    if (!geometry || !layer->request.as_source)
+        return;
+    if (!layer->can_measure && OGR_G_IsMeasured(geometry) && !layer->sink->format.shapefile)
+        gis_list_add(&layer->sink->losses, "M values are not written: %s has none", layer->sink->format.name);
+    if (!layer->can_curve && OGR_G_HasCurveGeometry(geometry, TRUE))
+        gis_list_add(&layer->sink->losses, "arcs are written as chords: %s has no arcs", layer->sink->format.name);
+}
+
+/* ---- Writing ---------------------------------------------------------------------------------------------- */
+
+static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
+{
+    if (layer->keep_sent && layer->sink->format.keeps_order)
+        return; /* changed values are found when the layer is read back, and told once a field */
+    for (size_t i = 0; i < listener->warnings.n; i++)
+        gis_list_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
+}
+
+static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool done = OGR_L_CreateFeature(layer->layer, to) == OGRERR_NONE && !listener.failures;
+    gis_listen_end();
+    if (done)
+        done = gis_rtree_add(&layer->boxes, to, error);
+    if (done)
+        layer->written++;
+    else if (feature)
+        gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path, layer->name,
+                 (int64_t)OGR_F_GetFID(feature), gis_listener_reason(&listener, "GDAL gives no reason"));
+    else
+        gis_fail(error, "%s, layer %s: feature %zu cannot be written: %s", layer->sink->request.path, layer->name,
+                 layer->written + 1, gis_listener_reason(&listener, "GDAL gives no reason"));
+    hear_warnings(layer, &listener);
+    gis_listener_clear(&listener);
+    return done;
+}
+
+/* The feature has all it needs; it is fitted to the format, and written. */
+static bool send(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
+{
+    if (layer->promote)
+        promote(to);
+    note_losses(layer, to);
+    return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
+           create_feature(layer, to, feature, error);
+}
+
+bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
+                    gis_error *error)
+{
+    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
+    if (!to) {
+        OGR_G_DestroyGeometry(geometry);
+        return gis_no_memory(error);
+    }
+    bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
+    if (done && layer->keep_sent)
+        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error);
+    OGR_F_SetGeometryDirectly(to, geometry);
+    done = done && send(layer, to, feature, error);
+    OGR_F_Destroy(to);
+    return done;
+}
+
+bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
+                          gis_error *error)
+{
+    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
+    if (!to)
+        return gis_no_memory(error);
+    bool done = set_attributes(layer, to, feature, values, error);
+    if (done && layer->keep_sent)
+        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error);
+    OGR_F_Destroy(to);
+    return done;
+}

@@ -1,0 +1,23 @@
+/* style.h: layer_styles, the table in which a GeoPackage carries its looks for QGIS. */
+#ifndef GIS_STYLE_H
+#define GIS_STYLE_H
+
+#include <gdal.h>
+#include <ogr_api.h>
+
+#include "base/error.h"
+#include "write/sink.h"
+
+/* Writes our style for `layer` as its default, and copies the styles that the source's GeoPackage has for the source's
+ * layer (source may be NULL) as non-default ones. Makes the table where it is missing. GIS_STYLE_NONE writes none of
+ * our own. The dataset is an open GeoPackage. */
+bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, const gis_source *source,
+                      gis_error *error);
+
+/* Takes away the styles of a layer that is about to be replaced. */
+void gis_styles_forget(GDALDatasetH dataset, const char *layer);
+
+/* The QGIS style document for a layer of this geometry type; CPLFree(). NULL if there is none. */
+char *gis_style_qml(gis_style style, OGRwkbGeometryType type);
+
+#endif

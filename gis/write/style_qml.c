@@ -1,0 +1,224 @@
+/* style_qml.c: the QGIS style documents, put together from a few symbols.
+ *
+ * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
+ * red; arrows are blue, conflicts magenta. Teal, red, blue and magenta stay apart for most colour-blind readers because
+ * they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
+#include "write/style.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct text {
+    char *at;
+    size_t n, capacity;
+} text;
+
+static void add(text *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void add(text *to, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    va_list again;
+    va_copy(again, arguments);
+    size_t need = (size_t)vsnprintf(NULL, 0, format, again) + 1;
+    va_end(again);
+    if (to->n + need > to->capacity) {
+        to->capacity = 2 * (to->n + need);
+        to->at = CPLRealloc(to->at, to->capacity);
+    }
+    vsnprintf(to->at + to->n, need, format, arguments);
+    va_end(arguments);
+    to->n += need - 1;
+}
+
+typedef enum kind { OF_POINTS, OF_LINES, OF_POLYGONS } kind;
+
+static kind kind_of(OGRwkbGeometryType type)
+{
+    OGRwkbGeometryType flat = wkbFlatten(type);
+    if (flat == wkbPoint || flat == wkbMultiPoint)
+        return OF_POINTS;
+    if (OGR_GT_IsSubClassOf(flat, wkbCurve) || OGR_GT_IsSubClassOf(flat, wkbMultiCurve))
+        return OF_LINES;
+    return OF_POLYGONS;
+}
+
+static void add_property(text *to, const char *key, const char *value)
+{
+    add(to, "<prop k=\"%s\" v=\"%s\"/>", key, value);
+}
+
+static void begin_layer(text *to, const char *class)
+{
+    add(to, "<layer class=\"%s\" enabled=\"1\" pass=\"0\" locked=\"0\">", class);
+}
+
+static void add_fill(text *to, const char *colour, const char *outline)
+{
+    begin_layer(to, "SimpleFill");
+    add_property(to, "color", colour);
+    add_property(to, "style", "solid");
+    add_property(to, "outline_style", "solid");
+    add_property(to, "outline_color", outline);
+    add_property(to, "outline_width", "0.1");
+    add_property(to, "outline_width_unit", "MM");
+    add(to, "</layer>");
+}
+
+static void add_line(text *to, const char *colour, const char *width)
+{
+    begin_layer(to, "SimpleLine");
+    add_property(to, "line_color", colour);
+    add_property(to, "line_style", "solid");
+    add_property(to, "line_width", width);
+    add_property(to, "line_width_unit", "MM");
+    add_property(to, "capstyle", "round");
+    add(to, "</layer>");
+}
+
+static void add_marker(text *to, const char *shape, const char *colour, const char *size)
+{
+    begin_layer(to, "SimpleMarker");
+    add_property(to, "name", shape);
+    add_property(to, "color", colour);
+    add_property(to, "outline_style", "no");
+    add_property(to, "size", size);
+    add_property(to, "size_unit", "MM");
+    add(to, "</layer>");
+}
+
+static const char *symbol_type(kind of)
+{
+    return of == OF_POINTS ? "marker" : of == OF_LINES ? "line" : "fill";
+}
+
+static void begin_symbol(text *to, const char *type, const char *name)
+{
+    add(to, "<symbol name=\"%s\" type=\"%s\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">", name, type);
+}
+
+/* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
+static void add_marker_line(text *to, const char *placement, const char *parent, const char *shape, const char *colour,
+                            const char *size)
+{
+    begin_layer(to, "MarkerLine");
+    add_property(to, "placement", placement);
+    add_property(to, "rotate", "1");
+    char name[32];
+    snprintf(name, sizeof name, "@%s@1", parent);
+    begin_symbol(to, "marker", name);
+    add_marker(to, shape, colour, size);
+    add(to, "</symbol></layer>");
+}
+
+static void add_symbol(text *to, kind of, const char *name, const char *colour, const char *outline)
+{
+    begin_symbol(to, symbol_type(of), name);
+    if (of == OF_POINTS)
+        add_marker(to, "circle", colour, "2");
+    else if (of == OF_LINES)
+        add_line(to, colour, "0.6");
+    else
+        add_fill(to, colour, outline);
+    add(to, "</symbol>\n");
+}
+
+/* ---- Renderers -------------------------------------------------------------------------------------------- */
+
+typedef struct category {
+    const char *value, *colour, *outline;
+} category;
+
+static const category statuses[] = {
+    {"unmoved", "190,190,190,255", "130,130,130,255"}, {"moved", "27,158,119,255", "15,95,70,255"},
+    {"fixed", "64,64,64,255", "20,20,20,255"},         {"blocked", "215,25,28,255", "120,0,0,255"},
+    {"skipped", "235,235,230,255", "190,190,185,255"},
+};
+enum { STATUSES = sizeof statuses / sizeof *statuses };
+
+static void add_by_status(text *to, kind of)
+{
+    add(to, "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
+            "enableorderby=\"0\">\n<categories>\n");
+    for (int i = 0; i < STATUSES; i++)
+        add(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", statuses[i].value,
+            statuses[i].value, i);
+    add(to, "</categories>\n<symbols>\n");
+    for (int i = 0; i < STATUSES; i++) {
+        char name[12];
+        snprintf(name, sizeof name, "%d", i);
+        add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
+    }
+    add(to, "</symbols>\n</renderer-v2>\n");
+}
+
+static void begin_single(text *to)
+{
+    add(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+            "<symbols>\n");
+}
+
+static void end_single(text *to)
+{
+    add(to, "</symbols>\n</renderer-v2>\n");
+}
+
+/* A head of fixed size at the end of each move: moves are often shorter on the sheet than any arrow. */
+static void add_arrows(text *to)
+{
+    static const char blue[] = "31,78,200,255";
+    begin_single(to);
+    begin_symbol(to, "line", "0");
+    add_line(to, blue, "0.4");
+    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8");
+    add(to, "</symbol>\n");
+    end_single(to);
+}
+
+/* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. */
+static void add_conflicts(text *to)
+{
+    static const char magenta[] = "231,0,138,255";
+    begin_single(to);
+    begin_symbol(to, "line", "0");
+    add_line(to, magenta, "1.2");
+    add_marker_line(to, "firstvertex", "0", "circle", magenta, "2.2");
+    add(to, "</symbol>\n");
+    end_single(to);
+}
+
+static void add_plain(text *to, kind of, const char *colour, const char *outline)
+{
+    begin_single(to);
+    add_symbol(to, of, "0", colour, outline);
+    end_single(to);
+}
+
+char *gis_style_qml(gis_style style, OGRwkbGeometryType type)
+{
+    kind of = kind_of(type);
+    if (style == GIS_STYLE_NONE)
+        return NULL;
+    text to = {0};
+    add(&to, "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+             "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
+    switch (style) {
+    case GIS_STYLE_NONE: break;
+    case GIS_STYLE_STATUS: add_by_status(&to, of); break;
+    case GIS_STYLE_DISPLACEMENT: add_arrows(&to); break;
+    case GIS_STYLE_CONFLICTS: add_conflicts(&to); break;
+    case GIS_STYLE_SYMBOLS: add_plain(&to, of, "166,206,227,255", "31,78,120,255"); break;
+    case GIS_STYLE_RESULT:
+        if (of == OF_POLYGONS)
+            add_plain(&to, of, "166,206,227,255", "31,78,120,255");
+        else
+            add_plain(&to, of, "231,0,138,255", "");
+        break;
+    }
+    add(&to, "<blendMode>0</blendMode>\n<layerGeometryType>%d</layerGeometryType>\n</qgis>\n", (int)of);
+    return to.at;
+}
