@@ -1,7 +1,6 @@
 /* The library's sums against the oracle's, byte for byte, on small random operands of every kind of trouble; every fourth
  * on forced big integers too. */
 #include "generate.h"
-#include "minkowski/minkowski.h"
 #include "oracle.h"
 #include "sum_text.h"
 
@@ -24,18 +23,6 @@ static void show(pair_kind kind, uint64_t seed, size_t i, const polyset *p, cons
     free(b);
 }
 
-static char *wide_sum_text(const polyset *p, const polyset *q)
-{
-    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_sum *sum = NULL;
-    char *text = NULL;
-    if (a && b && sunder_i_minkowski_sum(a, b, true, NULL, &sum, NULL) == SUNDER_OK) text = sum_text(sum);
-    sunder_sum_free(sum);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
-    return text;
-}
-
 static bool agree(pair_kind kind, uint64_t seed, size_t i, bool shown)
 {
     rng r = rng_start(seed + (uint64_t)kind * 1000003, i);
@@ -48,7 +35,7 @@ static bool agree(pair_kind kind, uint64_t seed, size_t i, bool shown)
     bool same = ours && strcmp(ours, expected) == 0;
     if (same && i % 4 == 0) { /* and on big integers */
         free(ours);
-        ours = wide_sum_text(&p, &q);
+        ours = library_sum_text_wide(&p, &q);
         same = ours && strcmp(ours, expected) == 0;
     }
     if (!same && shown) show(kind, seed, i, &p, &q, ours, expected);

@@ -1,6 +1,5 @@
 /* Layers of members that overlap and touch, grown by a convex shape: sides inside a single subsum are dropped before
  * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is dropped. */
-#include "failing.h"
 #include "generate.h"
 #include "minkowski/buried.h"
 #include "minkowski/minkowski.h"
@@ -49,22 +48,10 @@ static void random_layer(polyset *p, polyset *q, rng *r, bool map, int most)
         polyset_rectangle(q, -2, -1, (double)rng_int(r, 1, 6), (double)rng_int(r, 1, 6));
 }
 
-static char *wide_text(const polyset *p, const polyset *q)
-{
-    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_sum *sum = NULL;
-    char *text = NULL;
-    if (a && b && sunder_i_minkowski_sum(a, b, true, NULL, &sum, NULL) == SUNDER_OK) text = sum_text(sum);
-    sunder_sum_free(sum);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
-    return text;
-}
-
 static bool same_texts(const polyset *p, const polyset *q, bool with_oracle)
 {
     char *ours = library_sum_text(p, q);
-    char *other = with_oracle ? oracle_sum_text(p, q, false) : wide_text(p, q);
+    char *other = with_oracle ? oracle_sum_text(p, q, false) : library_sum_text_wide(p, q);
     const bool same = ours && other && strcmp(ours, other) == 0;
     if (!same) {
         char *x = polyset_wkt(p), *y = polyset_wkt(q);
@@ -148,25 +135,6 @@ static void test_row(void **state)
     }
 }
 
-static sunder_status make_shape(const polyset *s, sunder_shape **out)
-{
-    return sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, out, NULL);
-}
-
-static bool attempt(void *context)
-{
-    const polyset *operand = context;
-    sunder_shape *a = NULL, *b = NULL;
-    sunder_sum *sum = NULL;
-    sunder_status status = make_shape(&operand[0], &a);
-    if (!status) status = make_shape(&operand[1], &b);
-    if (!status) status = sunder_minkowski_sum(a, b, NULL, &sum, NULL);
-    sunder_sum_free(sum);
-    sunder_shape_free(a);
-    sunder_shape_free(b);
-    return status == SUNDER_OK;
-}
-
 static void test_memory(void **state)
 {
     (void)state;
@@ -175,7 +143,7 @@ static void test_memory(void **state)
     polyset_init(&operand[1]);
     for (int i = 0; i < 6; i++) polyset_rectangle(&operand[0], 2 * i, i % 2, 2 * i + 2, 4 - i % 2);
     polyset_rectangle(&operand[1], -2, -2, 2, 2);
-    assert_true(failing_loop(attempt, operand, false));
+    assert_true(library_sum_survives(operand));
     polyset_free(&operand[0]);
     polyset_free(&operand[1]);
 }

@@ -1,6 +1,8 @@
 #include "sum_text.h"
 
+#include "failing.h"
 #include "json.h"
+#include "minkowski/minkowski.h"
 
 #include <float.h>
 #include <gmp.h>
@@ -130,14 +132,14 @@ char *sum_text(const sunder_sum *sum)
     return NULL;
 }
 
-char *library_sum_text(const polyset *p, const polyset *q)
+static char *sum_text_of(const polyset *p, const polyset *q, bool wide)
 {
     sunder_shape *a = polyset_shape(p), *b = a ? polyset_shape(q) : NULL;
     sunder_sum *sum = NULL;
     sunder_error err;
     char *text = NULL;
     if (a && b) {
-        if (sunder_minkowski_sum(a, b, NULL, &sum, &err) == SUNDER_OK)
+        if (sunder_i_minkowski_sum(a, b, wide, NULL, &sum, &err) == SUNDER_OK)
             text = sum_text(sum);
         else
             fprintf(stderr, "no sum: %s\n", err.message);
@@ -147,6 +149,31 @@ char *library_sum_text(const polyset *p, const polyset *q)
     sunder_shape_free(b);
     return text;
 }
+
+char *library_sum_text(const polyset *p, const polyset *q) { return sum_text_of(p, q, false); }
+
+char *library_sum_text_wide(const polyset *p, const polyset *q) { return sum_text_of(p, q, true); }
+
+static sunder_status make_shape(const polyset *s, sunder_shape **out)
+{
+    return sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, out, NULL);
+}
+
+static bool make_sum(void *context)
+{
+    const polyset *operand = context;
+    sunder_shape *a = NULL, *b = NULL;
+    sunder_sum *sum = NULL;
+    sunder_status status = make_shape(&operand[0], &a);
+    if (!status) status = make_shape(&operand[1], &b);
+    if (!status) status = sunder_minkowski_sum(a, b, NULL, &sum, NULL);
+    sunder_sum_free(sum);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return status == SUNDER_OK;
+}
+
+bool library_sum_survives(const polyset operand[2]) { return failing_loop(make_sum, (void *)operand, false); }
 
 /* ---- Laws ---- */
 

@@ -10,6 +10,10 @@ char *sum_text(const sunder_sum *sum);
 
 /* Canonical text of the library's P + Q; NULL, with the reason on stderr, where anything fails. */
 char *library_sum_text(const polyset *p, const polyset *q);
+/* The same on big integers. */
+char *library_sum_text_wide(const polyset *p, const polyset *q);
+/* Is the sum of operand[0] and operand[1] made, or memory said to be out without a leak, whichever allocation fails? */
+bool library_sum_survives(const polyset operand[2]);
 
 /* Every coordinate of a canonical text times 2^scale, plus (dx, dy), in rationals. */
 char *sum_text_moved(const char *text, long scale, double dx, double dy);
