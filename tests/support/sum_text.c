@@ -42,19 +42,55 @@ static bool is_nearest(double d, const mpq_t r)
     return nearest;
 }
 
+/* Is `off` a bound of the distance of xy from the rational place, and not a wide one? */
+static bool is_bound(double off, const double xy[2], mpq_t place[2])
+{
+    const double ulp =
+        fmax(nextafter(fabs(xy[0]), INFINITY) - fabs(xy[0]), nextafter(fabs(xy[1]), INFINITY) - fabs(xy[1]));
+    const double less = off - ldexp(ulp, -30);
+    mpq_t squared, d, bound;
+    mpq_inits(squared, d, bound, NULL);
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(d, xy[k]);
+        mpq_sub(d, d, place[k]);
+        mpq_mul(d, d, d);
+        mpq_add(squared, squared, d);
+    }
+    mpq_set_d(bound, off);
+    mpq_mul(bound, bound, bound);
+    bool good = mpq_cmp(bound, squared) >= 0 && (off == 0 || mpq_sgn(squared) > 0);
+    if (less > 0) {
+        mpq_set_d(bound, less * (1 - 0x1p-30));
+        mpq_mul(bound, bound, bound);
+        good = good && mpq_cmp(bound, squared) <= 0;
+    }
+    mpq_clears(squared, d, bound, NULL);
+    return good;
+}
+
+/* The nearest doubles, asked for in both ways, and what is said of how far they are. */
+static bool doubles_are_right(const sunder_sum *sum, uint32_t v, mpq_t place[2])
+{
+    double one[2], all[2], off = 0;
+    sunder_sum_vertex(sum, v, one);
+    if (sunder_sum_vertices(sum, &v, 1, all, &off, NULL) != SUNDER_OK) return false;
+    bool finite = true;
+    for (int k = 0; k < 2; k++) {
+        if (one[k] != all[k] || !is_nearest(one[k], place[k])) return false;
+        finite = finite && isfinite(one[k]);
+    }
+    return finite ? is_bound(off, one, place) : isinf(off);
+}
+
 static bool put_vertex(FILE *f, const sunder_sum *sum, uint32_t v)
 {
     char *text[2];
-    double xy[2];
-    bool ok = true;
     if (sunder_sum_vertex_text(sum, v, &text[0], &text[1], NULL) != SUNDER_OK) return false;
-    sunder_sum_vertex(sum, v, xy);
-    for (int i = 0; i < 2; i++) {
-        mpq_t r;
-        mpq_init(r);
-        ok = ok && mpq_set_str(r, text[i], 10) == 0 && is_nearest(xy[i], r);
-        mpq_clear(r);
-    }
+    mpq_t place[2];
+    mpq_inits(place[0], place[1], NULL);
+    const bool ok = mpq_set_str(place[0], text[0], 10) == 0 && mpq_set_str(place[1], text[1], 10) == 0 &&
+                    doubles_are_right(sum, v, place);
+    mpq_clears(place[0], place[1], NULL);
     fprintf(f, "[\"%s\", \"%s\"]", text[0], text[1]);
     sunder_free(text[0]);
     sunder_free(text[1]);
@@ -112,7 +148,8 @@ static bool put_sum(FILE *f, const sunder_sum *sum)
     }
     fputs("]}", f);
     if (holes != c.holes || vertices != c.vertices) {
-        fprintf(stderr, "counts: %zu holes, %zu vertices; the rings have %zu, %zu\n", c.holes, c.vertices, holes, vertices);
+        fprintf(stderr, "counts: %zu holes, %zu vertices; the rings have %zu, %zu\n", c.holes, c.vertices, holes,
+                vertices);
         return false;
     }
     return ok;
@@ -220,8 +257,10 @@ static void put_moved(FILE *f, const json *v, const motion *m, int axis)
     default:
         mpq_inits(r, d, NULL);
         read_rational(r, v);
-        if (m->scale >= 0) mpq_mul_2exp(r, r, (mp_bitcnt_t)m->scale);
-        else mpq_div_2exp(r, r, (mp_bitcnt_t)-m->scale);
+        if (m->scale >= 0)
+            mpq_mul_2exp(r, r, (mp_bitcnt_t)m->scale);
+        else
+            mpq_div_2exp(r, r, (mp_bitcnt_t)-m->scale);
         mpq_set_si(d, m->factor, 1);
         mpq_mul(r, r, d);
         mpq_set_d(d, m->by[axis]);
