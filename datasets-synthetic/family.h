@@ -1,8 +1,8 @@
 /* Pairs of polygonal sets on which Minkowski sums are known to be hard, each in its own way.
  *
- * The families are those on which Agarwal, Flato and Halperin try their algorithms (comb, fork, star, robot, random, tight
- * passage, and the two that tell orders of insertion apart), drawn anew: the constructions here are ours and are explained
- * where they stand. Coordinates are integers, so what is meant to be degenerate is degenerate. */
+ * The families are those on which Agarwal, Flato and Halperin try their algorithms (comb, fork, star, robot, random,
+ * tight passage, and the two that tell orders of insertion apart), drawn anew: the constructions here are ours and are
+ * explained where they stand. Coordinates are integers, so what is meant to be degenerate is degenerate. */
 #ifndef FAMILY_H
 #define FAMILY_H
 
@@ -35,7 +35,8 @@ typedef struct family_place {
 /* One line of WKT. The decimals are exact. */
 bool family_print(const family_set *set, const family_place *place, FILE *out);
 
-/* A direction: the point of the unit circle near that part of a whole turn, 0 <= turn < 1. Strictly increasing, from + - * / alone. */
+/* A direction: the point of the unit circle near that part of a whole turn, 0 <= turn < 1. Strictly increasing, from +
+ * - * / alone. */
 void family_direction(double turn, double *x, double *y);
 /* Uniform in low..high, both included. */
 int64_t family_integer(town_random *random, int64_t low, int64_t high);

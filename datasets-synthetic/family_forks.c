@@ -3,8 +3,8 @@
 
 /* comb + convex: order m n.
  *
- * Teeth three times as far apart as Q is wide, so that the sums of neighbouring tips stay apart; slender, so that each tip shows
- * nearly every vertex of Q's upper half. (m / 2) teeth times (n / 2) vertices. */
+ * Teeth three times as far apart as Q is wide, so that the sums of neighbouring tips stay apart; slender, so that each
+ * tip shows nearly every vertex of Q's upper half. (m / 2) teeth times (n / 2) vertices. */
 void family_comb(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
     const size_t teeth = m / 2 - 1;
@@ -23,14 +23,14 @@ void family_comb(family_set *p, family_set *q, size_t m, size_t n, family_stream
     family_end_member(p);
 }
 
-/* A fork: an upright and a foot of unit thickness; `teeth` teeth stick out of the upright sideways, as many out of the foot
- * upwards. What P + Q must do (coordinates: x to the right, y upwards):
+/* A fork: an upright and a foot of unit thickness; `teeth` teeth stick out of the upright sideways, as many out of the
+ * foot upwards. What P + Q must do (coordinates: x to the right, y upwards):
  *
- *   - sideways teeth at y = at + i pitch. With P's pitch p and Q's pitch p K (K: teeth of P) all sums of two are distinct,
- *     p apart: K L strips as long as two teeth. So for the teeth upwards. The strips cross and leave (K L - 1)^2 holes:
- *     m^2 n^2 as K = m / 8, L = n / 8.
- *   - nothing else may cover the grid. P's teeth upwards are to the left of its upright, Q's far to the right, so that a
- *     sideways tooth of one + an upward tooth of the other (a solid rectangle) is right of the grid or left of it. */
+ *   - sideways teeth at y = at + i pitch. With P's pitch p and Q's pitch p K (K: teeth of P) all sums of two are
+ *     distinct, p apart: K L strips as long as two teeth. So for the teeth upwards. The strips cross and leave (K L -
+ *     1)^2 holes: m^2 n^2 as K = m / 8, L = n / 8.
+ *   - nothing else may cover the grid. P's teeth upwards are to the left of its upright, Q's far to the right, so that
+ *     a sideways tooth of one + an upward tooth of the other (a solid rectangle) is right of the grid or left of it. */
 typedef struct fork_plan {
     int64_t pitch, thick; /* of P's teeth; the thickness of a sum of two is below the pitch */
     int64_t extent;       /* of all the sums of teeth, across them */
@@ -54,7 +54,8 @@ static fork_plan plan_fork(size_t m, size_t n, bool slanted)
     return f;
 }
 
-/* Both kinds of tooth as (along, across): `along` runs out of the bar. A slanted tooth is a spike with its tip a little off. */
+/* Both kinds of tooth as (along, across): `along` runs out of the bar. A slanted tooth is a spike with its tip a little
+ * off. */
 typedef struct fork_pen {
     family_set *set;
     town_random *random;
@@ -103,7 +104,8 @@ static void fork_p(family_set *set, town_random *random, size_t teeth, const for
     family_end_member(set);
 }
 
-/* Q's: the upright is x = -4..0 with teeth to the right, the foot y = -4..0 runs to the right with its teeth at the far end. */
+/* Q's: the upright is x = -4..0 with teeth to the right, the foot y = -4..0 runs to the right with its teeth at the far
+ * end. */
 static void fork_q(family_set *set, town_random *random, size_t teeth, const fork_plan *f, int64_t pitch, bool slanted)
 {
     fork_pen pen = {set, random, f, true, slanted};
@@ -138,8 +140,9 @@ void family_slanted_fork(family_set *p, family_set *q, size_t m, size_t n, famil
     forks(p, q, m, n, streams, true);
 }
 
-/* The fork's grid, and over it the sum of a flat and a tall triangle: nearly a square that covers whatever two forks can
- * reach. The sum has order m + n vertices (forks peep out where the triangles' tips end), the arrangement beneath it m^2 n^2. */
+/* The fork's grid, and over it the sum of a flat and a tall triangle: nearly a square that covers whatever two forks
+ * can reach. The sum has order m + n vertices (forks peep out where the triangles' tips end), the arrangement beneath
+ * it m^2 n^2. */
 void family_covered_fork(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
     const fork_plan f = plan_fork(m, n, false);

@@ -3,8 +3,8 @@
 
 static size_t at_least_one(size_t n) { return n ? n : 1; }
 
-/* thin upright bars + thin lying bars: each sum of two is a stout rectangle, and they stand in a grid in which some overlap
- * their neighbours and some do not. Output of order m n; every order of insertion meets much the same map. */
+/* thin upright bars + thin lying bars: each sum of two is a stout rectangle, and they stand in a grid in which some
+ * overlap their neighbours and some do not. Output of order m n; every order of insertion meets much the same map. */
 void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
     enum { PITCH = 2000 };
@@ -21,12 +21,12 @@ void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_st
     }
 }
 
-/* blocks and long bars + a ladder of plates: the sum of a block and a plate is stout, and overlaps its neighbours in the row a
- * little; that of a bar and a plate is long, thin by any measure of shape, and covers the whole row of those. All rows
- * together leave no gap, so the sum has order m + n vertices.
+/* blocks and long bars + a ladder of plates: the sum of a block and a plate is stout, and overlaps its neighbours in
+ * the row a little; that of a bar and a plate is long, thin by any measure of shape, and covers the whole row of those.
+ * All rows together leave no gap, so the sum has order m + n vertices.
  *
- * Stoutest first arranges the m n / 32 blocks, each with its neighbours, before the first bar buries them. A random order has a
- * bar in each row after two insertions there, on average, and finds the rest covered. */
+ * Stoutest first arranges the m n / 32 blocks, each with its neighbours, before the first bar buries them. A random
+ * order has a bar in each row after two insertions there, on average, and finds the rest covered. */
 void family_fat_cover(family_set *p, family_set *q, size_t m, size_t n, family_streams *streams)
 {
     enum { PITCH = 2000, BLOCK = 2600, PLATE = 1200, BAR = PITCH - PLATE + 100, EDGE = 300 };

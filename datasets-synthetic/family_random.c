@@ -1,9 +1,10 @@
-/* Random simple polygons by space partitioning (Auer and Held, "Heuristics for the generation of random polygons", CCCG 1996).
+/* Random simple polygons by space partitioning (Auer and Held, "Heuristics for the generation of random polygons", CCCG
+ * 1996).
  *
  * A chain from a to b has to visit a set S that lies in a convex region with a and b on its rim. Pick c in S and a line
- * through c that crosses the segment ab and meets no other point: the points on a's side go between a and c, those on b's between
- * c and b. Both lie in convex regions again, which meet only in the line, so chains never cross. Ragged, simple by
- * construction, and found in O(n log n) steps on average. */
+ * through c that crosses the segment ab and meets no other point: the points on a's side go between a and c, those on
+ * b's between c and b. Both lie in convex regions again, which meet only in the line, so chains never cross. Ragged,
+ * simple by construction, and found in O(n log n) steps on average. */
 #include "family.h"
 
 #include <stdlib.h>
@@ -19,8 +20,8 @@ typedef struct chain {
 
 enum { STEPS = 64 }; /* a line crosses ab at one of STEPS - 1 places */
 
-/* Side of p to the line through c and the point of ab that divides it as step to STEPS - step. Products stay below 2^63 for spans
- * up to 2^28. */
+/* Side of p to the line through c and the point of ab that divides it as step to STEPS - step. Products stay below 2^63
+ * for spans up to 2^28. */
 static int side(const place *p, const place *c, const place *a, const place *b, int64_t step)
 {
     const int64_t dx = a->x * (STEPS - step) + b->x * step - c->x * STEPS;

@@ -20,8 +20,8 @@ void family_convex_member(family_set *set, town_random *random, size_t n, int64_
 {
     const size_t start = set->vertices;
     const double first = town_random_between(random, 0, 1) / (double)n;
-    /* Directions at least half a share of the turn apart: each vertex stands out from the chord of its neighbours by radius (pi / n)^2 / 2 or
-     * more, which soon outgrows what rounding takes. Where it does not yet, the circle grows. */
+    /* Directions at least half a share of the turn apart: each vertex stands out from the chord of its neighbours by
+     * radius (pi / n)^2 / 2 or more, which soon outgrows what rounding takes. Where it does not yet, the circle grows. */
     const town_random directions = *random;
     for (;; radius *= 2) {
         *random = directions;
@@ -47,7 +47,8 @@ static bool goes_round(const int64_t *xy, size_t n)
 void family_star_member(family_set *set, town_random *random, size_t n, int64_t size)
 {
     const size_t start = set->vertices;
-    /* Rounding must not change the order of the directions: the shortest spike is several units for each share of the turn. */
+    /* Rounding must not change the order of the directions: the shortest spike is several units for each share of the
+     * turn. */
     if (size < 100 * (int64_t)n) size = 100 * (int64_t)n;
     do {
         set->vertices = start;

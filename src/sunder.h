@@ -71,8 +71,8 @@ typedef struct sunder_operations {
     uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
 } sunder_operations;
 
-/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. Calls do not overlap, but
- * where work is shared by threads they may come from any of them. */
+/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. Calls do not overlap,
+ * but where work is shared by threads they may come from any of them. */
 typedef bool (*sunder_progress)(double fraction, void *user);
 
 /* ---- Shapes: polygonal sets ------------------------------------------------------------------------------- */
@@ -93,9 +93,10 @@ typedef enum sunder_validity {
  * polygons   how many; 0 gives the empty set.
  * validity   SUNDER_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
  *            they may touch at points, never cross or share a piece of edge. Members may touch and overlap: their
- *            union is meant. A polygon whose interior falls apart where its rings touch counts as several. SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its
- *            rings enclose by the even-odd rule, with exact rational vertices; sunder_shape_repaired() tells.
- *            A polygon that encloses nothing vanishes.
+ *            union is meant. A polygon whose interior falls apart where its rings touch counts as several.
+ *            SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose by the
+ *            even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
+ *            nothing vanishes.
  * Fails      SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
  *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
  *            SUNDER_ERANGE    more than 2^27 vertices
@@ -117,8 +118,8 @@ SUNDER_API sunder_status sunder_shape_rectangle(double width, double height, sun
 SUNDER_API sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 
 /* S + (dx, dy), exactly as doubles hold it: each coordinate is the nearest double to x + dx; *exact tells whether none
- * was rounded. If rounding breaks the shape it is taken by the even-odd rule. SUNDER_EARG for a move that is not finite,
- * SUNDER_ERANGE where a coordinate leaves the range of doubles. */
+ * was rounded. If rounding breaks the shape it is taken by the even-odd rule. SUNDER_EARG for a move that is not
+ * finite, SUNDER_ERANGE where a coordinate leaves the range of doubles. */
 SUNDER_API sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, double dy, sunder_shape **out,
                                                 bool *exact, sunder_error *err);
 
@@ -204,9 +205,9 @@ typedef struct sunder_sum_counts {
  * p, q  not modified; p == q is fine. An operand without area gives the empty sum.
  * opts  NULL for defaults.
  * out   a new sum, in canonical form: equal point sets compare equal. One polygon for each connected component C of
- *       the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices merged;
- *       a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings counter-clockwise,
- *       holes clockwise; holes and polygons sorted as vertex sequences.
+ *       the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices
+ *       merged; a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings
+ *       counter-clockwise, holes clockwise; holes and polygons sorted as vertex sequences.
  *
  * Degenerate holes (points of the interior of P + Q that are not in int P + int Q) are part of the result: as maximal
  * segments, and as points that lie on no segment.
@@ -272,18 +273,19 @@ SUNDER_API const char *sunder_operation_string(sunder_operation operation);
 /* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
  *
  * p, b  not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
- * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL for defaults.
- * out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior. Segments and
- *       points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts without
- *       area; an opening has none.
+ * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL for
+ * defaults. out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's
+ * interior. Segments and
+ *       points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts
+ *       without area; an opening has none.
  *
  * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL, SUNDER_EARG
  * Source  src/morphology/README */
 SUNDER_API sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                            const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
 
-/* The union of a shape's members, exact, as a sum without degenerate parts. It is made of polygons that are valid in the
- * sense of OGC simple features, whatever touched, overlapped or fell apart. SUNDER_ENOMEM, SUNDER_ECANCEL. */
+/* The union of a shape's members, exact, as a sum without degenerate parts. It is made of polygons that are valid in
+ * the sense of OGC simple features, whatever touched, overlapped or fell apart. SUNDER_ENOMEM, SUNDER_ECANCEL. */
 SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *opts, sunder_sum **out,
                                             sunder_error *err);
 
@@ -488,7 +490,8 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
 /* Takes the features apart at little cost; see DESIGN notes in src/displacement/README.
  *
  * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
- * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict is listed. */
+ * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict
+ * is listed. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);
@@ -546,11 +549,11 @@ typedef struct sunder_route sunder_route;
 
 /* A shortest path along which the robot can be moved, by translations, among the obstacles.
  *
- * Free space is the complement of the union of the open sets O_i + int(-robot) and so is closed: contact is allowed, and
- * passages that the robot fits exactly are passages; an exact fit in a keyhole is a place. The path is that of the
- * robot's own origin. Of several shortest paths the lexicographically smallest, as sequences of vertices; lengths are told
- * apart up to 2^-256 of themselves. Each leg is proved, by a test of its own, to keep the interior of the robot off every
- * obstacle all the way.
+ * Free space is the complement of the union of the open sets O_i + int(-robot) and so is closed: contact is allowed,
+ * and passages that the robot fits exactly are passages; an exact fit in a keyhole is a place. The path is that of the
+ * robot's own origin. Of several shortest paths the lexicographically smallest, as sequences of vertices; lengths are
+ * told apart up to 2^-256 of themselves. Each leg is proved, by a test of its own, to keep the interior of the robot
+ * off every obstacle all the way.
  *
  * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are fine.
  * out        on success, also where there is no route: see sunder_route_reason().
@@ -575,7 +578,8 @@ SUNDER_API void sunder_route_vertex_text(const sunder_route *route, size_t verte
 SUNDER_API double sunder_route_length(const sunder_route *route);
 /* Is the path with its vertices rounded to the nearest doubles free as well? Proved like the path. */
 SUNDER_API bool sunder_route_rounded_is_free(const sunder_route *route);
-/* The configuration-space obstacles, united: a sum like any other, with its degenerate holes. Lives as long as the route. */
+/* The configuration-space obstacles, united: a sum like any other, with its degenerate holes. Lives as long as the
+ * route. */
 SUNDER_API const sunder_sum *sunder_route_obstacles(const sunder_route *route);
 
 /* ---- Predicates on doubles -------------------------------------------------------------------------------- */

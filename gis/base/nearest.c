@@ -1,5 +1,5 @@
-/* nearest.c: see nearest.h. The distance is that of Damerau and Levenshtein in its restricted form: letters put in, left
- * out, exchanged, or swapped with their neighbour; a word that was cut short is near, too. */
+/* nearest.c: see nearest.h. The distance is that of Damerau and Levenshtein in its restricted form: letters put in,
+ * left out, exchanged, or swapped with their neighbour; a word that was cut short is near, too. */
 #include "base/nearest.h"
 
 #include <ctype.h>

@@ -1,9 +1,9 @@
 /* align.c: the main direction of buildings, and a shape turned to it.
  *
- * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a quarter
- * of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin and its
- * corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that this leaves
- * in straight walls are taken out in the end (straight.c).
+ * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a
+ * quarter of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin
+ * and its corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that
+ * this leaves in straight walls are taken out in the end (straight.c).
  *
  * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
  * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the

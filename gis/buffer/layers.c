@@ -1,6 +1,6 @@
 /* layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; one that vanished, or was
- * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the field,
- * if one was named, and the number of features in it. */
+ * empty, has an empty geometry; one without polygons a null one. A set of dissolved features has the value of the
+ * field, if one was named, and the number of features in it. */
 #include "buffer/buffer.h"
 
 #include "options/progress.h"

@@ -132,8 +132,8 @@ static bool has_polygons(const gis_buffer *buffer, size_t feature)
     return has_shape(buffer, feature) || (geometry && OGR_G_IsEmpty(geometry));
 }
 
-/* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of a
- * whole layer. *deviation is raised to what that moves. */
+/* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of
+ * a whole layer. *deviation is raised to what that moves. */
 static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double *deviation, gis_error *error)
 {
     sunder_sum *sum;

@@ -1,14 +1,15 @@
 /* straight.c: walls that a turned shape has left with a corner too many.
  *
- * The sides of a shape that --align has turned are parallel to the walls up to rounding only. Where a wall should run on in a
- * straight line there is a corner instead, of some 1e-16: a house that was a rectangle would have eight corners. Such a corner
- * lies within a few units in the last place of the line between its neighbours, and goes. What that moves counts in the
- * deviation; the polygons are looked at again as after rounding. */
+ * The sides of a shape that --align has turned are parallel to the walls up to rounding only. Where a wall should run
+ * on in a straight line there is a corner instead, of some 1e-16: a house that was a rectangle would have eight
+ * corners. Such a corner lies within a few units in the last place of the line between its neighbours, and goes. What
+ * that moves counts in the deviation; the polygons are looked at again as after rounding. */
 #include "buffer/buffer.h"
 
 #include <math.h>
 
-/* Both ends of a side and the corner were rounded by half a unit each, once for each union, and the turned shape itself. */
+/* Both ends of a side and the corner were rounded by half a unit each, once for each union, and the turned shape
+ * itself. */
 static const double straight_ulps = 4;
 /* So many corners in a row at most: each that has gone is held against the side that comes of it. */
 enum { ROW = 8 };

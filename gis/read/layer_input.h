@@ -37,8 +37,8 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
 /* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
 bool gis_field_is_blank(OGRFeatureH feature, int field);
 
-/* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones. NULL:
- * memory is out. Not for lists, whose texts are cut. */
+/* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones.
+ * NULL: memory is out. Not for lists, whose texts are cut. */
 char *gis_field_key(OGRFeatureH feature, int field);
 
 /* The field that an option names; *field is -1 where it is not given. A field that is not there is an error that knows

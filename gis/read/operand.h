@@ -29,13 +29,13 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);
 
-/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` and the text open messages. A repair is
- * warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
+/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` and the text open messages. A
+ * repair is warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
 bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error);
 
-/* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)", where
- * long texts are cut at the end of a character. */
+/* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)",
+ * where long texts are cut at the end of a character. */
 bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error);
 bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
                       gis_error *error);
@@ -44,14 +44,14 @@ void gis_shape_name(const char *who, const char *text, char *name, size_t size);
 /* The standard shape ("disc:") that a text with a misspelt one was probably to be; NULL: none. */
 const char *gis_shape_prefix_meant(const char *text);
 
-/* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is printed.
- * *building as above; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
+/* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is
+ * printed. *building as above; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
 bool gis_shape_from_source(const gis_options *options, const char *path, const char *who, gis_source **source,
                            sunder_shape **out, double *building, gis_error *error);
 
-/* The SHAPE of an option, in any form; it must enclose something. A data source is read whole (--where and the like select
- * from the operands), is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to *source, else
- * untouched. Lengths inside a text are converted by the ruler. */
+/* The SHAPE of an option, in any form; it must enclose something. A data source is read whole (--where and the like
+ * select from the operands), is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to
+ * *source, else untouched. Lengths inside a text are converted by the ruler. */
 bool gis_shape_of_option(const gis_options *options, gis_option_id id, const gis_ruler *rule, OGRSpatialReferenceH crs,
                          gis_source **source, sunder_shape **out, gis_error *error);
 /* False, with an error, if writing the output would replace this source (NULL: there is none). */

@@ -1,15 +1,15 @@
 /* apart.c: the polygons of one rounded set against each other.
  *
  * Each polygon is valid by itself by now (round.c, mend.c). Together they are a valid multipolygon if their
- * interiors are disjoint and their boundaries meet in points only. Before rounding that held. Rounding moved vertices by a
- * hair: where two polygons met in a corner, or came nearer than a unit in the last place, they may now overlap or share a
- * piece of wall.
+ * interiors are disjoint and their boundaries meet in points only. Before rounding that held. Rounding moved vertices
+ * by a hair: where two polygons met in a corner, or came nearer than a unit in the last place, they may now overlap or
+ * share a piece of wall.
  *
- * Whichever two do so have a vertex of one within a few units of an edge of the other: on the way from where they were to
- * where they are there was a first contact, at a vertex. A grid of vertices finds such neighbours, in doubles and
- * generously; those that hang together are a group. Then the question is exact: the interior of the union of n polygons,
- * each with a connected interior, has n components exactly if they are apart in the sense above. A group that is not is
- * bent through its vertices, united, and rounded again, until all is well. */
+ * Whichever two do so have a vertex of one within a few units of an edge of the other: on the way from where they were
+ * to where they are there was a first contact, at a vertex. A grid of vertices finds such neighbours, in doubles and
+ * generously; those that hang together are a group. Then the question is exact: the interior of the union of n
+ * polygons, each with a connected interior, has n components exactly if they are apart in the sense above. A group that
+ * is not is bent through its vertices, united, and rounded again, until all is well. */
 #include "round/round.h"
 
 #include <math.h>
@@ -168,8 +168,8 @@ static void polygon_box(const gis_polygons *set, size_t p, double box[4])
         }
 }
 
-/* What stood in a hole that is no more shows by no vertex near an edge: all within the box of a polygon that may have lost
- * one is joined with it. */
+/* What stood in a hole that is no more shows by no vertex near an edge: all within the box of a polygon that may have
+ * lost one is joined with it. */
 static void join_inside(const gis_polygons *set, size_t suspect, size_t *parent)
 {
     double box[4], other[4];

@@ -18,10 +18,10 @@
 #include <stdlib.h>
 
 /* How near a vertex must be to an edge to bend it, in units in the last place, which are those of x
- * along x and those of y along y: that makes squares of the cells that round to one vertex, whatever the place. At first: both ends of
- * the edge and the vertex have moved by half a unit in each coordinate, and the sum of the three is below this. Later: what
- * passes through the square that rounds to the vertex, as in snap rounding; where features are no larger than a few units
- * the first would throw everything into everything, again and again. */
+ * along x and those of y along y: that makes squares of the cells that round to one vertex, whatever the place. At
+ * first: both ends of the edge and the vertex have moved by half a unit in each coordinate, and the sum of the three is
+ * below this. Later: what passes through the square that rounds to the vertex, as in snap rounding; where features are
+ * no larger than a few units the first would throw everything into everything, again and again. */
 static const double near_ulps = 4, pixel_ulps = 0.75;
 /* After so many bends in a row one more would be found seldom, and the next round will see it. */
 enum { BENDS_IN_A_ROW = 4 };

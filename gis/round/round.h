@@ -4,9 +4,9 @@
 
 #include "base/polygons.h"
 
-/* The polygons of a sum in doubles, each valid in the sense of OGC simple features, and so all as one multipolygon. deviation: no point of their boundaries is
- * farther than this from the exact boundary. (The other way round that does not hold: a needle or a hole thinner than
- * an ulp may be gone.) */
+/* The polygons of a sum in doubles, each valid in the sense of OGC simple features, and so all as one multipolygon.
+ * deviation: no point of their boundaries is farther than this from the exact boundary. (The other way round that does
+ * not hold: a needle or a hole thinner than an ulp may be gone.) */
 typedef struct gis_rounded {
     gis_polygons set;
     double deviation;
@@ -30,8 +30,8 @@ void gis_suspects_clear(gis_suspects *suspects);
 bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error);
 bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *error);
 
-/* Steps of it (mend.c). Appends a set with every edge bent through the vertices of the set that lie within a few ulps of
- * it, in later rounds within a half; adds how far that moves one to *moved. */
+/* Steps of it (mend.c). Appends a set with every edge bent through the vertices of the set that lie within a few ulps
+ * of it, in later rounds within a half; adds how far that moves one to *moved. */
 bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error);
 /* Ends the ring that began at vertex `first`, unless it has no area: then it is taken back.
  */
@@ -40,13 +40,13 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
  * interior that falls apart, a ring that meets itself. False only where the question cannot be answered. */
 typedef enum gis_polygon_state { GIS_POLYGON_BROKEN, GIS_POLYGON_TOUCHES, GIS_POLYGON_WELL } gis_polygon_state;
 bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state);
-/* Appends rings [first, last) of another set, which touch, as polygons that are valid in the sense of OGC; their corners
- * are the same. */
+/* Appends rings [first, last) of another set, which touch, as polygons that are valid in the sense of OGC; their
+ * corners are the same. */
 bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error);
 /* Replaces rings [first, set->rings) by valid polygons, and raises *moved to how far that moves a boundary. */
 bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error *error);
-/* Ends the polygon of rings [first, set->rings), which are not one yet, as what it is or, if that is not valid in the sense
- * of OGC, as the polygons that it is mended to; those are counted. */
+/* Ends the polygon of rings [first, set->rings), which are not one yet, as what it is or, if that is not valid in the
+ * sense of OGC, as the polygons that it is mended to; those are counted. */
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error);
 /* Where the point of the segment ab that is next to c lies, from 0 to 1 (beyond: outside), and how far c is *off, where
  * lengths along each axis are measured in its own unit. */

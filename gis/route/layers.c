@@ -156,8 +156,8 @@ static bool write_set(gis_sink_layer *layer, const gis_polygons *set, gis_error 
     return true;
 }
 
-/* What the frame and all rings of the obstacles enclose by the even-odd rule is the frame less the obstacles, since these
- * are disjoint but for points. */
+/* What the frame and all rings of the obstacles enclose by the even-odd rule is the frame less the obstacles, since
+ * these are disjoint but for points. */
 static bool free_space(const gis_polygons *obstacles, const double box[4], gis_polygons *out, gis_error *error)
 {
     const double corner[4][2] = {{box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};

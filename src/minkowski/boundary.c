@@ -22,8 +22,8 @@ static bool straight(const sunder_i_graph *g, uint32_t e, uint32_t f)
     return g->edge[e].line == g->edge[f].line && g->edge[e].rank == g->edge[f].rank;
 }
 
-/* The edge of the ring through `start` that leaves its smallest vertex; *outer tells the ring's orientation: at that vertex
- * both rays point right, and the leaving one is the lower of a counter-clockwise ring. */
+/* The edge of the ring through `start` that leaves its smallest vertex; *outer tells the ring's orientation: at that
+ * vertex both rays point right, and the leaving one is the lower of a counter-clockwise ring. */
 static uint32_t first_edge(const sunder_i_graph *g, uint32_t start, bool *outer)
 {
     uint32_t best = start, before = start, previous = start;

@@ -50,8 +50,8 @@ static bool make_rays(sunder_i_graph *g)
     return true;
 }
 
-/* The first outgoing ray from the arrival of `edge`, turning clockwise (across the covered wedge) or counter-clockwise (across
- * the free one); with same_component, among the edges of the edge's component. */
+/* The first outgoing ray from the arrival of `edge`, turning clockwise (across the covered wedge) or counter-clockwise
+ * (across the free one); with same_component, among the edges of the edge's component. */
 static uint32_t turn(const sunder_i_graph *g, uint32_t edge, bool clockwise, bool same_component)
 {
     const uint32_t v = g->edge[edge].to, first = sunder_i_first_ray(g, v), n = g->ray_end[v] - first;
@@ -73,9 +73,9 @@ uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
 
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge) { return turn(graph, edge, false, true); }
 
-/* The lexicographically smallest vertex of a walk, and whether the walk has its face inside: at that vertex all rays point
- * into the right half-plane, and the region beyond the lowest one is outside the walk. If that ray leaves, the covered side (its
- * left) is above it, inside; if it arrives, below. */
+/* The lexicographically smallest vertex of a walk, and whether the walk has its face inside: at that vertex all rays
+ * point into the right half-plane, and the region beyond the lowest one is outside the walk. If that ray leaves, the
+ * covered side (its left) is above it, inside; if it arrives, below. */
 static void judge_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
 {
     uint32_t least = g->edge[start].from;

@@ -38,7 +38,8 @@ static inline uint32_t sunder_i_ray_rank(const sunder_i_graph *g, sunder_i_ray r
     return rank < g->classes ? rank + g->classes : rank - g->classes;
 }
 
-/* The ray's place in the half-turn to the right of a lexicographically smallest vertex, lowest first: angles -pi/2 .. pi/2. */
+/* The ray's place in the half-turn to the right of a lexicographically smallest vertex, lowest first: angles -pi/2 ..
+ * pi/2. */
 static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray r)
 {
     const uint32_t rank = sunder_i_ray_rank(g, r);

@@ -1,9 +1,9 @@
 /* Two convex polygons: their sides in the order of their angles are the sides of the sum. No arrangement is needed, and
  * most buildings are such.
  *
- * Both walks start in the lexicographically smallest corner. From there directions turn from straight down (excluded) once
- * around: first those that lead to greater points, then those that lead back. Sides of one direction make one side, so no
- * vertex is straight, and the sum starts in its own smallest corner: it is canonical as it comes. */
+ * Both walks start in the lexicographically smallest corner. From there directions turn from straight down (excluded)
+ * once around: first those that lead to greater points, then those that lead back. Sides of one direction make one
+ * side, so no vertex is straight, and the sum starts in its own smallest corner: it is canonical as it comes. */
 #include "minkowski/convex.h"
 
 static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at)

@@ -33,8 +33,8 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
     }
 }
 
-/* A double with at most 20 significant bits near the middle of [low, high], a multiple of the unit 2^bit, or zero where the
- * range reaches down to that scale anyway. */
+/* A double with at most 20 significant bits near the middle of [low, high], a multiple of the unit 2^bit, or zero where
+ * the range reaches down to that scale anyway. */
 static double pick_origin(double low, double high, int bit)
 {
     const double middle = low / 2 + high / 2;
@@ -135,8 +135,8 @@ static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
     if (lattice->scale > 0 && fabs(sv) < 0x1p62 && fabs(so) < 0x1p62) return (int64_t)sv - (int64_t)so;
     sunder_i_i128 a, b;
     if (units(v, lattice->exponent, &a) && units(o, lattice->exponent, &b)) return (int64_t)(a - b);
-    /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the difference
-     * is exact (Sterbenz). */
+    /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the
+     * difference is exact (Sterbenz). */
     return (int64_t)ldexp(v - o, (int)-lattice->exponent);
 }
 

@@ -1,11 +1,12 @@
 /* The lattice: all coordinates of one problem as integers, without loss.
  *
  * Finite doubles are dyadic rationals, so the coordinates of a problem are integer multiples of one power of two
- * (repaired shapes add one odd common denominator). Taken from an origin near the features, map coordinates fit in 60 bits
- * almost always: that is a *narrow* lattice, on which every predicate runs in native and fixed-width integers. Else the lattice
- * is *wide* and the same predicates run on big integers. Code above this folder does not see the difference: it holds
- * points as sunder_i_point and asks the functions of predicate/ about them. On a wide lattice the two fields of a point are
- * handles, so no code outside number/ and predicate/ may do arithmetic on them; equality of handles means nothing either.
+ * (repaired shapes add one odd common denominator). Taken from an origin near the features, map coordinates fit in 60
+ * bits almost always: that is a *narrow* lattice, on which every predicate runs in native and fixed-width integers.
+ * Else the lattice is *wide* and the same predicates run on big integers. Code above this folder does not see the
+ * difference: it holds points as sunder_i_point and asks the functions of predicate/ about them. On a wide lattice the
+ * two fields of a point are handles, so no code outside number/ and predicate/ may do arithmetic on them; equality of
+ * handles means nothing either.
  *
  * Value of a lattice integer n: n * 2^exponent / denominator + origin, where the origin is a double that the holder of
  * the points keeps (each operand may have its own; few significant bits, so that sums of origins are exact).
@@ -48,9 +49,9 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n);
 /* The exponent of the lowest set bit of v (finite); INT_MAX for zero. */
 int sunder_i_low_bit(double v);
 
-/* A lattice that holds the given extents, each taken from an origin of its own if relative is true: the origin is in origins[i],
- * a multiple of the unit near the middle of extent i (zeroes if relative is false). Narrow if sums of one coordinate of each extent
- * stay below 2^60; with `force_wide` always wide (for tests). */
+/* A lattice that holds the given extents, each taken from an origin of its own if relative is true: the origin is in
+ * origins[i], a multiple of the unit near the middle of extent i (zeroes if relative is false). Narrow if sums of one
+ * coordinate of each extent stay below 2^60; with `force_wide` always wide (for tests). */
 void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *extents, size_t n, bool relative,
                            double (*origins)[2], bool force_wide);
 void sunder_i_lattice_free(sunder_i_lattice *lattice);

@@ -2,8 +2,8 @@
  *
  * Nothing in the library calls malloc itself. Long-lived arrays come from sunder_i_alloc() and friends, which return
  * NULL when memory is out; what lives as long as one computation comes from an arena. An arena remembers a failed
- * allocation (`failed`) and from then on hands out nothing, so that a stage made of many small allocations can be checked
- * once, at its end. */
+ * allocation (`failed`) and from then on hands out nothing, so that a stage made of many small allocations can be
+ * checked once, at its end. */
 #ifndef SUNDER_I_MEMORY_H
 #define SUNDER_I_MEMORY_H
 
@@ -35,7 +35,8 @@ typedef struct sunder_i_mark {
 
 /* A zeroed struct is an empty arena; this says it by name. */
 void sunder_i_arena_init(sunder_i_arena *arena);
-/* n * size bytes, 16-byte aligned, uninitialised, alive until the arena is freed or released past here; NULL if it failed. */
+/* n * size bytes, 16-byte aligned, uninitialised, alive until the arena is freed or released past here; NULL if it
+ * failed. */
 void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size);
 sunder_i_mark sunder_i_arena_mark(const sunder_i_arena *arena);
 void sunder_i_arena_release(sunder_i_arena *arena, sunder_i_mark mark);

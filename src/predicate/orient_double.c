@@ -6,8 +6,8 @@
 #include <math.h>
 
 /* Error bound of the filter below: with u = 2^-53 the computed determinant differs from the true one by at most
- * (3 + 16 u) u (|detleft| + |detright|) [She96, section 4.3, "ccwerrboundA"], given round-to-nearest, no underflow and no
- * contraction of multiply-add. Underflow can spoil a product by 2^-1075, so tiny determinants are not believed. */
+ * (3 + 16 u) u (|detleft| + |detright|) [She96, section 4.3, "ccwerrboundA"], given round-to-nearest, no underflow and
+ * no contraction of multiply-add. Underflow can spoil a product by 2^-1075, so tiny determinants are not believed. */
 int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const sunder_point *c)
 {
     const double left = (a->x - c->x) * (b->y - c->y), right = (a->y - c->y) * (b->x - c->x);

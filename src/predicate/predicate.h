@@ -1,8 +1,9 @@
 /* Questions about lattice points, each answered with its true sign.
  *
  * One ladder for all: on a narrow lattice the determinants are 128-bit (degree 2), their products 256-bit (degree 4),
- * comparisons of intersection points 320-bit (degree 5); a floating-point comparison with a proved error bound comes first
- * where it is cheaper. On a wide lattice the same functions run on big integers. Counters go to lattice->operations.
+ * comparisons of intersection points 320-bit (degree 5); a floating-point comparison with a proved error bound comes
+ * first where it is cheaper. On a wide lattice the same functions run on big integers. Counters go to
+ * lattice->operations.
  *
  * Points a, b, c ... are lattice points; "line ab" is directed from a to b, a != b. */
 #ifndef SUNDER_I_PREDICATE_H
@@ -32,8 +33,8 @@ int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_poi
 
 /* ---- Crossings along a line: fractions, degree 2 over 2, compared in degree 4 ---- */
 
-/* The point a + (num / den) * (b - a) of a line ab. den > 0. value is close: |value - num/den| <= 4e-16 * max(1, |num/den|).
- * On a wide lattice num and den are handles. */
+/* The point a + (num / den) * (b - a) of a line ab. den > 0. value is close: |value - num/den| <= 4e-16 * max(1,
+ * |num/den|). On a wide lattice num and den are handles. */
 typedef struct sunder_i_fraction {
     sunder_i_i128 num, den;
     double value;
@@ -52,8 +53,8 @@ int sunder_i_fraction_cmp(sunder_i_lattice *lattice, const sunder_i_fraction *s,
 
 /* ---- Intersection points: homogeneous, degree 3 over 2, compared in degree 5 ---- */
 
-/* (x / w, y / w) on the lattice, w > 0. ax, ay are close to the coordinates in the units of sunder_i_approx(). On a wide
- * lattice x, y, w are handles (in limb[0] and w). */
+/* (x / w, y / w) on the lattice, w > 0. ax, ay are close to the coordinates in the units of sunder_i_approx(). On a
+ * wide lattice x, y, w are handles (in limb[0] and w). */
 typedef struct sunder_i_hpoint {
     sunder_i_i256 x, y;
     sunder_i_i128 w;
@@ -89,12 +90,13 @@ typedef enum sunder_i_meeting {
     SUNDER_I_OVERLAP     /* they share a piece of positive length */
 } sunder_i_meeting;
 
-/* How the closed segments ab and cd meet; either may have length zero (a point: END_INSIDE or ENDS_EQUAL where it lies on the other). */
+/* How the closed segments ab and cd meet; either may have length zero (a point: END_INSIDE or ENDS_EQUAL where it lies
+ * on the other). */
 sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                         sunder_i_point d);
 
-/* Is the least squared distance of the closed segments ab and cd below (-1), equal to (0) or above (+1) the square of the
- * lattice integer gap >= 0? Zero-length segments are fine. Degree 6. */
+/* Is the least squared distance of the closed segments ab and cd below (-1), equal to (0) or above (+1) the square of
+ * the lattice integer gap >= 0? Zero-length segments are fine. Degree 6. */
 int sunder_i_segment_distance_cmp(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                   sunder_i_point d, int64_t gap);
 

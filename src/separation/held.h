@@ -23,8 +23,8 @@ typedef struct sunder_i_held {
 bool sunder_i_held_build(sunder_i_pairing *pairing, double reach);
 void sunder_i_held_free(sunder_i_pairing *pairing);
 
-/* Is all of the segment from (ax, ay) to (ax + dx, ay + dy), each coordinate within the pairing's error, in held squares, but for
- * what is out of reach? */
+/* Is all of the segment from (ax, ay) to (ax + dx, ay + dy), each coordinate within the pairing's error, in held
+ * squares, but for what is out of reach? */
 bool sunder_i_held_segment(const sunder_i_held *held, double error, double ax, double ay, double dx, double dy);
 
 /* The number of the square of a point, n * n if it is on none. */

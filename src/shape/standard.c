@@ -3,10 +3,10 @@
  * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational
  * directions: the corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least
  * the radius away from the origin, by integer arithmetic. What fails is moved out or in by a growing number of ulps.
- * Corners of discs with few segments are multiples of a coarse unit, 2^-26 of the radius or so: sums with map coordinates
- * then fit the narrow lattice, which is several times as fast, and the disc is off by some 10^-8 more at most.
- * Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is symmetric
- * exactly. */
+ * Corners of discs with few segments are multiples of a coarse unit, 2^-26 of the radius or so: sums with map
+ * coordinates then fit the narrow lattice, which is several times as fast, and the disc is off by some 10^-8 more at
+ * most. Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is
+ * symmetric exactly. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"

@@ -68,8 +68,9 @@ sunder_status sunder_i_unite_some(sunder_i_uniting *u, uint32_t first, uint32_t 
 /* The canonical sum off a marked map: fills vertices, rings, polygons, segments and points of the sum. */
 sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);
 
-/* Another set than what is covered: its faces (by number; not face 0), and which of the edges and vertices that no region
- * covers, between covered faces, are its parts without area (NULL: none). An edge with the set on both sides is inside. */
+/* Another set than what is covered: its faces (by number; not face 0), and which of the edges and vertices that no
+ * region covers, between covered faces, are its parts without area (NULL: none). An edge with the set on both sides is
+ * inside. */
 typedef struct sunder_i_inside {
     const bool *face, *edge, *vertex;
 } sunder_i_inside;

@@ -1,7 +1,7 @@
-/* bench_buffer each|dissolve SHAPE FILE: seconds of growing the polygons of a file, one a line, by disc:RADIUS:SEGMENTS,
- * inside-disc:RADIUS:SEGMENTS or square:SIDE, from doubles in memory to the vertices of the exact results as nearest
- * doubles; median of several runs. `each` grows line by line, `dissolve` everything into one set. Prints features,
- * vertices in and out, the area of the written rings, seconds. Public interface only. */
+/* bench_buffer each|dissolve SHAPE FILE: seconds of growing the polygons of a file, one a line, by
+ * disc:RADIUS:SEGMENTS, inside-disc:RADIUS:SEGMENTS or square:SIDE, from doubles in memory to the vertices of the exact
+ * results as nearest doubles; median of several runs. `each` grows line by line, `dissolve` everything into one set.
+ * Prints features, vertices in and out, the area of the written rings, seconds. Public interface only. */
 #include "buffer_input.h"
 #include "sunder.h"
 

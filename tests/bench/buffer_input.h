@@ -1,5 +1,5 @@
-/* Layers for the benchmark of buffers: a file of polygons, one WKT a line, and the shape to grow by. One header for the C
- * programs and for CGAL's, so that all measure on the same numbers. */
+/* Layers for the benchmark of buffers: a file of polygons, one WKT a line, and the shape to grow by. One header for the
+ * C programs and for CGAL's, so that all measure on the same numbers. */
 #ifndef SUNDER_BENCH_BUFFER_INPUT_H
 #define SUNDER_BENCH_BUFFER_INPUT_H
 

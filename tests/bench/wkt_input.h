@@ -1,5 +1,5 @@
-/* Reading the benchmark inputs: POLYGON and MULTIPOLYGON texts into plain arrays. One header for the C programs and, so that
- * both measure on the same numbers, for the C++ ones. */
+/* Reading the benchmark inputs: POLYGON and MULTIPOLYGON texts into plain arrays. One header for the C programs and, so
+ * that both measure on the same numbers, for the C++ ones. */
 #ifndef SUNDER_BENCH_WKT_INPUT_H
 #define SUNDER_BENCH_WKT_INPUT_H
 

@@ -1,5 +1,5 @@
-/* Real layers for the tests with GEOS: polygons that ogr2ogr reads and hands over as WKB in hexadecimal, so that no digit is
- * lost, and the program sunder run on them. Static functions, for one program each. */
+/* Real layers for the tests with GEOS: polygons that ogr2ogr reads and hands over as WKB in hexadecimal, so that no
+ * digit is lost, and the program sunder run on them. Static functions, for one program each. */
 #ifndef SUNDER_TESTS_CROSS_LAYERS_H
 #define SUNDER_TESTS_CROSS_LAYERS_H
 
@@ -128,8 +128,8 @@ static inline bool layers_read(const char *path, const char *layer, const char *
     return ok;
 }
 
-/* Runs `sunder buffer` on the valid features of a layer; the output is in the scratch directory. NULL, with the message on
- * stdout, where it fails; else the summary. */
+/* Runs `sunder buffer` on the valid features of a layer; the output is in the scratch directory. NULL, with the message
+ * on stdout, where it fails; else the summary. */
 static inline json *layers_buffer(const char *path, const char *layer, const char *options, const char *output)
 {
     const char *sunder = getenv("SUNDER");

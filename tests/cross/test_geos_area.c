@@ -1,6 +1,7 @@
-/* Areas of larger sums against GEOS: the union, by OverlayNG in doubles, of the sums of all pairs of triangles, the triangles
- * by the oracle (GEOS's own triangulation fails on rings that touch). Relative difference at most 1e-9: GEOS rounds its crossings, of relative size 1e-16
- * each, and the areas add up over some thousand edges; a face lost or found too much is far larger. */
+/* Areas of larger sums against GEOS: the union, by OverlayNG in doubles, of the sums of all pairs of triangles, the
+ * triangles by the oracle (GEOS's own triangulation fails on rings that touch). Relative difference at most 1e-9: GEOS
+ * rounds its crossings, of relative size 1e-16 each, and the areas add up over some thousand edges; a face lost or
+ * found too much is far larger. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -2,9 +2,10 @@
  *
  *     P + B  =  P  u  the convex hull of s + B, for every side s of the boundary of P      where 0 is in B
  *
- * (on the way from p to p + b, which is not in P, the boundary is passed), and hulls and unions it has. Areas of dissolved
- * layers agree to 1e-9: GEOS rounds every crossing by 1e-16 of its coordinates, some thousand times them, and a side or
- * corner lost or made up would show a hundred times over. Everything written, by all operations, is valid for GEOS. */
+ * (on the way from p to p + b, which is not in P, the boundary is passed), and hulls and unions it has. Areas of
+ * dissolved layers agree to 1e-9: GEOS rounds every crossing by 1e-16 of its coordinates, some thousand times them, and
+ * a side or corner lost or made up would show a hundred times over. Everything written, by all operations, is valid for
+ * GEOS. */
 #include "layers.h"
 
 typedef struct brush {

@@ -1,13 +1,13 @@
 /* disc:R:N and inside-disc:R:N against the true round buffer, feature by feature, by areas and without a tolerance.
  *
- * Let A(r) be the area of the true buffer of a polygon by r, D and I ours by the N-gon around and inside the disc, and G(r)
- * that of GEOS's buffer with q segments a quadrant. GEOS replaces each arc by chords of 90/q degrees: its polygon is
- * inside the true buffer, and the middle of a chord is off the centre by r cos(45/q): so
+ * Let A(r) be the area of the true buffer of a polygon by r, D and I ours by the N-gon around and inside the disc, and
+ * G(r) that of GEOS's buffer with q segments a quadrant. GEOS replaces each arc by chords of 90/q degrees: its polygon
+ * is inside the true buffer, and the middle of a chord is off the centre by r cos(45/q): so
  *
  *     G(r)  <=  A(r)  <=  G(r / c),  c = cos(45 degrees / q).
  *
- * The N-gon around the disc lies in the disc of R / cos(180 degrees / N), but for the unit that its corners are rounded to,
- * below a millionth of R; the one inside holds the disc of R cos(180 degrees / N), but for that. So
+ * The N-gon around the disc lies in the disc of R / cos(180 degrees / N), but for the unit that its corners are rounded
+ * to, below a millionth of R; the one inside holds the disc of R cos(180 degrees / N), but for that. So
  *
  *     G(R (1 - m) k)  <=  A(R (1 - m) k)  <=  I  <=  A(R)  <=  G(R / c)           k = cos(180 degrees / N), m = 1e-6
  *     G(R)  <=  A(R)  <=  D  <=  A(R (1 + m) / k)  <=  G(R (1 + m) / (k c)),

@@ -1,6 +1,6 @@
-/* How large the sums of the families are, and how much is done for them, as functions of the sizes of P and Q: counts of the
- * output and of operations, never time. The families come from sunder-families, so this asks too whether the generator draws
- * what it says. */
+/* How large the sums of the families are, and how much is done for them, as functions of the sizes of P and Q: counts
+ * of the output and of operations, never time. The families come from sunder-families, so this asks too whether the
+ * generator draws what it says. */
 #include "generated.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
-/* What the three unions of subsums do, in counts of operations and sizes of maps, on the families that tell them apart. Never
- * time. */
+/* What the three unions of subsums do, in counts of operations and sizes of maps, on the families that tell them apart.
+ * Never time. */
 #include "generated.h"
 
 #include <setjmp.h>
@@ -56,9 +56,9 @@ static size_t logarithm(size_t n)
     return l;
 }
 
-/* I + k log k: the questions asked are few for each edge of the arrangement and, to find the first corner of each subsum, few for each
- * level of the history. The edges are I up to a constant. That constant grew slowly over the sizes tried, and less than the
- * logarithm of the size of the map. */
+/* I + k log k: the questions asked are few for each edge of the arrangement and, to find the first corner of each
+ * subsum, few for each level of the history. The edges are I up to a constant. That constant grew slowly over the sizes
+ * tried, and less than the logarithm of the size of the map. */
 static void test_arrangement(void **state)
 {
     for (size_t n = 16; n <= 96; n *= 2) {
@@ -69,7 +69,8 @@ static void test_arrangement(void **state)
     }
 }
 
-/* With the largest subsums first the cost follows the output; drawn at random, the forks are arranged before they are covered. */
+/* With the largest subsums first the cost follows the output; drawn at random, the forks are arranged before they are
+ * covered. */
 static void test_covered_fork(void **state)
 {
     for (size_t n = 32; n <= 96; n += 32) {
@@ -82,9 +83,9 @@ static void test_covered_fork(void **state)
     }
 }
 
-/* Where one operand is a single convex polygon there is nothing for the first round of divide and conquer to unite: each P + Q_j is
- * one subsum, and log t rounds of overlays do the work, each on maps nearly as large as the result. With the operands
- * exchanged the only P + Q_1 is the incremental union itself. */
+/* Where one operand is a single convex polygon there is nothing for the first round of divide and conquer to unite:
+ * each P + Q_j is one subsum, and log t rounds of overlays do the work, each on maps nearly as large as the result.
+ * With the operands exchanged the only P + Q_1 is the incremental union itself. */
 static void test_divide_on_comb(void **state)
 {
     for (size_t n = 32; n <= 128; n *= 2) {

@@ -1,10 +1,10 @@
 /* Erosions, openings and closings against brute force, and the laws that they obey.
  *
- * The oracle (support/oracle.h, no code of src/) tells of a point whether it lies in int X + int Y. So B + x is within a
- * closed regular set D exactly when x is not in the sum of the complement of D, cut off by a frame, and -B. Erosions and
- * closings are asked that at all places where they could go wrong: their own corners, what lies between two of them, all
- * differences of corners of D and B (ends of degenerate parts are among them), what lies between two of those, and others
- * drawn at random. Everything is scaled so that all of these are integers.
+ * The oracle (support/oracle.h, no code of src/) tells of a point whether it lies in int X + int Y. So B + x is within
+ * a closed regular set D exactly when x is not in the sum of the complement of D, cut off by a frame, and -B. Erosions
+ * and closings are asked that at all places where they could go wrong: their own corners, what lies between two of
+ * them, all differences of corners of D and B (ends of degenerate parts are among them), what lies between two of
+ * those, and others drawn at random. Everything is scaled so that all of these are integers.
  *
  * An opening is held against the closing of the complement, which leaves it but for what fits exactly. */
 #include "generate.h"
@@ -273,8 +273,8 @@ static void add_ring(polyset *out, const polyset *d, size_t r)
     polyset_ring(out, d->xy + 2 * from, d->ring_end[r] - from);
 }
 
-/* The complement of a regular set without overlaps, within a frame: the frame and the holes become members, and the outer
- * rings holes of those around them. */
+/* The complement of a regular set without overlaps, within a frame: the frame and the holes become members, and the
+ * outer rings holes of those around them. */
 static void complement_of(polyset *out, const polyset *d, double frame)
 {
     polyset_init(out);
@@ -333,8 +333,8 @@ static bool is_erosion(const sunder_sum *sum, const polyset *d, const polyset *b
 
 /* ---- Cases ---- */
 
-/* Two simple polygons; or a board, its parts disjoint members; and what to grow and shrink by: a smaller board, a simple or a convex polygon, or
- * one that comes off the board's own grid, so that fits are exact. */
+/* Two simple polygons; or a board, its parts disjoint members; and what to grow and shrink by: a smaller board, a
+ * simple or a convex polygon, or one that comes off the board's own grid, so that fits are exact. */
 static void random_case(polyset *p, polyset *b, rng *r)
 {
     cells board, small;
@@ -488,8 +488,8 @@ static void add_slim_parts(polyset *out, const polyset *b, const double *segment
     free(t);
 }
 
-/* What the closing of the complement by -B leaves of the frame is what B reaches from the inside of the erosion; with what
- * it reaches from the erosion's parts without area, exact fits, that makes the opening. */
+/* What the closing of the complement by -B leaves of the frame is what B reaches from the inside of the erosion; with
+ * what it reaches from the erosion's parts without area, exact fits, that makes the opening. */
 static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, const sunder_sum *opened)
 {
     polyset c, turned;

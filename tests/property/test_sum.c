@@ -1,5 +1,5 @@
-/* The library's sums against the oracle's, byte for byte, on small random operands of every kind of trouble; every fourth
- * on forced big integers too. */
+/* The library's sums against the oracle's, byte for byte, on small random operands of every kind of trouble; every
+ * fourth on forced big integers too. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

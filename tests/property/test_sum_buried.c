@@ -1,5 +1,6 @@
 /* Layers of members that overlap and touch, grown by a convex shape: sides inside a single subsum are dropped before
- * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is dropped. */
+ * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is
+ * dropped. */
 #include "generate.h"
 #include "minkowski/buried.h"
 #include "minkowski/minkowski.h"
@@ -107,8 +108,8 @@ static void count_candidates(const polyset *p, const polyset *q, size_t count[2]
     sunder_shape_free(b);
 }
 
-/* A row of squares: each one's sides towards its neighbours are inside these, all but the first and the last; sides that
- * only touch a neighbour's are not. */
+/* A row of squares: each one's sides towards its neighbours are inside these, all but the first and the last; sides
+ * that only touch a neighbour's are not. */
 static void test_row(void **state)
 {
     (void)state;

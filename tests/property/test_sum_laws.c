@@ -1,5 +1,5 @@
-/* Laws of Minkowski sums, exactly: P + Q = Q + P; translation; scaling by powers of two; the hull of the sum is the sum of
- * the hulls; the area is that of the polygons; the operands said otherwise give the same bytes; reflection. */
+/* Laws of Minkowski sums, exactly: P + Q = Q + P; translation; scaling by powers of two; the hull of the sum is the sum
+ * of the hulls; the area is that of the polygons; the operands said otherwise give the same bytes; reflection. */
 #include "expect.h"
 #include "generate.h"
 #include "sum_text.h"
@@ -51,7 +51,8 @@ static bool translates(law_case *c)
     return ok;
 }
 
-/* P far out on integers, Q fine and near the origin: no double holds the sum of the two places. Only operands of small integers. */
+/* P far out on integers, Q fine and near the origin: no double holds the sum of the two places. Only operands of small
+ * integers. */
 static bool translates_far(law_case *c)
 {
     const double dx = 0x1p51 + (double)rng_int(&c->r, -999, 999), dy = (double)rng_int(&c->r, -9, 9) - 0x1p50;

@@ -1,5 +1,6 @@
-/* Sums of operands with rational vertices: bow-ties, taken by the even-odd rule. The crossing of a bow-tie is computed here; times its
- * denominator both operands are integers, and the oracle's sum of those is the library's times that number. */
+/* Sums of operands with rational vertices: bow-ties, taken by the even-odd rule. The crossing of a bow-tie is computed
+ * here; times its denominator both operands are integers, and the oracle's sum of those is the library's times that
+ * number. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -1,6 +1,7 @@
-/* Sums with a convex operand, traced along the outline, against the oracle byte for byte: polygons of all kinds, with holes
- * and bays that close, by convex shapes from small to larger than they are. The tracing is called by itself, so that
- * the general road cannot answer for it; where it declines there is nothing to compare, but it may not always do so. */
+/* Sums with a convex operand, traced along the outline, against the oracle byte for byte: polygons of all kinds, with
+ * holes and bays that close, by convex shapes from small to larger than they are. The tracing is called by itself, so
+ * that the general road cannot answer for it; where it declines there is nothing to compare, but it may not always do
+ * so. */
 #include "generate.h"
 #include "minkowski/traced.h"
 #include "oracle.h"

@@ -16,9 +16,9 @@ size_t failing_outstanding(void);
 /* Puts malloc and friends back. */
 void failing_end(void);
 
-/* Fails the 1st, 2nd, 3rd ... allocation of attempt() until it runs through without meeting the failure. attempt() returns
- * true on success and must then have freed what it made, or false where memory was out. False if some attempt leaked, or
- * succeeded in spite of a failure that it may not survive (survivable false), or failed without one. */
+/* Fails the 1st, 2nd, 3rd ... allocation of attempt() until it runs through without meeting the failure. attempt()
+ * returns true on success and must then have freed what it made, or false where memory was out. False if some attempt
+ * leaked, or succeeded in spite of a failure that it may not survive (survivable false), or failed without one. */
 bool failing_loop(bool (*attempt)(void *context), void *context, bool survivable);
 
 #endif

@@ -16,9 +16,9 @@ typedef struct cells {
     bool on[CELLS_MAX][CELLS_MAX][2];          /* [column][row][lower, upper] triangle is part of the set */
 } cells;
 
-/* The outline of the triangles that are on: a member for each edge-connected part, with its holes. pinched: rings run through points
- * where they touch themselves (one closed walk for each side that the part shows); else they only meet there.
- * bends_only: collinear vertices are left out. */
+/* The outline of the triangles that are on: a member for each edge-connected part, with its holes. pinched: rings run
+ * through points where they touch themselves (one closed walk for each side that the part shows); else they only meet
+ * there. bends_only: collinear vertices are left out. */
 void cells_outline(polyset *set, const cells *c, bool pinched, bool bends_only);
 
 /* What spacing the lines of a board have. */
@@ -33,8 +33,8 @@ typedef enum spacing {
 /* A random board: squares only, or with single triangles too; `percent` of the area is on. */
 void random_cells(cells *c, rng *r, int columns, int rows, spacing kind, bool triangles, int percent);
 
-/* A board with a pocket into which -Q fits exactly, Q the outline of `peg`: the places of the reflected peg are off, and with
- * slide > 0 the places it sweeps in moving up to that many columns. The same unit steps as the peg. */
+/* A board with a pocket into which -Q fits exactly, Q the outline of `peg`: the places of the reflected peg are off,
+ * and with slide > 0 the places it sweeps in moving up to that many columns. The same unit steps as the peg. */
 void pocket_for(cells *board, rng *r, const cells *peg, int slide);
 
 /* A simple polygon of n <= 8 vertices on the integers 0..span, no vertex on another edge. */
@@ -93,8 +93,8 @@ typedef enum family_kind {
 const char *family_kind_string(family_kind kind);
 /* Some `low` to `high` vertices an operand. */
 void random_family(polyset *p, polyset *q, rng *r, family_kind kind, int low, int high);
-/* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in the
- * middle of edges where these are exact; members in another order. */
+/* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in
+ * the middle of edges where these are exact; members in another order. */
 void random_dress(polyset *set, rng *r);
 
 /* x' = a x + b y, y' = c x + d y; exact for small integers. */

@@ -6,8 +6,8 @@
 
 /* Is the program there? If not, says so on stdout. */
 bool generated_available(void);
-/* What it prints with these arguments of a shell; *status (may be NULL) is its exit status, else anything but 0 ends the test
- * program. Freed by the caller. */
+/* What it prints with these arguments of a shell; *status (may be NULL) is its exit status, else anything but 0 ends
+ * the test program. Freed by the caller. */
 char *generated_text(const char *arguments, int *status);
 /* The two operands that it prints. */
 void generated_pair(polyset *p, polyset *q, const char *arguments);

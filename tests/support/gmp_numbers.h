@@ -15,7 +15,8 @@ sunder_i_big big_from_mpz(sunder_i_arena *arena, const mpz_t v);
 /* The big is in canonical form? */
 bool big_is_canonical(sunder_i_big v);
 
-/* An integer of at most `bits` bits and either sign that leans towards powers of two, their neighbours, runs of ones, and zero. */
+/* An integer of at most `bits` bits and either sign that leans towards powers of two, their neighbours, runs of ones,
+ * and zero. */
 void random_mpz(mpz_t r, rng *g, unsigned bits);
 sunder_i_i128 random_i128(rng *g, unsigned bits);
 

@@ -1,10 +1,11 @@
 /* The oracle: Minkowski sums by brute force in GMP integers and rationals, sharing no code with src/.
  *
- * A point x lies in O = int P + int Q exactly when it lies in the interior of some T + S, T and S triangles of P and of Q:
- * the interiors of the triangles are dense in the interiors of the sets, and T and S are convex. The boundary of O, its
- * degenerate segments and points lie on segments "edge of one operand + vertex of the other". So: all those segments,
- * all their crossings, and for each piece between crossings, for each of its two sides, and for each crossing the
- * membership test. Nothing is carried from one place to another and no winding numbers are used. Slow: O(n^2 m^2) and more. */
+ * A point x lies in O = int P + int Q exactly when it lies in the interior of some T + S, T and S triangles of P and of
+ * Q: the interiors of the triangles are dense in the interiors of the sets, and T and S are convex. The boundary of O,
+ * its degenerate segments and points lie on segments "edge of one operand + vertex of the other". So: all those
+ * segments, all their crossings, and for each piece between crossings, for each of its two sides, and for each crossing
+ * the membership test. Nothing is carried from one place to another and no winding numbers are used. Slow: O(n^2 m^2)
+ * and more. */
 #ifndef SUNDER_TESTS_ORACLE_H
 #define SUNDER_TESTS_ORACLE_H
 
@@ -12,7 +13,8 @@
 
 typedef struct oracle oracle;
 
-/* Both operands on one integer grid, their triangles and all sums of these. Valid sets as sunder_shape_from_rings() takes. */
+/* Both operands on one integer grid, their triangles and all sums of these. Valid sets as sunder_shape_from_rings()
+ * takes. */
 oracle *oracle_new(const polyset *p, const polyset *q);
 void oracle_free(oracle *o);
 
@@ -20,13 +22,13 @@ void oracle_free(oracle *o);
 bool oracle_covers(const oracle *o, const char *x, const char *y);
 
 /* The canonical sum as one line of JSON with rational texts:
- * {"polygons": [{"outer": [["x", "y"], ...], "holes": [...]}], "degenerate_segments": [...], "degenerate_points": [...]}
- * all_segments: arrange every edge-vertex pair; else only those that are locally extreme, which is the same set
+ * {"polygons": [{"outer": [["x", "y"], ...], "holes": [...]}], "degenerate_segments": [...], "degenerate_points":
+ * [...]} all_segments: arrange every edge-vertex pair; else only those that are locally extreme, which is the same set
  * whenever the lemma in oracle_arrangement.c holds (tests run both). Freed by the caller. */
 char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments);
 
-/* The triangles of a set, member by member, 6 coordinates each, counter-clockwise; found by trying everything, O(n^4) at worst.
- * Vertices are those of the set. Freed by the caller. */
+/* The triangles of a set, member by member, 6 coordinates each, counter-clockwise; found by trying everything, O(n^4)
+ * at worst. Vertices are those of the set. Freed by the caller. */
 double *oracle_triangles(const polyset *set, size_t *count);
 
 #endif

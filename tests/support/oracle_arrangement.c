@@ -2,9 +2,10 @@
  *
  * Which segments. Where x is a boundary point of O, P and x - Q touch without their interiors meeting. If x lies in the
  * relative interior of edge e of P + vertex v of Q, and the corner of Q at v reaches strictly to the outer side of
- * the line through e once it is turned round and set on e (a corner that is reflex, or has a leg that leaves through the outer
- * side), then the two interiors meet near that contact, and so they do at every point of the relative interior: the segment carries
- * nothing but covered points. The other segments are enough. With all_segments even those are arranged, as a check. */
+ * the line through e once it is turned round and set on e (a corner that is reflex, or has a leg that leaves through
+ * the outer side), then the two interiors meet near that contact, and so they do at every point of the relative
+ * interior: the segment carries nothing but covered points. The other segments are enough. With all_segments even those
+ * are arranged, as a check. */
 #include "oracle_inner.h"
 
 #include <math.h>

@@ -39,7 +39,8 @@ void polyset_negate(polyset *set);
 /* Every ring turned round, and started at another vertex. */
 void polyset_turn_rings(polyset *set, size_t start);
 
-/* POLYGON or MULTIPOLYGON from WKT; false if the text is anything else. *end (if not NULL): past the last character read. */
+/* POLYGON or MULTIPOLYGON from WKT; false if the text is anything else. *end (if not NULL): past the last character
+ * read. */
 bool polyset_read_wkt(polyset *set, const char *text, const char **end);
 /* As WKT with 17 digits, for messages. */
 char *polyset_wkt(const polyset *set);

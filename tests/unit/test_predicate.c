@@ -1,5 +1,5 @@
-/* predicate/: the same random questions on a narrow lattice, on a forced wide one, and in GMP; points on small grids and on
- * the largest narrow coordinates, so that all signs, ties and coincidences come up. */
+/* predicate/: the same random questions on a narrow lattice, on a forced wide one, and in GMP; points on small grids
+ * and on the largest narrow coordinates, so that all signs, ties and coincidences come up. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "predicate/kernel.h"

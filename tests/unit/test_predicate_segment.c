@@ -1,5 +1,5 @@
-/* predicate/segment: how two segments meet, in every degenerate form, and their distance against a gap; both lattices, and
- * GMP beside them. */
+/* predicate/segment: how two segments meet, in every degenerate form, and their distance against a gap; both lattices,
+ * and GMP beside them. */
 #include "gmp_numbers.h"
 #include "predicate/predicate.h"
 

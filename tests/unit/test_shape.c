@@ -304,7 +304,8 @@ static void check_disc(double radius, unsigned n, bool inside)
             const long double edge = (ax * by - ay * bx) / hypotl(bx - ax, by - ay) / radius;
             assert_true(edge >= 1 - 8 * LDBL_EPSILON);
         }
-        /* Few segments: corners are multiples of a coarse unit, 2^-25 of the radius at most, which the factor makes up for. */
+        /* Few segments: corners are multiples of a coarse unit, 2^-25 of the radius at most, which the factor makes up
+         * for. */
         assert_true(fabsl(corner / tight - 1) < (n <= 256 ? 0x1p-21L : 1e-12L));
         /* Symmetric about the x axis: the mirror image of each corner is a corner. */
         const uint32_t m = (n - i) % n;
