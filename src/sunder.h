@@ -273,10 +273,9 @@ SUNDER_API const char *sunder_operation_string(sunder_operation operation);
 /* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
  *
  * p, b  not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
- * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL for
- * defaults. out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's
- * interior. Segments and
- *       points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts
+ * opts  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL: defaults.
+ * out   a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior. Segments
+ *       and points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a closing, its parts
  *       without area; an opening has none.
  *
  * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL, SUNDER_EARG
