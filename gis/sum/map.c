@@ -47,8 +47,9 @@ static bool append_ring(map_run *run, uint32_t start, gis_error *error)
     size_t first = run->face.vertices;
     uint32_t half = start;
     do {
-        const double *xy = vertex(run, half), *last = run->face.xy + 2 * run->face.vertices - 2;
-        if ((run->face.vertices == first || last[0] != xy[0] || last[1] != xy[1]) &&
+        const double *xy = vertex(run, half);
+        const double *last = run->face.vertices > first ? run->face.xy + 2 * (run->face.vertices - 1) : NULL;
+        if ((!last || last[0] != xy[0] || last[1] != xy[1]) &&
             !gis_polygons_vertex(&run->face, xy[0], xy[1], error))
             return false;
         run->done[half] = true;
