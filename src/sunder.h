@@ -554,7 +554,9 @@ typedef struct sunder_route sunder_route;
  * told apart up to 2^-256 of themselves. Each leg is proved, by a test of its own, to keep the interior of the robot
  * off every obstacle all the way.
  *
- * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are fine.
+ * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are fine. (One exception, for obstacles
+ *            without area alone: where members cross in places that no doubles hold, walls that two share are no part
+ *            of the interior.)
  * out        on success, also where there is no route: see sunder_route_reason().
  * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_ERANGE for a place too
  *            far away to be compared.
