@@ -76,9 +76,13 @@ static bool tell_part(double fraction, void *user)
            p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
 }
 
-static bool core_failed(sunder_status status, const sunder_error *why, gis_error *error)
+/* The sum in doubles, if the core made one; else its message. */
+static bool round_result(sunder_status status, const sunder_sum *sum, const sunder_error *why, gis_rounded *out,
+                         gis_error *error)
 {
-    return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why->message);
+    if (status != SUNDER_OK)
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why->message);
+    return gis_round_sum(sum, out, error);
 }
 
 /* ---- Blocks ----------------------------------------------------------------------------------------------- */
@@ -164,8 +168,7 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
     if (!gis_buffer_join(buffer, set, &joined, deviation, error))
         return false;
     sunder_status status = sunder_minkowski_sum(joined, buffer->shape, &stage, &sum, &why);
-    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
-    ok = ok && gis_round_sum(sum, &grown, error);
+    bool ok = round_result(status, sum, &why, &grown, error);
     CPLQuadTree *index = ok ? index_of(&grown.set) : NULL;
     ok = ok && (index || gis_no_memory(error));
     double inner[2];
@@ -228,8 +231,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
     if (gis_polygons_shape(polygons, SUNDER_STRICT, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     sunder_status status = sunder_shape_union(shape, &stage, &sum, &why);
-    bool ok = status == SUNDER_OK || core_failed(status, &why, error);
-    ok = ok && gis_round_sum(sum, &united, error);
+    bool ok = round_result(status, sum, &why, &united, error);
     if (ok) {
         united.deviation += all->result.deviation;
         united.repaired += all->result.repaired;
