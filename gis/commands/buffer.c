@@ -117,7 +117,7 @@ static bool print_summary(const void *made, gis_error *error)
     (void)error; /* what stdio refuses shows when it is flushed */
     printf("%s: %zu features", gis_source_name(buffer->input.source), buffer->input.n);
     if (buffer->dissolve)
-        printf(" in %zu sets", buffer->sets);
+        printf(" in %zu set%s", buffer->sets, buffer->sets == 1 ? "" : "s");
     printf(", %zu came out empty; %zu vertices, area %.12g\n", buffer->empty, buffer->vertices, buffer->area);
     printf("exact up to rounding: no boundary moved by more than %.3g; %zu polygons were mended for it; %.3g s\n",
            buffer->deviation, buffer->repaired, gis_clock() - run->start);
