@@ -144,6 +144,29 @@ static void every_rung(void **state)
     sunder_shape_free(q);
 }
 
+/* Above and below differ by less than any double tells: told apart to 2^-256 of the length, and equal beyond. */
+static void nearly_tied(void **state)
+{
+    static const struct {
+        unsigned digits;
+        bool above, told;
+    } cases[] = {{40, true, true}, {40, false, true}, {70, true, true}, {70, false, true}, {120, true, false}};
+    sunder_shape *q = shape_of(robot, 4);
+    const sunder_obstacle o = {q, NULL, NULL, 0};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char y[200];
+        snprintf(y, sizeof y, "%s1/1%0*d", cases[i].above ? "" : "-", (int)cases[i].digits, 0);
+        const sunder_place from = {{-5, 0}, {NULL, y}};
+        sunder_route *r = find(&o, 1, q, from, at(5, 0));
+        double xy[2];
+        assert_true(sunder_route_vertices(r) == 4);
+        sunder_route_vertex(r, 1, xy);
+        assert_true(xy[0] == -2 && xy[1] == (cases[i].above && cases[i].told ? 2 : -2));
+        sunder_route_free(r);
+    }
+    sunder_shape_free(q);
+}
+
 /* A repaired shape has rational corners, and the lattice a denominator. */
 static void rational_obstacles(void **state)
 {
@@ -164,7 +187,8 @@ static void rational_obstacles(void **state)
     sunder_shape_free(q);
 }
 
-/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members is inside. */
+/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members is inside.
+ */
 static void lines_inside_the_robot(void **state)
 {
     static const double ell[] = {0, 0, 4, 0, 4, 2, 2, 2, 2, 4, 0, 4}, dart[] = {0, 0, 8, 2, 0, 4, 2, 2};
@@ -316,13 +340,10 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(round_a_wall),
-        cmocka_unit_test(obstacles_are_a_sum),
-        cmocka_unit_test(every_rung),
-        cmocka_unit_test(rational_obstacles),
-        cmocka_unit_test(lines_inside_the_robot),
-        cmocka_unit_test(arguments),
-        cmocka_unit_test(stops),
+        cmocka_unit_test(round_a_wall),       cmocka_unit_test(obstacles_are_a_sum),
+        cmocka_unit_test(every_rung),         cmocka_unit_test(nearly_tied),
+        cmocka_unit_test(rational_obstacles), cmocka_unit_test(lines_inside_the_robot),
+        cmocka_unit_test(arguments),          cmocka_unit_test(stops),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
