@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Inputs that maps do contain and that make geometry code slow.
+
+    hard_inputs.py KIND SIZE [SEED]     P and Q, a line of WKT each, or, for a layer, a CSV of WKT with a field "fixed"
+
+Coordinates are printed so that they read back as the same doubles. Kinds, and what is hard about them:
+
+pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, two neighbouring vertices swapped in each
+        scribble       a ring through random places: about SIZE^2 / 6 crossings; Q a small square
+        track          a walk that wanders and is closed at last: about SIZE crossings; Q a small square
+        versions       SIZE copies of one outline, every corner off by up to a millimetre; Q a disc's polygon
+        slivers        SIZE long rectangles, shifted by up to a micrometre; Q an L
+        stairs         a blob as it is traced along pixels, and the same beside it
+        copies         a coast, and the same coast digitised again
+        ragged         a star of long thin spikes, and another a little aside
+        detail         SIZE vertices on a small outline, far from a large plain one; Q a triangle
+layers  pairs          SIZE pairs of squares that overlap, far from each other
+        pairs-far      the same, and one pair more whose squares lie deep in each other
+        outline        SIZE houses, every third too near its neighbour, round and on the rim of one fixed outline
+        versions-layer the features of versions, one by one
+        heap           SIZE nearly coincident rectangles
+        houses         SIZE detached houses on a grid
+        houses-bows    the same, 40 of them with a tiny crossing
+"""
+import math
+import random
+import sys
+
+EAST, NORTH = 451234.567, 5411234.567
+
+
+def ring(points):
+    return "(" + ", ".join("%r %r" % p for p in points + points[:1]) + ")"
+
+
+def polygon(points):
+    return "POLYGON (" + ring(points) + ")"
+
+
+def multipolygon(members):
+    return "MULTIPOLYGON (" + ", ".join("(" + ring(m) + ")" for m in members) + ")"
+
+
+def rectangle(x, y, width, height, turn=0.0):
+    c, s = math.cos(turn), math.sin(turn)
+    return [(x + c * u - s * v, y + s * u + c * v) for u, v in ((0, 0), (width, 0), (width, height), (0, height))]
+
+
+def disc(radius, corners=32):
+    return [(radius * math.cos(2 * math.pi * i / corners), radius * math.sin(2 * math.pi * i / corners))
+            for i in range(corners)]
+
+
+def swapped(points, places):
+    """Neighbouring vertices change places, so that the ring crosses itself there."""
+    points = list(points)
+    for k in range(places):
+        i = (2 * k + 1) * len(points) // (2 * places) % (len(points) - 1)
+        points[i], points[i + 1] = points[i + 1], points[i]
+    return points
+
+
+def stadium(n, x, y):
+    """A line of 80 m grown by 60 m, finely flattened, to the micrometre."""
+    half = n // 2
+    turn = [math.pi * (i / (half - 1) - 0.5) for i in range(half)]
+    right = [(x + 80 + 60 * math.cos(a), y + 60 * math.sin(a)) for a in turn]
+    left = [(x - 60 * math.cos(a), y - 60 * math.sin(a)) for a in turn]
+    return [(round(u, 6), round(v, 6)) for u, v in right + left]
+
+
+def arcs(n, _, bows=0):
+    return [polygon(swapped(stadium(n, EAST, NORTH), bows)), polygon(swapped(stadium(n, EAST + 12.5, NORTH + 19.75), bows))]
+
+
+def scribble(n, draw):
+    return [polygon([(round(EAST + draw.uniform(0, 900), 3), round(NORTH + draw.uniform(0, 900), 3)) for _ in range(n)]),
+            polygon(rectangle(0.0, 0.0, 1.0, 1.0))]
+
+
+def track(n, draw):
+    x, y, heading, walk = EAST, NORTH, 0.0, []
+    for _ in range(n):
+        heading += draw.gauss(0, 0.6)
+        x, y = x + 2 * math.cos(heading), y + 2 * math.sin(heading)
+        walk.append((round(x, 3), round(y, 3)))
+    return [polygon(walk), polygon(rectangle(0.0, 0.0, 1.0, 1.0))]
+
+
+def outline_versions(n, draw):
+    c, s = math.cos(0.7), math.sin(0.7)
+    corners = [(0, 0), (18, 0), (18, 9), (11, 9), (11, 15), (0, 15)]
+    return [[(EAST + c * u - s * v + draw.uniform(-1e-3, 1e-3), NORTH + s * u + c * v + draw.uniform(-1e-3, 1e-3))
+             for u, v in corners] for _ in range(n)]
+
+
+def versions(n, draw):
+    return [multipolygon(outline_versions(n, draw)), polygon(disc(5.0))]
+
+
+def slivers(n, draw):
+    members = [rectangle(draw.uniform(0, 1e-6), draw.uniform(0, 1e-6), 1000.0, 1.0, 0.3) for _ in range(n)]
+    return [multipolygon(members), "POLYGON ((0 0, 4 0, 4 1, 1 1, 1 4, 0 4, 0 0))"]
+
+
+def blob(draw):
+    waves = [(k, draw.uniform(-1, 1) / k, draw.uniform(0, 2 * math.pi)) for k in range(1, 60)]
+    return lambda angle: 1 + 0.12 * sum(a * math.sin(k * angle + p) for k, a, p in waves)
+
+
+def stairs(n, draw):
+    shape, pixels, steps = blob(draw), [], n // 2
+    for i in range(steps):
+        angle = 2 * math.pi * i / steps
+        r = steps / 6 * shape(angle)
+        pixel = (round(r * math.cos(angle)), round(r * math.sin(angle)))
+        if not pixels or pixel != pixels[-1]:
+            if pixels and pixel[0] != pixels[-1][0] and pixel[1] != pixels[-1][1]:
+                pixels.append((pixel[0], pixels[-1][1]))
+            pixels.append(pixel)
+    at = lambda dx, dy: [(654900.0 + 0.5 * x + dx, 5294900.0 + 0.5 * y + dy) for x, y in pixels]
+    return [polygon(at(0.0, 0.0)), polygon(at(2.0, 1.5))]
+
+
+def copies(n, draw):
+    shape = blob(draw)
+    coast = [1000 * (shape(2 * math.pi * i / n) + draw.uniform(-0.002, 0.002)) for i in range(n)]
+    at = lambda i, r: (EAST + r * math.cos(2 * math.pi * i / n), NORTH + r * math.sin(2 * math.pi * i / n))
+    again = [at(i, r) for i, r in enumerate(coast) if draw.random() >= 0.1]
+    return [polygon([at(i, r) for i, r in enumerate(coast)]),
+            polygon([(x + 1.0 + draw.uniform(-0.3, 0.3), y + 0.5 + draw.uniform(-0.3, 0.3)) for x, y in again])]
+
+
+def ragged(n, draw):
+    def star(x, y):
+        return [(x + r * math.cos(2 * math.pi * i / n), y + r * math.sin(2 * math.pi * i / n))
+                for i in range(n) for r in (draw.uniform(10, 1000),)]
+    return [polygon(star(EAST, NORTH)), polygon(star(EAST + 30.5, NORTH + 20.25))]
+
+
+def detail(n, draw):
+    small = [(EAST + r * math.cos(2 * math.pi * i / n), NORTH + r * math.sin(2 * math.pi * i / n))
+             for i in range(n) for r in (draw.uniform(0.9, 1.0),)]
+    return [multipolygon([small, rectangle(EAST + 1e5, NORTH + 1e5, 5000.0, 5000.0)]),
+            "POLYGON ((0 0, 0.01 0, 0 0.01, 0 0))"]
+
+
+def pairs(n, _, far=False):
+    side = math.ceil(math.sqrt(n))
+    rows = []
+    for i in range(n):
+        x, y = EAST + 40.0 * (i % side), NORTH + 40.0 * (i // side)
+        rows += [(rectangle(x, y, 10.0, 10.0), 0), (rectangle(x + 8.0, y + 3.0, 10.0, 10.0), 0)]
+    if far:
+        x = EAST - 3000.0
+        rows += [(rectangle(x, NORTH, 1000.0, 1000.0), 0), (rectangle(x + 200.0, NORTH + 100.0, 1000.0, 1000.0), 0)]
+    return rows
+
+
+def outline(n, _):
+    side = 20.0 * n / 4
+    rim = [(20.0 * i + (8.5 if i % 3 == 0 else 0.0), -4.0 + 3.0 * (i % 2)) for i in range(n // 4)]
+    turned = [lambda u, v: (u, v), lambda u, v: (side - v, u), lambda u, v: (side - u, side - v), lambda u, v: (v, side - u)]
+    rows = [(rectangle(EAST, NORTH, side, side), 1)]
+    for turn in turned:
+        rows += [([(EAST + x, NORTH + y) for x, y in (turn(u + a, v + b) for a, b in ((0, 0), (10, 0), (10, 3.5), (0, 3.5)))], 0)
+                 for u, v in rim]
+    return rows
+
+
+def heap(n, draw):
+    return [(rectangle(EAST + draw.uniform(0, 1e-3), NORTH + draw.uniform(0, 1e-3), 20.0 + draw.uniform(0, 1e-3),
+                       12.0 + draw.uniform(0, 1e-3), 0.4 + draw.uniform(0, 1e-5)), 0) for _ in range(n)]
+
+
+def houses(n, draw, bows=0):
+    side, rows = math.ceil(math.sqrt(n)), []
+    for i in range(n):
+        body = rectangle(EAST + 25.0 * (i % side), NORTH + 25.0 * (i // side), draw.uniform(8, 14), draw.uniform(7, 12),
+                         draw.uniform(-0.2, 0.2))
+        a, b = body[1], body[2]
+        body[2:2] = [(a[0] + t * (b[0] - a[0]) + 0.4 * k, a[1] + t * (b[1] - a[1])) for t, k in ((0.3, 1), (0.6, 1))]
+        rows.append(([(round(x, 3), round(y, 3)) for x, y in body], 0))
+    step = max(1, n // bows) if bows else n + 1
+    return [(swapped(body, 1), fixed) if i % step == step // 2 else (body, fixed) for i, (body, fixed) in enumerate(rows)]
+
+
+PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
+         "slivers": slivers, "stairs": stairs, "copies": copies, "ragged": ragged, "detail": detail}
+LAYERS = {"pairs": pairs, "pairs-far": lambda n, draw: pairs(n, draw, True), "outline": outline, "heap": heap,
+          "versions-layer": lambda n, draw: [(body, 0) for body in outline_versions(n, draw)], "houses": houses,
+          "houses-bows": lambda n, draw: houses(n, draw, 40)}
+
+
+def main(kind, size, seed="1"):
+    draw = random.Random(int(seed))
+    if kind in PAIRS:
+        print("\n".join(PAIRS[kind](int(size), draw)))
+    else:
+        print("WKT,fixed")
+        for body, fixed in LAYERS[kind](int(size), draw):
+            print('"%s",%d' % (polygon(body), fixed))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (3, 4) or sys.argv[1] not in {**PAIRS, **LAYERS}:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])
