@@ -1,5 +1,6 @@
 /* Which pairs the lower bound stands on, and how far apart each has to go. */
 #include "displacement/job.h"
+#include "displacement/peace.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,16 +14,13 @@ typedef struct measuring {
 static sunder_status measure_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const measuring *m = context;
-    const double none[2] = {0, 0};
     for (size_t k = begin; k < end; k++) {
-        sunder_separation least;
-        bool beyond;
-        const sunder_status status = sunder_i_separate(m->town->layer->feature[m->pair[k].a].shape, none,
-                                                       m->town->layer->feature[m->pair[k].b].shape, none,
-                                                       m->town->rules.gap, INFINITY, &least, &beyond, err);
+        sunder_i_peace peace;
+        const sunder_status status =
+            sunder_i_make_peace(&m->town->rules, m->town->layer->feature[m->pair[k].a].shape,
+                                m->town->layer->feature[m->pair[k].b].shape, INFINITY, &peace, err);
         if (status) return status;
-        m->pair[k].least = fmax(0, least.lower_bound);
-        sunder_separation_clear(&least);
+        m->pair[k].least = peace.least;
     }
     return SUNDER_OK;
 }
@@ -58,17 +56,6 @@ static bool is_left(uint64_t bodies, const key_pair *left, size_t n)
     return low < n && left[low].bodies == bodies;
 }
 
-/* Where contained features may overlap what they lie in, a pair can also be resolved by moving one into the other, and
- * its least separation proves nothing; unless the boxes show that neither fits. */
-static bool may_fit(const sunder_i_town *town, const sunder_i_relation *r)
-{
-    if (town->rules.contained != SUNDER_CONTAINED_IGNORE) return false;
-    const double *a = town->box + 4 * (size_t)r->a, *b = town->box + 4 * (size_t)r->b;
-    const double slack = 2 * town->rules.tolerance + 0x1p-48 * (fabs(a[0]) + fabs(a[1]) + fabs(b[2]) + fabs(b[3]));
-    const double wide = (a[2] - a[0]) - (b[2] - b[0]), high = (a[3] - a[1]) - (b[3] - b[1]);
-    return (wide <= slack && high <= slack) || (wide >= -slack && high >= -slack);
-}
-
 /* Of each pair of blocks the pair of members that is hardest to part; none of blocks that are still in conflict. */
 sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err)
 {
@@ -86,8 +73,7 @@ sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err)
         qsort(remain, left, sizeof *remain, by_bodies);
         for (size_t k = 0; k < w->start.n; k++) {
             const sunder_i_relation *r = &w->start.pair[k];
-            if (!sunder_i_job_is_between(town, r) || may_fit(town, r) ||
-                is_left(bodies_of(town, r->a, r->b), remain, left))
+            if (!sunder_i_job_is_between(town, r) || is_left(bodies_of(town, r->a, r->b), remain, left))
                 continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = r->b;

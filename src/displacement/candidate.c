@@ -2,6 +2,8 @@
  * other. */
 #include "displacement/inquiry.h"
 
+#include "displacement/peace.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,10 +20,15 @@ bool sunder_i_inquiry_may_overlap(const sunder_i_inquiry *c, uint32_t i, uint32_
 {
     const sunder_i_town *town = c->town;
     const sunder_i_body *p = &town->body[c->body[i]], *q = &town->body[c->body[j]];
-    for (uint32_t k = 0; town->kept_n && k < p->members; k++)
-        for (uint32_t l = 0; l < q->members; l++)
-            if (sunder_i_kept_at(town, town->member[p->member + k], town->member[q->member + l]) < town->kept_n)
+    if (!sunder_i_may_be_inside(&town->rules)) return false;
+    const double reach = nextafter(c->limit[i] + c->limit[j], INFINITY);
+    for (uint32_t k = 0; k < p->members; k++)
+        for (uint32_t l = 0; l < q->members; l++) {
+            const size_t f = town->member[p->member + k], g = town->member[q->member + l];
+            if (town->present[f] && town->present[g] &&
+                sunder_i_may_get_inside(&town->rules, town->box + 4 * f, town->box + 4 * g, reach))
                 return true;
+        }
     return false;
 }
 

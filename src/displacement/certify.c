@@ -15,7 +15,8 @@
  * search. Pairs are looked at when a candidate makes them overlap.
  *
  * The gap has round corners, for which an inscribed polygon stands; a solution may miss the difference. Pairs that may
- * overlap, for one lies in the other, are left out altogether: what moves inside something is for the search to care.
+ * overlap, for one lies in the other or could get there (peace.h), are left out altogether, which makes the proof
+ * harder and no less true: what moves inside something is for the search to care.
  * The sums are in doubles, and what is asked of a proof beyond equality is far more than their rounding can be. */
 #include "displacement/certify.h"
 

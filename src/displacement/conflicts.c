@@ -1,5 +1,5 @@
 /* Conflicts as they are reported: what kind, how bad, why they remain and what stands in the way. */
-#include "displacement/displacement.h"
+#include "displacement/peace.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,13 +19,10 @@ static sunder_conflict_kind kind_of(const sunder_i_town *town, const sunder_i_re
     return r->duplicate ? SUNDER_DUPLICATE : r->contained ? SUNDER_CONTAINED : SUNDER_OVERLAP;
 }
 
-/* Is the pair a conflict, between blocks or inside one? A contained pair that may overlap is none. */
-static bool is_conflict(const sunder_i_relation *r) { return r->near && !r->kept; }
-
 /* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
 static bool is_listed(const sunder_i_town *town, const sunder_i_relation *r)
 {
-    return is_conflict(r) && (!is_inside(town, r) || town->rules.list_inside || (r->overlap && !r->touch));
+    return !sunder_i_is_at_peace(r) && (!is_inside(town, r) || town->rules.list_inside || (r->overlap && !r->touch));
 }
 
 void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
@@ -34,7 +31,7 @@ void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relation
     memset(counts, 0, sizeof *counts);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (!is_conflict(r)) continue;
+        if (sunder_i_is_at_peace(r)) continue;
         const sunder_conflict c = {.kind = kind_of(town, r), .inside_block = is_inside(town, r)};
         sunder_i_count(counts, &c);
     }
@@ -180,17 +177,13 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
     }
     *reason = SUNDER_REASON_NO_ROOM;
     if (la + lb == INFINITY) return SUNDER_OK;
-    /* Too far for the two limits together? Their own least separation tells, as they stood. */
-    sunder_separation least;
-    bool beyond;
-    const double none[2] = {0, 0};
+    /* Too far for the two limits together? The pair by itself, as it stood, tells. */
+    sunder_i_peace peace;
     const sunder_status status =
-        sunder_i_separate(town->layer->feature[c->a].shape, none, town->layer->feature[c->b].shape, none,
-                          town->rules.gap, INFINITY, &least, &beyond, err);
-    if (status) return status;
-    if (least.lower_bound > la + lb) *reason = SUNDER_REASON_MAX_SHIFT;
-    sunder_separation_clear(&least);
-    return SUNDER_OK;
+        sunder_i_make_peace(&town->rules, town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
+                            nextafter(la + lb, INFINITY), &peace, err);
+    if (!status && peace.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
+    return status;
 }
 
 /* Features of other blocks that a or b rests against: within the gap of them, and a hair. */

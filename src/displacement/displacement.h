@@ -110,6 +110,11 @@ typedef struct sunder_i_relation {
 sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
                               sunder_i_relation *relation, sunder_error *err);
 
+/* Q + D as a shape, where D is a polygon of 16 corners in the disc whose radius is the tolerance (> 0); its corners are
+ * the nearest doubles. */
+sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance, sunder_shape **out,
+                                         sunder_error *err);
+
 typedef struct sunder_i_relations {
     sunder_i_relation *pair; /* sorted by (a, b); only pairs that are near, touch or are kept */
     size_t n, tested;

@@ -62,7 +62,7 @@ typedef struct sunder_i_meeting {
     const sunder_i_piece *a, *b;
 } sunder_i_meeting;
 
-/* Do members of the two have leave to overlap? */
+/* Could members of the two get to where they have leave to overlap? */
 bool sunder_i_inquiry_may_overlap(const sunder_i_inquiry *inquiry, uint32_t i, uint32_t j);
 /* The deepest overlaps of the candidate, one of each pair, deepest first; returns how many. */
 size_t sunder_i_inquiry_meetings(sunder_i_inquiry *inquiry, sunder_i_meeting deepest[SUNDER_I_CHOICES]);

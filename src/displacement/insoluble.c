@@ -1,6 +1,7 @@
 /* What limits and fixed bodies leave no solution for: pairs that no admissible moves can part, found exactly; pairs
  * that a cluster gave up, of which the best is made at the end. */
 #include "displacement/job.h"
+#include "displacement/peace.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -34,19 +35,18 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
 {
     const judging *g = context;
     const sunder_i_town *town = g->town;
-    const double none[2] = {0, 0};
     for (size_t k = begin; k < end; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const double reach = limit_of(&town->body[i]) + limit_of(&town->body[j]);
         const uint32_t root = town->body[i].fixed ? g->root[j] : g->root[i];
         if (!sunder_i_job_is_between(town, r) || reach == INFINITY || g->size[root] <= LARGE) continue;
-        sunder_separation least;
+        sunder_i_peace peace;
         const sunder_status status =
-            sunder_i_separate(town->layer->feature[r->a].shape, none, town->layer->feature[r->b].shape, none,
-                              town->rules.gap, reach, &least, &g->hopeless[k], err);
+            sunder_i_make_peace(&town->rules, town->layer->feature[r->a].shape, town->layer->feature[r->b].shape,
+                                nextafter(reach, INFINITY), &peace, err);
         if (status) return status;
-        sunder_separation_clear(&least);
+        g->hopeless[k] = peace.beyond;
     }
     return SUNDER_OK;
 }

@@ -1,5 +1,6 @@
 /* The loop: clusters are solved, their moves checked exactly, and what is found makes work for the next round. */
 #include "displacement/job.h"
+#include "displacement/peace.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,7 +87,7 @@ sunder_status sunder_i_job_check(sunder_i_job *w, sunder_error *err)
 
 bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation *r)
 {
-    return r->near && !r->kept && town->body_of[r->a] != town->body_of[r->b];
+    return !sunder_i_is_at_peace(r) && town->body_of[r->a] != town->body_of[r->b];
 }
 
 bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r)
@@ -121,7 +122,7 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
         const sunder_i_relation *r = &w->now.pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
-        if (!r->near || r->kept || i == j || sunder_i_is_hopeless(town, r->a, r->b) || (fi && fj)) continue;
+        if (sunder_i_is_at_peace(r) || i == j || sunder_i_is_hopeless(town, r->a, r->b) || (fi && fj)) continue;
         if (sunder_i_is_given_up(town, i, j)) continue;
         bool known = false;
         if (!fi && !fj)
