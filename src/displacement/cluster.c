@@ -36,21 +36,37 @@ static int by_cost(const void *a, const void *b)
     return p->other < q->other ? -1 : p->other > q->other;
 }
 
-/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. */
+static double farthest(const double t[2]) { return fmax(fabs(t[0]), fabs(t[1])); }
+
+/* How far bodies of the cluster go, one with another. */
+static double mean_move(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own)
+{
+    double sum = 0;
+    size_t n = 0;
+    for (size_t k = 0; k < cluster->n; k++) {
+        if (town->body[cluster->body[k]].fixed) continue;
+        sum += farthest(own + 2 * k);
+        n++;
+    }
+    return n ? sum / (double)n : 0;
+}
+
+/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. Each
+ * member looks about itself as far as it may be sent by its own move, or by those of the others as they mostly are: one
+ * that had to go far does not make all the others look that far. */
 static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move,
                           size_t *n, const double *own)
 {
     sunder_i_list hits = {0};
     bool ok = true;
-    double longest = 0;
-    for (size_t k = 0; k < 2 * cluster->n; k++) longest = fmax(longest, fabs(own[k]));
-    const double reach = town->rules.gap + cluster->margin + 2 * longest + town->far;
+    const double mean = mean_move(town, cluster, own);
     for (size_t k = 0; k < cluster->n && ok; k++) {
         const sunder_i_body *b = &town->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
+        const double reach = town->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
         double box[4];
         for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
-        ok = sunder_i_index_query(&town->tree, box, &hits);
+        ok = sunder_i_index_query(town->standing, box, &hits);
     }
     for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
     /* Sorted and without repetition, and without the cluster's own, which are sorted too. */

@@ -52,19 +52,25 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 
 /* ---- Broad phase ------------------------------------------------------------------------------------------------ */
 
-/* A packed R-tree over boxes that do not change. */
+/* A packed R-tree over boxes; it serves as well when some of them move. */
 typedef struct sunder_i_index {
     double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
     uint32_t *item;   /* [leaves] what each leaf holds */
+    uint32_t *leaf;   /* [items] where each is; of no meaning for those that were not present */
     size_t level[16]; /* first node of each level; level[levels] is the end */
     unsigned levels;
     size_t leaves;
+    double sprawl, packed; /* sum of width and height of all nodes that are no leaves: now, and when it was built */
 } sunder_i_index;
 
 /* Boxes of the items for which present[i] (NULL: all). */
 sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
                                    sunder_error *err);
 void sunder_i_index_free(sunder_i_index *tree);
+/* A present item has another box from now on. */
+void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4]);
+/* Have so many moved so far that it should be built again? */
+bool sunder_i_index_is_worn(const sunder_i_index *tree);
 
 typedef struct sunder_i_list {
     uint32_t *item;
@@ -163,7 +169,8 @@ typedef struct sunder_i_town {
         *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;   /* [4 * features] as they stood at the start */
     bool *present; /* [features] */
-    sunder_i_index tree;
+    sunder_i_index tree;             /* as they stood at the start */
+    const sunder_i_index *standing;  /* as they stand now: the scene's; lent */
     sunder_i_piece *wall; /* edges of features that hold others; see keep.c */
     size_t walls;
     sunder_i_couple *kept;  /* pairs that may overlap, because one lies in the other; sorted */
@@ -178,7 +185,6 @@ typedef struct sunder_i_town {
     sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is apart; sorted */
     size_t given_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
-    double far;    /* no body stands farther than this from where it was, in x or in y */
     bool *inexact; /* [features] the translate was rounded */
 } sunder_i_town;
 

@@ -1,6 +1,8 @@
 /* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [Kamel and Faloutsos, "On
- * packing R-trees", CIKM 1993]. It is built once and never changed. It answers with closed boxes and loses nothing:
- * boxes above are the exact hulls of those below. Where the curve's grid is too coarse to tell centres apart only speed
+ * packing R-trees", CIKM 1993]. It answers with closed boxes and loses nothing: boxes above are the exact hulls of
+ * those below, also when a box moves, which then are made anew from the leaf to the root. Which leaf is in which node
+ * stays as it was, so that nodes sprawl as their members part; when they have become half as large again the tree is
+ * worn, and whoever moves boxes builds it anew. Where the curve's grid is too coarse to tell centres apart only speed
  * suffers. */
 #include "displacement/displacement.h"
 
@@ -85,6 +87,23 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     return SUNDER_OK;
 }
 
+/* The first of a node's children on the level below, and the end of them. */
+static size_t children(const sunder_i_index *tree, unsigned level, size_t node, size_t *end)
+{
+    const size_t first = tree->level[level - 1] + (node - tree->level[level]) * FANOUT;
+    *end = first + FANOUT < tree->level[level] ? first + FANOUT : tree->level[level];
+    return first;
+}
+
+static void hull_of_children(const sunder_i_index *tree, unsigned level, size_t node, double box[4])
+{
+    size_t end;
+    box_empty(box);
+    for (size_t c = children(tree, level, node, &end); c < end; c++) box_add(box, tree->box + 4 * c);
+}
+
+static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
+
 sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
                                    sunder_error *err)
 {
@@ -104,31 +123,49 @@ sunder_status sunder_i_index_build(const double *box, const bool *present, size_
     }
     tree.box = sunder_i_alloc(4 * nodes, sizeof *tree.box);
     tree.item = sunder_i_alloc(leaves, sizeof *tree.item);
-    if (!tree.box || !tree.item) {
+    tree.leaf = sunder_i_alloc(n, sizeof *tree.leaf);
+    if (!tree.box || !tree.item || !tree.leaf) {
         sunder_i_free(places);
         sunder_i_index_free(&tree);
         return sunder_i_no_memory(err);
     }
     for (size_t i = 0; i < leaves; i++) {
         tree.item[i] = places[i].item;
+        tree.leaf[places[i].item] = (uint32_t)i;
         memcpy(tree.box + 4 * i, box + 4 * (size_t)places[i].item, 4 * sizeof(double));
     }
     sunder_i_free(places);
     for (unsigned l = 1; l < tree.levels; l++)
         for (size_t node = tree.level[l]; node < tree.level[l + 1]; node++) {
-            const size_t first = tree.level[l - 1] + (node - tree.level[l]) * FANOUT;
-            const size_t end = first + FANOUT < tree.level[l] ? first + FANOUT : tree.level[l];
-            box_empty(tree.box + 4 * node);
-            for (size_t c = first; c < end; c++) box_add(tree.box + 4 * node, tree.box + 4 * c);
+            hull_of_children(&tree, l, node, tree.box + 4 * node);
+            tree.packed += size_of(tree.box + 4 * node);
         }
+    tree.sprawl = tree.packed;
     *out = tree;
     return SUNDER_OK;
 }
+
+void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4])
+{
+    size_t node = tree->leaf[item];
+    memcpy(tree->box + 4 * node, box, 4 * sizeof *box);
+    for (unsigned l = 1; l < tree->levels; l++) {
+        double hull[4];
+        node = tree->level[l] + (node - tree->level[l - 1]) / FANOUT;
+        hull_of_children(tree, l, node, hull);
+        if (memcmp(hull, tree->box + 4 * node, sizeof hull) == 0) return;
+        tree->sprawl += size_of(hull) - size_of(tree->box + 4 * node);
+        memcpy(tree->box + 4 * node, hull, sizeof hull);
+    }
+}
+
+bool sunder_i_index_is_worn(const sunder_i_index *tree) { return !(tree->sprawl <= 1.5 * tree->packed); }
 
 void sunder_i_index_free(sunder_i_index *tree)
 {
     sunder_i_free(tree->box);
     sunder_i_free(tree->item);
+    sunder_i_free(tree->leaf);
     memset(tree, 0, sizeof *tree);
 }
 
@@ -152,8 +189,8 @@ bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunde
             hits->item[hits->n++] = tree->item[node];
             continue;
         }
-        const size_t first = tree->level[l - 1] + (node - tree->level[l]) * FANOUT;
-        const size_t end = first + FANOUT < tree->level[l] ? first + FANOUT : tree->level[l];
+        size_t end;
+        const size_t first = children(tree, l, node, &end);
         for (size_t c = end; c-- > first;) {
             stack[depth].node = c;
             stack[depth++].level = l - 1;

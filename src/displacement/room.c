@@ -144,14 +144,14 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     }
 }
 
-/* Bodies of the town near a box (relative to body i's origin, at the start), those of this search apart; appended to
- * hits once each. */
+/* Bodies of the town that stand near a box (relative to body p's origin, at the start), those of this search apart;
+ * appended to hits once each. */
 static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
 {
     const sunder_i_town *town = s->town;
     double where[4];
-    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1] + (c < 2 ? -s->town->far : s->town->far);
-    if (!sunder_i_index_query(&town->tree, where, hits)) return false;
+    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
+    if (!sunder_i_index_query(town->standing, where, hits)) return false;
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;
@@ -209,8 +209,8 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
 {
     const sunder_i_body *p = &s->town->body[s->body[i]];
     const double home[2] = {0, 0};
-    const double *town_box = s->town->tree.box + 4 * (s->town->tree.level[s->town->tree.levels] - 1);
-    const double all = 4 * (extent(town_box) + extent(p->box) + s->town->far + s->gap);
+    const sunder_i_index *tree = s->town->standing;
+    const double all = 4 * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
         if (reach > limit) reach = limit;

@@ -68,7 +68,9 @@ sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, co
         if (!changed[f] || !town->present[f]) continue;
         const sunder_status status = stand_feature(town, scene, f, err);
         if (status) return status;
+        sunder_i_index_move(&scene->tree, (uint32_t)f, scene->box + 4 * f);
     }
+    if (!sunder_i_index_is_worn(&scene->tree)) return SUNDER_OK;
     sunder_i_index_free(&scene->tree);
     return sunder_i_index_build(scene->box, town->present, town->features, &scene->tree, err);
 }

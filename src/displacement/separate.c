@@ -67,6 +67,7 @@ static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sun
     rules.watch = &w->watch;
     if (!status) status = sunder_i_town_init(layer, &rules, &w->town, err);
     if (!status) status = sunder_i_scene_init(&w->town, &w->scene, err);
+    w->town.standing = &w->scene.tree;
     if (!status) status = sunder_i_scene_relate(&w->town, &w->scene, NULL, NULL, &w->start, err);
     if (!status) status = sunder_i_town_join(&w->town, &w->start, err);
     if (!status) status = sunder_i_report_new(&w->town, &w->report, err);

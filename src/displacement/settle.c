@@ -57,7 +57,6 @@ void sunder_i_job_place(sunder_i_job *w, uint32_t b, const double *to)
     double *move = town->move + 2 * (size_t)b, exact_move[2];
     if (body->fixed || memcmp(move, to, 2 * sizeof *move) == 0) return;
     memcpy(move, to, 2 * sizeof *move);
-    town->far = fmax(town->far, fmax(fabs(move[0]), fabs(move[1])));
     const bool exact = sunder_i_round_move(town, b, move, exact_move, NULL);
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = town->member[body->member + m];

@@ -1,0 +1,105 @@
+/* The tree of boxes, against looking at every box: as it was built, and as boxes move. */
+#include "random.h"
+
+#include "displacement/displacement.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 600 };
+
+typedef struct boxes {
+    double box[4 * MOST];
+    bool present[MOST];
+    size_t n;
+} boxes;
+
+/* On a grid of quarters, so that boxes touch; some are points; now and then one is far away. */
+static void random_box(rng *r, double box[4])
+{
+    const int64_t wide = rng_once_in(r, 50) ? 100000 : 400;
+    for (int c = 0; c < 2; c++) {
+        box[c] = (double)rng_int(r, -wide, wide) / 4;
+        box[c + 2] = box[c] + (double)rng_int(r, 0, 20) / 4;
+    }
+}
+
+static void check_query(rng *r, const boxes *b, const sunder_i_index *tree)
+{
+    double box[4];
+    sunder_i_list hits = {0};
+    random_box(r, box);
+    assert_true(sunder_i_index_query(tree, box, &hits));
+    if (hits.n) qsort(hits.item, hits.n, sizeof *hits.item, sunder_i_by_number);
+    size_t at = 0;
+    for (uint32_t k = 0; k < b->n; k++) {
+        if (!b->present[k] || !sunder_i_box_meet(b->box + 4 * (size_t)k, box)) continue;
+        assert_true(at < hits.n);
+        assert_int_equal(hits.item[at++], k);
+    }
+    assert_int_equal(at, hits.n);
+    sunder_i_free(hits.item);
+}
+
+static void test_queries_as_boxes_move(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < test_count(60); i++) {
+        rng r = rng_start(test_seed(), i);
+        boxes b = {.n = (size_t)rng_int(&r, 0, MOST)};
+        sunder_i_index tree;
+        for (size_t k = 0; k < b.n; k++) {
+            random_box(&r, b.box + 4 * k);
+            b.present[k] = !rng_once_in(&r, 8);
+        }
+        assert_int_equal(sunder_i_index_build(b.box, b.present, b.n, &tree, NULL), SUNDER_OK);
+        assert_false(sunder_i_index_is_worn(&tree));
+        for (int step = 0; step < 200; step++) {
+            check_query(&r, &b, &tree);
+            if (b.n == 0) continue;
+            const uint32_t k = (uint32_t)rng_int(&r, 0, (int64_t)b.n - 1);
+            if (!b.present[k]) continue;
+            random_box(&r, b.box + 4 * (size_t)k);
+            sunder_i_index_move(&tree, k, b.box + 4 * (size_t)k);
+        }
+        sunder_i_index_free(&tree);
+    }
+}
+
+/* Many that go far wear the tree; one does not, nor do all of them going a little. */
+static void test_wears_by_many(void **state)
+{
+    (void)state;
+    enum { N = 400 };
+    static double box[4 * N];
+    sunder_i_index tree;
+    for (size_t k = 0; k < N; k++) {
+        const double x = 100 * (double)(k % 20), y = 100 * (double)(k / 20);
+        memcpy(box + 4 * k, (double[4]){x, y, x + 10, y + 10}, 4 * sizeof *box);
+    }
+    assert_int_equal(sunder_i_index_build(box, NULL, N, &tree, NULL), SUNDER_OK);
+    for (uint32_t k = 0; k < N; k++) {
+        for (int c = 0; c < 4; c++) box[4 * k + (uint32_t)c] += k % 3 ? 2 : -2;
+        sunder_i_index_move(&tree, k, box + 4 * (size_t)k);
+    }
+    assert_false(sunder_i_index_is_worn(&tree));
+    for (uint32_t k = 0; k < N; k++) {
+        sunder_i_index_move(&tree, k, box + 4 * (size_t)((k * 7u) % N));
+        if (k == 0) assert_false(sunder_i_index_is_worn(&tree));
+    }
+    assert_true(sunder_i_index_is_worn(&tree));
+    sunder_i_index_free(&tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_queries_as_boxes_move),
+                                       cmocka_unit_test(test_wears_by_many)};
+    return cmocka_run_group_tests_name("the tree of boxes", tests, NULL, NULL);
+}
