@@ -189,6 +189,7 @@ static void give_up(sunder_i_search *s, sunder_i_cluster *cluster)
         s->given[s->given_n++] = (sunder_i_couple){i, j};
         cluster->given[cluster->given_n++] = (sunder_i_couple){s->body[i], s->body[j]};
     }
+    if (s->given_n) qsort(s->given, s->given_n, sizeof *s->given, sunder_i_by_couple);
     s->program.n = 0;
     if (!s->failed) sunder_i_search_descend(s);
 }
@@ -248,22 +249,45 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
     }
 }
 
-/* Pairs in contact, those that press hardest first, put to their other sides. */
-static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best, double *cost)
+static int by_places(const void *a, const void *b)
+{
+    const rank *p = a, *q = b;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    if (p->other != q->other) return p->other < q->other ? -1 : 1;
+    return p->cost < q->cost ? -1 : p->cost > q->cost;
+}
+
+/* The pairs in contact, those that press hardest first. NULL if memory is out. */
+static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
+{
+    rank *order = sunder_i_alloc(program->n, sizeof *order);
+    size_t contacts = 0;
+    *n = 0;
+    if (!order) return NULL;
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
+        if (!(c->force > 0) || c->i == SUNDER_I_NOBODY || c->j == SUNDER_I_NOBODY) continue;
+        order[contacts++] = (rank){c->force * c->d, c->i, c->j};
+    }
+    if (contacts) qsort(order, contacts, sizeof *order, by_places);
+    for (size_t k = 0; k < contacts; k++) {
+        if (*n && order[*n - 1].index == order[k].index && order[*n - 1].other == order[k].other)
+            order[*n - 1].cost += order[k].cost;
+        else
+            order[(*n)++] = order[k];
+    }
+    if (*n) qsort(order, *n, sizeof *order, by_cost);
+    return order;
+}
+
+/* Pairs in contact put to their other sides. */
+static void try_sides(sunder_i_search *s, double *best, double *cost)
 {
     sunder_i_search_descend(s); /* for the forces */
     memcpy(s->t, best, 2 * s->n * sizeof *best);
-    size_t n = 0;
-    for (size_t k = 0; k < s->program.n; k++) {
-        const sunder_i_constraint *c = &s->program.constraint[k];
-        if (!(c->force > 0) || c->i == SUNDER_I_NOBODY || c->j == SUNDER_I_NOBODY) continue;
-        size_t at = 0;
-        while (at < n && (order[at].index != c->i || order[at].other != c->j)) at++;
-        if (at == room) continue;
-        if (at == n) order[n++] = (rank){0, c->i, c->j};
-        order[at].cost += c->force * c->d;
-    }
-    qsort(order, n, sizeof *order, by_cost);
+    size_t n;
+    rank *order = rank_contacts(&s->program, &n);
+    s->failed = s->failed || !order;
     for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index, j = order[k].other;
         const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
@@ -282,6 +306,7 @@ static void try_sides(sunder_i_search *s, rank *order, size_t room, double *best
             if (attempt(s, best, cost)) break;
         }
     }
+    sunder_i_free(order);
 }
 
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
@@ -294,10 +319,9 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_search s;
     memset(&s, 0, sizeof s);
     bool ok = add_strangers(town, cluster, &body, &all, &n, move);
-    const size_t room = n > 4096 ? n : 4096;
     if (ok) {
         best = sunder_i_alloc(2 * n, sizeof *best);
-        order = sunder_i_alloc(room, sizeof *order);
+        order = sunder_i_alloc(n, sizeof *order);
         ok = best && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
@@ -314,7 +338,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
             for (int round = 0; round < 4 && has_time(&s) && !s.failed; round++) {
                 const double start = cost;
                 try_places(&s, order, best, &cost);
-                try_sides(&s, order, room, best, &cost);
+                try_sides(&s, best, &cost);
                 if (!(cost < start * (1 - 1e-3))) break;
             }
             memcpy(s.t, best, 2 * n * sizeof *best);

@@ -79,6 +79,12 @@ static int by_member(const void *a, const void *b)
     return p->body < q->body ? -1 : p->body > q->body;
 }
 
+bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body)
+{
+    const sunder_i_member wanted = {root, body};
+    return w->members && bsearch(&wanted, w->member, w->members, sizeof wanted, by_member);
+}
+
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some
  * units in the last place of the coordinates; four times as much for each failed check. */
 static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t n)

@@ -123,7 +123,7 @@ sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance
 
 typedef struct sunder_i_relations {
     sunder_i_relation *pair; /* sorted by (a, b); only pairs that are near, touch or are kept */
-    size_t n, tested;
+    size_t n, tested;        /* tested: pairs of boxes that were looked at */
 } sunder_i_relations;
 
 /* ---- Blocks --------------------------------------------------------------------------------------------------------
@@ -152,6 +152,11 @@ typedef struct sunder_i_piece {
 typedef struct sunder_i_couple {
     uint32_t a, b;
 } sunder_i_couple;
+
+/* For qsort(). */
+int sunder_i_by_couple(const void *a, const void *b);
+/* Where the pair, in either order, is in a sorted list of pairs with the lesser first; n if it is not. */
+size_t sunder_i_couple_at(const sunder_i_couple *list, size_t n, uint32_t x, uint32_t y);
 
 /* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
 typedef struct sunder_i_town {
@@ -201,8 +206,9 @@ typedef struct sunder_i_scene {
     sunder_i_index tree;
 } sunder_i_scene;
 
-/* All pairs that are near, touch or are kept, as the features stand; exact. before (or NULL): the relations when all
- * but the features with changed[] stood as now; what cannot have changed is taken from there. */
+/* All pairs that are near, touch or are kept, as the features stand; exact. before and changed, or both NULL: the
+ * relations when all but the features with changed[] stood as now; what cannot have changed is taken from there, and
+ * costs nothing but the copy. */
 sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
                                     const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err);
 /* The scene at the start, and after bodies moved: every feature f with changed[f] is placed anew by town->move. Failure

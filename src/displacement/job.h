@@ -47,6 +47,8 @@ void sunder_i_job_free(sunder_i_job *w);
 uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x);
 /* An edge between bodies, which makes them dirty. False if memory is out. */
 bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j);
+/* Was the body a member of the cluster of that root when they were last gathered? */
+bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err);
 

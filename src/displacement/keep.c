@@ -12,25 +12,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Where the pair is in a sorted list; n if it is not. */
-static size_t find_couple(const sunder_i_couple *list, size_t n, uint32_t f, uint32_t g)
-{
-    const uint32_t a = f < g ? f : g, b = f < g ? g : f;
-    size_t low = 0, high = n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const sunder_i_couple *c = &list[middle];
-        if (c->a < a || (c->a == a && c->b < b))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < n && list[low].a == a && list[low].b == b ? low : n;
-}
-
 size_t sunder_i_kept_at(const sunder_i_town *town, uint32_t f, uint32_t g)
 {
-    return find_couple(town->kept, town->kept_n, f, g);
+    return sunder_i_couple_at(town->kept, town->kept_n, f, g);
 }
 
 bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
@@ -50,12 +34,12 @@ bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, 
 
 bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g)
 {
-    return find_couple(town->hopeless, town->hopeless_n, f, g) < town->hopeless_n;
+    return sunder_i_couple_at(town->hopeless, town->hopeless_n, f, g) < town->hopeless_n;
 }
 
 bool sunder_i_is_given_up(const sunder_i_town *town, uint32_t body, uint32_t other)
 {
-    return find_couple(town->given, town->given_n, body, other) < town->given_n;
+    return sunder_i_couple_at(town->given, town->given_n, body, other) < town->given_n;
 }
 
 bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g)
@@ -83,13 +67,6 @@ sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *
 /* ---- Who goes along ------------------------------------------------------------------------------------------------
  */
 
-static int by_couple(const void *a, const void *b)
-{
-    const sunder_i_couple *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
 static uint32_t holder_of(const sunder_i_town *town, size_t k)
 {
     return town->a_in_b[k] ? town->kept[k].b : town->kept[k].a;
@@ -108,10 +85,10 @@ static bool list_held(sunder_i_town *town)
         const sunder_i_couple c = {town->body_of[holder_of(town, k)], town->body_of[inner_of(town, k)]};
         if (c.a != c.b) town->held[town->held_n++] = c;
     }
-    if (town->held_n) qsort(town->held, town->held_n, sizeof *town->held, by_couple);
+    if (town->held_n) qsort(town->held, town->held_n, sizeof *town->held, sunder_i_by_couple);
     size_t out = 0;
     for (size_t k = 0; k < town->held_n; k++)
-        if (k == 0 || by_couple(&town->held[k - 1], &town->held[k])) town->held[out++] = town->held[k];
+        if (k == 0 || sunder_i_by_couple(&town->held[k - 1], &town->held[k])) town->held[out++] = town->held[k];
     town->held_n = out;
     return true;
 }
@@ -154,7 +131,7 @@ sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations
     sunder_i_couple *by_inner = sunder_i_alloc(town->kept_n, sizeof *by_inner);
     if (!by_inner) return sunder_i_no_memory(err);
     for (size_t k = 0; k < town->kept_n; k++) by_inner[k] = (sunder_i_couple){inner_of(town, k), (uint32_t)k};
-    if (town->kept_n) qsort(by_inner, town->kept_n, sizeof *by_inner, by_couple);
+    if (town->kept_n) qsort(by_inner, town->kept_n, sizeof *by_inner, sunder_i_by_couple);
     for (size_t k = 0; k < town->kept_n; k++)
         for (size_t m = k + 1; m < town->kept_n && by_inner[m].a == by_inner[k].a; m++) {
             const uint32_t f = by_inner[k].a, p = holder_of(town, by_inner[k].b), q = holder_of(town, by_inner[m].b);

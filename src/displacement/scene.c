@@ -80,26 +80,29 @@ sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, co
 typedef struct pair_search {
     const sunder_i_town *town;
     const sunder_i_scene *scene;
-    sunder_i_list *found; /* [features] partners of each, greater than it */
+    const bool *changed;   /* NULL: all did */
+    const uint32_t *asked; /* features that changed */
+    sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
 } pair_search;
 
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
-    const sunder_i_town *town = s->town;
-    const double reach = fmax(town->rules.gap, town->rules.tolerance);
-    for (size_t f = begin; f < end; f++) {
-        if (!town->present[f]) continue;
+    const double reach = fmax(s->town->rules.gap, s->town->rules.tolerance);
+    for (size_t a = begin; a < end; a++) {
+        const uint32_t f = s->asked[a];
         double box[4];
         if (reach > 0)
-            sunder_i_box_grow(s->scene->box + 4 * f, reach, box);
+            sunder_i_box_grow(s->scene->box + 4 * (size_t)f, reach, box);
         else
-            memcpy(box, s->scene->box + 4 * f, sizeof box);
-        sunder_i_list *list = &s->found[f];
+            memcpy(box, s->scene->box + 4 * (size_t)f, sizeof box);
+        sunder_i_list *list = &s->found[a];
         if (!sunder_i_index_query(&s->scene->tree, box, list)) return sunder_i_no_memory(err);
         size_t kept = 0;
-        for (size_t k = 0; k < list->n; k++)
-            if (list->item[k] > f) list->item[kept++] = list->item[k];
+        for (size_t k = 0; k < list->n; k++) {
+            const uint32_t g = list->item[k];
+            if (g > f || (s->changed && !s->changed[g])) list->item[kept++] = g;
+        }
         list->n = kept;
         if (kept) qsort(list->item, kept, sizeof *list->item, sunder_i_by_number);
     }
@@ -129,13 +132,11 @@ const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relat
                                                                                             : NULL;
 }
 
-/* Did nothing happen to the pair since `before`? Then it is what it was; if it is not listed there it was not near. */
+/* Did nothing happen to the pair since `before`? Then it is what it was; if it is not listed there it was not near.
+ * Members of a body move together; unless one is ever rounded nothing changes between them. */
 static bool is_as_before(const classification *c, const sunder_i_relation *r)
 {
-    if (!c->before) return false;
-    if (!c->changed[r->a] && !c->changed[r->b]) return true;
-    /* Members of a body move together; unless one is ever rounded nothing changes between them. */
-    return c->town->body_of[r->a] == c->town->body_of[r->b] && !c->scene->was_rounded[r->a] &&
+    return c->before && c->town->body_of[r->a] == c->town->body_of[r->b] && !c->scene->was_rounded[r->a] &&
            !c->scene->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
 }
 
@@ -156,46 +157,81 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-/* The lists of partners as one array of pairs, in order; the lists are freed. */
-static sunder_i_relation *collect(sunder_i_list *found, size_t n, size_t *pairs)
+static int by_features(const void *a, const void *b)
+{
+    const sunder_i_relation *p = a, *q = b;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+/* The lists of partners as one array of pairs, in order; the lists are emptied. */
+static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
 {
     size_t total = 0, k = 0;
-    for (size_t f = 0; f < n; f++) total += found[f].n;
-    sunder_i_relation *pair = sunder_i_alloc(total, sizeof *pair);
-    for (size_t f = 0; f < n; f++) {
-        if (pair)
-            for (size_t i = 0; i < found[f].n; i++, k++) {
-                memset(&pair[k], 0, sizeof pair[k]);
-                pair[k].a = (uint32_t)f;
-                pair[k].b = found[f].item[i];
-            }
-        sunder_i_free(found[f].item);
+    for (size_t a = 0; a < asked; a++) total += s->found[a].n;
+    sunder_i_relation *pair = sunder_i_calloc(total, sizeof *pair);
+    for (size_t a = 0; a < asked; a++) {
+        for (size_t i = 0; pair && i < s->found[a].n; i++, k++) {
+            const uint32_t f = s->asked[a], g = s->found[a].item[i];
+            pair[k].a = f < g ? f : g;
+            pair[k].b = f < g ? g : f;
+        }
+        sunder_i_free(s->found[a].item);
     }
-    sunder_i_free(found);
+    if (pair && total && s->changed) qsort(pair, total, sizeof *pair, by_features);
     *pairs = total;
     return pair;
+}
+
+/* Every pair of boxes within reach of each other of which one feature changed, as the features stand. */
+static sunder_status find_pairs(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
+                                sunder_i_relation **pair, size_t *pairs, sunder_error *err)
+{
+    uint32_t *asked = sunder_i_alloc(town->features, sizeof *asked);
+    if (!asked) return sunder_i_no_memory(err);
+    size_t n = 0;
+    for (uint32_t f = 0; f < town->features; f++)
+        if (town->present[f] && (!changed || changed[f])) asked[n++] = f;
+    const pair_search search = {town, scene, changed, asked, sunder_i_calloc(n, sizeof *search.found)};
+    sunder_status status = search.found ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_parallel(town->rules.threads, n, 256, find_partners, (void *)&search, err);
+    if (search.found) {
+        *pair = collect(&search, n, pairs);
+        if (!status && !*pair) status = sunder_i_no_memory(err);
+    }
+    sunder_i_free(search.found);
+    sunder_i_free(asked);
+    return status;
+}
+
+/* Of the pairs looked at, those that matter; and those that nothing happened to. Both are sorted. */
+static sunder_status merge(const classification *c, size_t pairs, sunder_i_relations *relations, sunder_error *err)
+{
+    const size_t old = c->before ? c->before->n : 0;
+    sunder_i_relation *out = old ? sunder_i_alloc(old + pairs, sizeof *out) : c->pair;
+    if (!out) return sunder_i_no_memory(err);
+    size_t n = 0, at = 0;
+    for (size_t k = 0; k <= pairs; k++) {
+        const sunder_i_relation *r = k < pairs ? &c->pair[k] : NULL;
+        for (; at < old && (!r || by_features(&c->before->pair[at], r) <= 0); at++) {
+            const sunder_i_relation *b = &c->before->pair[at];
+            if (!c->changed[b->a] && !c->changed[b->b]) out[n++] = *b;
+        }
+        if (r && (r->near || r->touch || r->kept)) out[n++] = *r;
+    }
+    if (out != c->pair) sunder_i_free(c->pair);
+    *relations = (sunder_i_relations){out, n, pairs};
+    return SUNDER_OK;
 }
 
 sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
                                     const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err)
 {
-    const size_t n = town->features;
-    pair_search search = {town, scene, sunder_i_calloc(n, sizeof *search.found)};
-    if (!search.found) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_parallel(town->rules.threads, n, 256, find_partners, &search, err);
+    classification c = {town, scene, changed, before, NULL};
     size_t pairs = 0;
-    classification c = {town, scene, changed, before, collect(search.found, n, &pairs)};
-    if (!status && !c.pair) status = sunder_i_no_memory(err);
+    sunder_status status = find_pairs(town, scene, changed, &c.pair, &pairs, err);
     if (!status) status = sunder_i_parallel(town->rules.threads, pairs, 32, classify, &c, err);
-    if (status) {
-        sunder_i_free(c.pair);
-        return status;
-    }
-    size_t k = 0;
-    for (size_t i = 0; i < pairs; i++)
-        if (c.pair[i].near || c.pair[i].touch || c.pair[i].kept) c.pair[k++] = c.pair[i];
-    relations->pair = c.pair;
-    relations->n = k;
-    relations->tested = pairs;
-    return SUNDER_OK;
+    if (!status) status = merge(&c, pairs, relations, err);
+    if (status) sunder_i_free(c.pair);
+    return status;
 }

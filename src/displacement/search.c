@@ -112,8 +112,7 @@ void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sun
 bool sunder_i_search_gave_up(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     if (s->heeds_all) return false;
-    for (size_t k = 0; k < s->given_n; k++)
-        if ((s->given[k].a == i && s->given[k].b == j) || (s->given[k].a == j && s->given[k].b == i)) return true;
+    if (sunder_i_couple_at(s->given, s->given_n, i, j) < s->given_n) return true;
     return s->town->given_n && sunder_i_is_given_up(s->town, s->body[i], s->body[j]);
 }
 

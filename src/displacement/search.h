@@ -26,8 +26,8 @@ typedef struct sunder_i_search {
     size_t old_n, old_capacity;
     sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
-    sunder_i_couple
-        *given; /* places in the cluster of the pairs that this search has given up, besides those of the town */
+    sunder_i_couple *given; /* places in the cluster of the pairs that this search has given up, besides those of the
+                             * town; the lesser first, sorted */
     size_t given_n;
     bool heeds_all;          /* nothing is given up */
     sunder_i_clash *allowed; /* pairs that are granted a shortfall: `violation` of it */

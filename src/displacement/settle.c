@@ -110,6 +110,16 @@ static void carry(sunder_i_job *w, uint32_t f, uint32_t g)
     }
 }
 
+/* Are the two in one cluster? A fixed body is in those that were last gathered with it: edges added since then are not
+ * known, and may be added again. */
+static bool are_together(const sunder_i_job *w, uint32_t i, uint32_t j)
+{
+    const bool fixed = w->town.body[i].fixed || w->town.body[j].fixed;
+    if (!fixed) return sunder_i_union_find(w->parent, i) == sunder_i_union_find(w->parent, j);
+    const uint32_t still = w->town.body[i].fixed ? i : j, other = still == i ? j : i;
+    return sunder_i_job_has_member(w, sunder_i_union_find(w->parent, other), still);
+}
+
 /* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
  * Returns whether there is anything to do. */
 static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
@@ -123,13 +133,7 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
         if (sunder_i_is_at_peace(r) || i == j || sunder_i_is_hopeless(town, r->a, r->b) || (fi && fj)) continue;
         if (sunder_i_is_given_up(town, i, j)) continue;
-        bool known = false;
-        if (!fi && !fj)
-            known = sunder_i_union_find(w->parent, i) == sunder_i_union_find(w->parent, j);
-        else
-            for (size_t e = 0; e < w->edges && !known; e++)
-                known = (w->edge[e].a == i && w->edge[e].b == j) || (w->edge[e].a == j && w->edge[e].b == i);
-        if (!known) {
+        if (!are_together(w, i, j)) {
             if (!sunder_i_job_add_edge(w, i, j)) return sunder_i_no_memory(err);
             carry(w, r->a, r->b);
             *any = true;
@@ -151,13 +155,6 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
     return SUNDER_OK;
 }
 
-static int by_couple(const void *a, const void *b)
-{
-    const sunder_i_couple *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
 /* Takes over the pairs that clusters gave up. */
 static sunder_status note_given(sunder_i_job *w, sunder_error *err)
 {
@@ -173,7 +170,7 @@ static sunder_status note_given(sunder_i_job *w, sunder_error *err)
             const sunder_i_couple c = w->cluster[k].given[g];
             given[town->given_n++] = c.a < c.b ? c : (sunder_i_couple){c.b, c.a};
         }
-    qsort(given, town->given_n, sizeof *given, by_couple);
+    qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
     return SUNDER_OK;
 }
 
