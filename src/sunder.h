@@ -5,7 +5,7 @@
  * sunder_error, which may be NULL. On failure every output is untouched. What arrives through **out is freed by
  * the caller with the _free function of its type; _free(NULL) is fine. Getters lend: what they return is valid
  * until the object is freed. Objects are immutable once built, so threads may share them; there is no global
- * state but the allocation hooks, which are set once, before anything else.
+ * state but the allocation hooks, which are set once, before anything else, and each thread's own watch.
  *
  * Lengths are in the units of the input. Every finite double is taken as the dyadic rational that it is; nothing
  * is rounded on the way in, and on the way out only where a function says so.
@@ -38,7 +38,8 @@ typedef enum sunder_status {
     SUNDER_EARG,     /* an option or argument out of its range */
     SUNDER_ERANGE,   /* a result that doubles cannot hold */
     SUNDER_ENOMEM,   /* an allocation failed; everything made so far has been released */
-    SUNDER_ECANCEL   /* the progress callback asked to stop */
+    SUNDER_ECANCEL,  /* a progress callback, or what watches the thread, asked to stop */
+    SUNDER_ESIZE     /* more parts than can be numbered: vertices, pairs of convex pieces, corners of a sum */
 } sunder_status;
 
 #define SUNDER_MESSAGE_MAX 256
@@ -71,9 +72,16 @@ typedef struct sunder_operations {
     uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
 } sunder_operations;
 
-/* Called now and then with a fraction done in [0, 1]; return false to stop with SUNDER_ECANCEL. Calls do not overlap,
- * but where work is shared by threads they may come from any of them. */
+/* Called now and then with a fraction done in [0, 1], often the same one again; return false to stop with
+ * SUNDER_ECANCEL. Calls do not overlap, but where work is shared by threads they may come from any of them. Between two
+ * of them, and from the answer to the return, there is never more than some milliseconds' work (tests count it). */
 typedef bool (*sunder_progress)(double fraction, void *user);
+
+/* Watches the calling thread, for functions that take no progress: whatever of this library the thread calls asks
+ * go_on(user) as often as that, and fails with SUNDER_ECANCEL once the answer was false, as does every later call, at
+ * once, until another watch is set, or none (NULL). Calls do not overlap, but may come from threads that the library
+ * started on behalf of this one. */
+SUNDER_API void sunder_watch(bool (*go_on)(void *user), void *user);
 
 /* ---- Shapes: polygonal sets ------------------------------------------------------------------------------- */
 
@@ -99,7 +107,7 @@ typedef enum sunder_validity {
  *            nothing vanishes.
  * Fails      SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
  *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
- *            SUNDER_ERANGE    more than 2^27 vertices
+ *            SUNDER_ESIZE     more than 2^27 vertices
  * Cost       O(n log n) where edges are short beside the whole, as on maps. */
 SUNDER_API sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end,
                                                  size_t polygons, sunder_validity validity, sunder_shape **out,
@@ -139,7 +147,8 @@ SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
 SUNDER_API const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_t ring, size_t *n);
 /* xmin, ymin, xmax, ymax; of a repaired shape rounded outward. The empty set: all zero. */
 SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
-/* Area, the sum over members (overlaps count twice), to the nearest double. */
+/* Area, the sum over members (overlaps count twice), to the nearest double. Neither this nor the anchor can fail: what
+ * they need is on the stack, or was worked out when the shape was made. */
 SUNDER_API double sunder_shape_area(const sunder_shape *shape);
 /* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. The rule: of the
  * convex pieces of the shape the largest (area in doubles, first of equals), and of it the centroid. */
@@ -589,7 +598,8 @@ typedef struct sunder_point {
     double x, y;
 } sunder_point;
 
-/* Side of c relative to the directed line a->b: +1 left, -1 right, 0 on it. Always the true sign. */
+/* Side of c relative to the directed line a->b: +1 left, -1 right, 0 on it. Always the true sign: nothing is allocated,
+ * so nothing can fail. All coordinates finite. */
 SUNDER_API int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c);
 
 #ifdef __cplusplus

@@ -96,7 +96,7 @@ sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
             corners += shape->vertices + 1;
         }
     if (pieces >= UINT32_MAX || corners >= UINT32_MAX)
-        return sunder_i_fail(err, SUNDER_ERANGE, "too many corners: %zu", corners);
+        return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     town->piece = sunder_i_alloc(pieces, sizeof *town->piece);
     town->corner = sunder_i_alloc(2 * corners, sizeof *town->corner);
     town->outline = sunder_i_calloc(town->features, sizeof *town->outline);

@@ -4,10 +4,8 @@
 #define SUNDER_I_DISPLACEMENT_H
 
 #include "number/parallel.h"
+#include "number/watch.h"
 #include "separation/separation.h"
-
-#include <pthread.h>
-#include <stdatomic.h>
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
@@ -22,27 +20,23 @@ typedef struct sunder_i_rules {
     bool joins, list_inside; /* joins: touch and containment make blocks */
     sunder_containment contained;
     unsigned threads;
-    struct sunder_i_watch *watch; /* NULL: nobody asks how far it is, or to stop */
+    sunder_progress progress;     /* NULL: nobody asks how far it is */
+    void *progress_user;
 } sunder_i_rules;
 
-/* The caller's progress function, called by one thread at a time. */
-typedef struct sunder_i_watch {
-    pthread_mutex_t lock;
-    sunder_progress progress;
-    void *user;
-    double fraction;
-    atomic_bool stopped;
-} sunder_i_watch;
-
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
-void sunder_i_watch_init(sunder_i_watch *watch, const sunder_layer_options *options);
-void sunder_i_watch_clear(sunder_i_watch *watch);
-/* False when the caller asked to stop. */
+/* Tells how far it is; false when the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
-/* Did the caller ask to stop? For long stretches within a stage; any thread may ask. */
-bool sunder_i_is_stopped(const sunder_i_rules *rules);
-/* The error of work that was broken off: stopped, or out of memory. */
-sunder_status sunder_i_broken_off(const sunder_i_rules *rules, sunder_error *err);
+static inline bool sunder_i_is_stopped(const sunder_i_rules *rules)
+{
+    (void)rules;
+    return !sunder_i_look();
+}
+static inline sunder_status sunder_i_broken_off(const sunder_i_rules *rules, sunder_error *err)
+{
+    (void)rules;
+    return sunder_i_no_memory(err);
+}
 
 /* Is the feature there at all (not ignored, not empty)? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)

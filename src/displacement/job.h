@@ -16,7 +16,6 @@ typedef enum sunder_i_standing {
 } sunder_i_standing;
 
 typedef struct sunder_i_job {
-    sunder_i_watch watch;
     sunder_i_town town;
     sunder_i_scene scene;
     sunder_i_relations start, now;

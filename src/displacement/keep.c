@@ -182,7 +182,7 @@ sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err)
     double *corner = NULL;
     /* Corners are numbered in 32 bits, and walls are told apart in the keys of constraints by 30. */
     if (!status && (town->corners + 2 * edges >= UINT32_MAX || edges >= UINT32_C(1) << 30))
-        status = sunder_i_fail(err, SUNDER_ERANGE, "too many corners: %zu", town->corners + 2 * edges);
+        status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", town->corners + 2 * edges);
     if (!status) {
         corner = sunder_i_realloc(town->corner, 2 * (town->corners + 2 * edges), sizeof *corner);
         if (corner) town->corner = corner;

@@ -73,53 +73,12 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->list_inside = o->list_inside;
     rules->contained = o->contained;
     rules->threads = o->threads ? o->threads > 256 ? 256 : o->threads : processors();
-    rules->watch = NULL;
+    rules->progress = o->progress;
+    rules->progress_user = o->progress_user;
     return SUNDER_OK;
-}
-
-void sunder_i_watch_init(sunder_i_watch *watch, const sunder_layer_options *options)
-{
-    pthread_mutex_init(&watch->lock, NULL);
-    watch->progress = options ? options->progress : NULL;
-    watch->user = options ? options->progress_user : NULL;
-    watch->fraction = 0;
-    atomic_init(&watch->stopped, false);
-}
-
-void sunder_i_watch_clear(sunder_i_watch *watch) { pthread_mutex_destroy(&watch->lock); }
-
-/* The lock is held. */
-static void ask(sunder_i_watch *watch)
-{
-    if (!atomic_load(&watch->stopped) && !watch->progress(watch->fraction, watch->user))
-        atomic_store(&watch->stopped, true);
 }
 
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction)
 {
-    sunder_i_watch *watch = rules->watch;
-    if (!watch || !watch->progress) return true;
-    pthread_mutex_lock(&watch->lock);
-    watch->fraction = fraction;
-    ask(watch);
-    pthread_mutex_unlock(&watch->lock);
-    return !atomic_load(&watch->stopped);
-}
-
-bool sunder_i_is_stopped(const sunder_i_rules *rules)
-{
-    sunder_i_watch *watch = rules->watch;
-    if (!watch || !watch->progress) return false;
-    /* Whoever has the lock is asking already. */
-    if (pthread_mutex_trylock(&watch->lock) == 0) {
-        ask(watch);
-        pthread_mutex_unlock(&watch->lock);
-    }
-    return atomic_load(&watch->stopped);
-}
-
-sunder_status sunder_i_broken_off(const sunder_i_rules *rules, sunder_error *err)
-{
-    if (rules->watch && atomic_load(&rules->watch->stopped)) return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
-    return sunder_i_no_memory(err);
+    return rules->progress ? rules->progress(fraction, rules->progress_user) : sunder_i_look();
 }

@@ -109,7 +109,7 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     sunder_separation least;
     bool beyond;
     const sunder_status status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
-    if (status == SUNDER_ENOMEM) s->failed = true;
+    if (status == SUNDER_ENOMEM || status == SUNDER_ECANCEL) s->failed = true;
     if (status) return false;
     place[0] = from[0] + least.dx;
     place[1] = from[1] + least.dy;

@@ -64,7 +64,6 @@ static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sun
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    rules.watch = &w->watch;
     if (!status) status = sunder_i_town_init(layer, &rules, &w->town, err);
     if (!status) status = sunder_i_scene_init(&w->town, &w->scene, err);
     w->town.standing = &w->scene.tree;
@@ -90,7 +89,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (!w->now.pair) return sunder_i_no_memory(err);
     if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
     w->now.n = w->start.n;
-    if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+    if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_no_memory(err);
     status = sunder_i_job_find_hopeless(w, err);
     if (!status) status = sunder_i_job_choose_holders(w, err);
     if (!status) status = sunder_i_job_settle(w, 0.1, 0.4, err);
@@ -104,7 +103,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (!status) status = sunder_i_job_gather(w, err);
     if (status) return status;
     const double solved = seconds();
-    if (!sunder_i_progress(&w->town.rules, 0.8)) return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+    if (!sunder_i_progress(&w->town.rules, 0.8)) return sunder_i_no_memory(err);
     sunder_report *report = w->report;
     /* Once more from nothing: the verdict leans on no earlier one. */
     sunder_i_relations last;
@@ -131,15 +130,19 @@ sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_laye
                                     sunder_error *err)
 {
     sunder_i_job w;
+    sunder_i_watch watch;
     memset(&w, 0, sizeof w);
-    sunder_i_watch_init(&w.watch, options);
-    const sunder_status status = separate(&w, layer, options, err);
+    sunder_layer_options o;
+    sunder_layer_options_init(&o);
+    if (options) o = *options;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = separate(&w, layer, &o, err);
     if (!status) {
         *out = w.report;
         w.report = NULL;
     }
+    sunder_i_watch_end(&watch);
     sunder_i_job_free(&w);
-    sunder_i_watch_clear(&w.watch);
     return status;
 }
 
@@ -147,10 +150,14 @@ sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_o
                                  sunder_error *err)
 {
     sunder_i_job w;
+    sunder_i_watch watch;
     memset(&w, 0, sizeof w);
-    sunder_i_watch_init(&w.watch, options);
+    sunder_layer_options o;
+    sunder_layer_options_init(&o);
+    if (options) o = *options;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
     const double began = seconds();
-    sunder_status status = start(&w, layer, options, err);
+    sunder_status status = start(&w, layer, &o, err);
     if (!status) status = sunder_i_report_conflicts(w.report, &w.town, &w.scene, &w.start, false, err);
     if (!status) {
         sunder_layer_summary *s = &w.report->summary;
@@ -160,7 +167,7 @@ sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_o
         *out = w.report;
         w.report = NULL;
     }
+    sunder_i_watch_end(&watch);
     sunder_i_job_free(&w);
-    sunder_i_watch_clear(&w.watch);
     return status;
 }

@@ -1,6 +1,7 @@
 #include "minkowski/hulls.h"
 
 #include "number/sort.h"
+#include "number/watch.h"
 #include "predicate/predicate.h"
 
 #include <string.h>
@@ -8,7 +9,7 @@
 bool sunder_i_hulls_init(sunder_i_hulls *list, size_t n, size_t corners)
 {
     memset(list, 0, sizeof *list);
-    if (n > UINT32_MAX / 2 || corners > UINT32_MAX / 2) return false;
+    if (n > UINT32_MAX / 2 || corners > UINT32_MAX / 2) return sunder_i_too_many();
     list->end = sunder_i_alloc(n, sizeof *list->end);
     list->corner = sunder_i_alloc(corners, sizeof *list->corner);
     list->rank = sunder_i_alloc(corners, sizeof *list->rank);
@@ -173,7 +174,7 @@ bool sunder_i_hulls_sum(sunder_i_lattice *lattice, const sunder_i_hulls *a, cons
 {
     const size_t m = a->n, n = b->n;
     if (m && n && (m > UINT32_MAX / 2 / n || (size_t)a->corners * n + (size_t)b->corners * m > UINT32_MAX / 2))
-        return false;
+        return sunder_i_too_many();
     if (!sunder_i_hulls_init(out, m * n, a->corners * n + b->corners * m)) return false;
     for (uint32_t i = 0; i < m; i++)
         for (uint32_t j = 0; j < n; j++) merge(lattice, a, i, b, j, out);

@@ -2,6 +2,7 @@
 
 #include "minkowski/join.h"
 #include "number/sort.h"
+#include "number/watch.h"
 #include "predicate/predicate.h"
 
 #include <string.h>
@@ -177,7 +178,7 @@ static uint32_t merge_pieces(sunder_i_subsums *out, uint32_t at, const operand *
 static bool merge_all(sunder_i_subsums *out, const operand *p, const operand *q)
 {
     const size_t m = p->joined.pieces, n = q->joined.pieces, most = p->sides * n + q->sides * m;
-    if (m * n > UINT32_MAX / 2 || most > UINT32_MAX / 2) return false;
+    if (m * n > UINT32_MAX / 2 || most > UINT32_MAX / 2) return sunder_i_too_many();
     out->end = sunder_i_alloc(m * n, sizeof *out->end);
     out->corner = sunder_i_alloc(most, sizeof *out->corner);
     out->rank = sunder_i_alloc(most, sizeof *out->rank);

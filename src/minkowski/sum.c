@@ -5,6 +5,7 @@
 #include "minkowski/stages.h"
 #include "minkowski/subsums.h"
 #include "minkowski/traced.h"
+#include "number/watch.h"
 #include "unions/unions.h"
 
 #include <string.h>
@@ -74,18 +75,20 @@ static sunder_status check_options(const sunder_sum_options *o, sunder_error *er
 sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                      const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
-    static const sunder_sum_options defaults;
-    if (!options) options = &defaults;
-    sunder_status status = check_options(options, err);
+    sunder_sum_options o = {0};
+    if (options) o = *options;
+    sunder_status status = check_options(&o, err);
     if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
-    sum->method.algorithm = options->algorithm                ? options->algorithm
-                            : options->keep_map ? SUNDER_ARRANGEMENT : SUNDER_CONVOLUTION;
+    sum->method.algorithm = o.algorithm ? o.algorithm : o.keep_map ? SUNDER_ARRANGEMENT : SUNDER_CONVOLUTION;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
     if (sum->method.algorithm == SUNDER_CONVOLUTION)
-        status = build(sum, p, q, force_wide, options, err);
+        status = build(sum, p, q, force_wide, &o, err);
     else
-        status = sunder_i_union_sum(sum, p, q, force_wide, options, err);
+        status = sunder_i_union_sum(sum, p, q, force_wide, &o, err);
+    sunder_i_watch_end(&watch);
     if (status == SUNDER_OK)
         *out = sum;
     else

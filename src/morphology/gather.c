@@ -3,6 +3,7 @@
 #include "morphology/morphology.h"
 
 #include "number/sort.h"
+#include "number/watch.h"
 
 /* Where something of a part is found. */
 typedef struct source {
@@ -33,6 +34,7 @@ static void measure(gathering *g)
 static bool make_room(gathering *g)
 {
     sunder_sum *out = g->out;
+    if (g->vertices > UINT32_MAX) return sunder_i_too_many();
     g->first = sunder_i_alloc(g->n, sizeof *g->first);
     g->polygon = sunder_i_alloc(g->polygons, sizeof *g->polygon);
     g->segment = sunder_i_alloc(g->segments, sizeof *g->segment);
@@ -43,7 +45,7 @@ static bool make_room(gathering *g)
     out->poly_end = sunder_i_alloc(g->polygons, sizeof *out->poly_end);
     out->segment = sunder_i_alloc(2 * g->segments, sizeof *out->segment);
     out->point = sunder_i_alloc(g->points, sizeof *out->point);
-    return g->vertices <= UINT32_MAX && g->first && g->polygon && g->segment && g->point && out->vertex &&
+    return g->first && g->polygon && g->segment && g->point && out->vertex &&
            out->ring_vertex && out->ring_end && out->poly_end && out->segment && out->point;
 }
 

@@ -52,12 +52,12 @@ static sunder_status grow_again(const islands *all, const sunder_sum_options *op
     sunder_i_figure figure;
     sunder_sum *sum = sunder_i_seat_sum(all->seat, 0);
     if (!sum) return sunder_i_no_memory(err);
-    sunder_status status = SUNDER_ENOMEM;
+    sunder_status status;
     if (sunder_i_figure_of_sum(eroded, 0, eroded->polygons, false, &figure)) {
         status = sunder_i_grow(&figure, &all->seat->probe, options, sum, err);
         sunder_i_figure_free(&figure);
     } else
-        sunder_i_no_memory(err);
+        status = sunder_i_no_memory(err);
     if (status == SUNDER_OK)
         *out = sum;
     else

@@ -9,6 +9,7 @@
  * rounded in between. P's members may overlap: an erosion takes their union first. */
 #include "morphology/morphology.h"
 #include "minkowski/minkowski.h"
+#include "number/watch.h"
 
 /* A stage of several, as the caller's options see it. */
 typedef struct stage {
@@ -65,18 +66,28 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
 sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options, sunder_sum **out,
                                  sunder_error *err)
 {
-    static const sunder_sum_options defaults;
-    return sunder_i_union_of_members(shape, NULL, options ? options : &defaults, out, err);
+    sunder_sum_options o = {0};
+    if (options) o = *options;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = sunder_i_union_of_members(shape, NULL, &o, out, err);
+    sunder_i_watch_end(&watch);
+    return status;
 }
 
 sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
-    static const sunder_sum_options defaults;
     if (b->polygons == 0) return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
     if ((unsigned)operation > SUNDER_CLOSE) return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
     if (operation == SUNDER_DILATE) return sunder_minkowski_sum(p, b, options, out, err);
-    return shrink(p, b, operation, options ? options : &defaults, out, err);
+    sunder_sum_options o = {0};
+    if (options) o = *options;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = shrink(p, b, operation, &o, out, err);
+    sunder_i_watch_end(&watch);
+    return status;
 }
 
 const char *sunder_operation_string(sunder_operation operation)

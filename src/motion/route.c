@@ -1,6 +1,8 @@
 /* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
 #include "motion/search.h"
 
+#include "number/watch.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -179,13 +181,16 @@ sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, cons
     if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot encloses nothing");
     sunder_status status = check_obstacles(obstacles, n, err);
     if (status != SUNDER_OK) return status;
-    const sunder_sum_options how = {.progress = options->progress, .progress_user = options->progress_user};
+    sunder_sum_options how = {.progress = options->progress, .progress_user = options->progress_user};
     sunder_route *r = sunder_i_calloc(1, sizeof *r);
     if (!r) return sunder_i_no_memory(err);
     r->obstacle = SIZE_MAX;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &how.progress, &how.progress_user);
     status = sunder_i_space_build(obstacles, n, robot, options->gap, &how, &r->space, err);
     if (status == SUNDER_OK) status = find(r, from, to, &how, err);
     if (status == SUNDER_OK && r->space.ground.lattice->arena.failed) status = sunder_i_no_memory(err);
+    sunder_i_watch_end(&watch);
     if (status == SUNDER_OK)
         *out = r;
     else

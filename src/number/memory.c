@@ -1,5 +1,7 @@
 #include "number/memory.h"
 
+#include "number/watch.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,13 +31,13 @@ static bool bytes(size_t n, size_t size, size_t *out)
 void *sunder_i_alloc(size_t n, size_t size)
 {
     size_t b;
-    return bytes(n, size, &b) ? hook_alloc(b) : NULL;
+    return sunder_i_step() && bytes(n, size, &b) ? hook_alloc(b) : NULL;
 }
 
 void *sunder_i_calloc(size_t n, size_t size)
 {
     size_t b;
-    if (!bytes(n, size, &b)) return NULL;
+    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
     void *p = hook_alloc(b);
     if (p) memset(p, 0, b);
     return p;
@@ -44,7 +46,7 @@ void *sunder_i_calloc(size_t n, size_t size)
 void *sunder_i_realloc(void *old, size_t n, size_t size)
 {
     size_t b;
-    if (!bytes(n, size, &b)) return NULL;
+    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
     return old ? hook_realloc(old, b) : hook_alloc(b);
 }
 
@@ -75,12 +77,21 @@ bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
 typedef struct sunder_i_chunk {
     struct sunder_i_chunk *older;
     size_t size, used;
+    bool lent; /* not ours to free */
     _Alignas(16) unsigned char data[];
 } sunder_i_chunk;
 
 void sunder_i_arena_init(sunder_i_arena *arena)
 {
     arena->chunk = NULL;
+    arena->failed = false;
+}
+
+void sunder_i_arena_init_on(sunder_i_arena *arena, void *memory, size_t bytes)
+{
+    sunder_i_chunk *c = memory;
+    *c = (sunder_i_chunk){.size = bytes - sizeof *c, .lent = true};
+    arena->chunk = c;
     arena->failed = false;
 }
 
@@ -98,6 +109,7 @@ static bool arena_grow(sunder_i_arena *arena, size_t need)
     c->older = arena->chunk;
     c->size = size;
     c->used = 0;
+    c->lent = false;
     arena->chunk = c;
     return true;
 }
@@ -106,7 +118,7 @@ void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
 {
     size_t b;
     if (arena->failed) return NULL;
-    if (!bytes(n, size, &b) || b > SIZE_MAX - 64) {
+    if (!sunder_i_step() || !bytes(n, size, &b) || b > SIZE_MAX - 64) {
         arena->failed = true;
         return NULL;
     }
@@ -127,7 +139,7 @@ void sunder_i_arena_release(sunder_i_arena *arena, sunder_i_mark mark)
 {
     while (arena->chunk != mark.chunk) {
         sunder_i_chunk *older = arena->chunk->older;
-        sunder_i_free(arena->chunk);
+        if (!arena->chunk->lent) sunder_i_free(arena->chunk);
         arena->chunk = older;
     }
     if (arena->chunk) arena->chunk->used = mark.used;
@@ -176,5 +188,7 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
 
 sunder_status sunder_i_no_memory(sunder_error *err)
 {
-    return sunder_i_fail(err, SUNDER_ENOMEM, "%s", sunder_status_string(SUNDER_ENOMEM));
+    const bool too_many = sunder_i_was_too_many();
+    const sunder_status why = sunder_i_stopped() ? SUNDER_ECANCEL : too_many ? SUNDER_ESIZE : SUNDER_ENOMEM;
+    return sunder_i_fail(err, why, "%s", sunder_status_string(why));
 }

@@ -3,7 +3,7 @@
  * Nothing in the library calls malloc itself. Long-lived arrays come from sunder_i_alloc() and friends, which return
  * NULL when memory is out; what lives as long as one computation comes from an arena. An arena remembers a failed
  * allocation (`failed`) and from then on hands out nothing, so that a stage made of many small allocations can be
- * checked once, at its end. */
+ * checked once, at its end. A thread that is to stop is refused memory, too (watch.h). */
 #ifndef SUNDER_I_MEMORY_H
 #define SUNDER_I_MEMORY_H
 
@@ -35,6 +35,9 @@ typedef struct sunder_i_mark {
 
 /* A zeroed struct is an empty arena; this says it by name. */
 void sunder_i_arena_init(sunder_i_arena *arena);
+/* The same with a first piece of memory lent by the caller, 16-byte aligned, which must outlive the arena: as long as
+ * that is enough nothing is allocated. */
+void sunder_i_arena_init_on(sunder_i_arena *arena, void *memory, size_t bytes);
 /* n * size bytes, 16-byte aligned, uninitialised, alive until the arena is freed or released past here; NULL if it
  * failed. */
 void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size);
@@ -48,6 +51,8 @@ sunder_status sunder_i_fail(sunder_error *err, sunder_status status, const char 
 /* The same with a place. */
 sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
                                const char *format, ...) __attribute__((format(printf, 6, 7)));
+/* The error of work that was given no memory, or otherwise cut short: SUNDER_ENOMEM, or, where that is why (watch.h),
+ * SUNDER_ECANCEL or SUNDER_ESIZE. */
 sunder_status sunder_i_no_memory(sunder_error *err);
 
 #endif

@@ -1,6 +1,8 @@
 /* Independent work on several threads. Which thread does what is left to chance; where the result goes is not. */
 #include "number/parallel.h"
 
+#include "number/watch.h"
+
 #include <pthread.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -8,6 +10,7 @@
 typedef struct job {
     sunder_i_work work;
     void *context;
+    sunder_i_watch *watch; /* of the thread whose work it is */
     size_t n, grain;
     atomic_size_t next; /* first item not handed out */
     atomic_bool failed;
@@ -32,6 +35,7 @@ static void fail(job *j, size_t begin, sunder_status status, const sunder_error 
 static void *run(void *argument)
 {
     job *j = argument;
+    sunder_i_watch_join(j->watch);
     while (!atomic_load(&j->failed)) {
         const size_t begin = atomic_fetch_add(&j->next, j->grain);
         if (begin >= j->n) break;
@@ -49,7 +53,7 @@ sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder
 {
     enum { MOST = 256 };
     if (n == 0) return SUNDER_OK;
-    job j = {.work = work, .context = context, .n = n, .grain = grain ? grain : 1, .failed_at = SIZE_MAX};
+    job j = {.work = work, .context = context, .watch = sunder_i_watch_here(), .n = n, .grain = grain ? grain : 1, .failed_at = SIZE_MAX};
     atomic_init(&j.next, 0);
     atomic_init(&j.failed, false);
     pthread_mutex_init(&j.lock, NULL);

@@ -5,6 +5,8 @@
  * of all subsums that come within that error. */
 #include "separation/held.h"
 
+#include "number/watch.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -69,7 +71,7 @@ static bool keep_list(board *b, const part *p, uint32_t *start)
 {
     sunder_i_held *h = b->h;
     const size_t n = p->to - p->from, square = (size_t)p->y0 * h->n + p->x0;
-    if (h->list_n + n > UINT32_MAX) return false;
+    if (h->list_n + n > UINT32_MAX) return sunder_i_too_many();
     if (!sunder_i_reserve(&h->list, &h->list_capacity, h->list_n + n, sizeof *h->list)) return false;
     if (n) memcpy(h->list + h->list_n, b->near + p->from, n * sizeof *h->list);
     start[square] = (uint32_t)h->list_n;

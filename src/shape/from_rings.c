@@ -83,7 +83,7 @@ static sunder_status read_input(sunder_i_input *in, sunder_error *err)
     in->vertices = rings ? in->ring_end[rings - 1] : 0;
     in->rings = rings;
     if (in->vertices > UINT32_MAX / 32 || rings > UINT32_MAX / 32)
-        return sunder_i_fail(err, SUNDER_ERANGE, "a shape of %zu vertices in %zu rings is too large", in->vertices,
+        return sunder_i_fail(err, SUNDER_ESIZE, "a shape of %zu vertices in %zu rings is too large", in->vertices,
                              rings);
     return finite_all(in, err) ? SUNDER_OK : SUNDER_EINVALID;
 }

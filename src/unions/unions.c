@@ -1,6 +1,7 @@
 /* The stages of a sum by union: operands on one lattice, pieces, the union, the outline read off its map. */
 #include "unions/unions.h"
 
+#include <inttypes.h>
 #include <string.h>
 #include <time.h>
 
@@ -49,7 +50,8 @@ static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sund
                            sunder_error *err)
 {
     const uint64_t subsums = (uint64_t)u->p.pieces * u->q.pieces;
-    if (subsums >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ENOMEM, "there are too many pairs of convex pieces");
+    if (subsums >= UINT32_MAX)
+        return sunder_i_fail(err, SUNDER_ESIZE, "%" PRIu64 " pairs of convex pieces are more than can be numbered", subsums);
     u->subsums = (uint32_t)subsums;
     switch (algorithm) {
     case SUNDER_INCREMENTAL:

@@ -17,7 +17,7 @@
 #include "planar_map/planar_map.h"
 
 /* Fills an empty sum (but for its algorithm) by one of the three roads. On failure the caller frees the sum.
- * Fails with SUNDER_ENOMEM, also where there are too many subsums to number, or SUNDER_ECANCEL. */
+ * Fails with SUNDER_ENOMEM, SUNDER_ECANCEL, or SUNDER_ESIZE where there are too many subsums to number. */
 sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                  const sunder_sum_options *options, sunder_error *err);
 
