@@ -21,13 +21,16 @@ typedef struct sum_run {
     double read, decompose, compute, write, start;
 } sum_run;
 
-/* The number of the word among the names of an enumeration, in which every choice of the option is found. */
-static unsigned choice(const char *word, const char *(*name)(unsigned))
+/* The number of an option's word among the names of an enumeration, which end with an empty one. */
+static bool choice(const gis_options *options, gis_option_id option, const char *(*name)(unsigned), unsigned *number,
+                   gis_error *error)
 {
-    unsigned i = 0;
-    while (strcmp(name(i), word) != 0)
-        i++;
-    return i;
+    const char *word = options->text[option];
+    for (*number = 0; name(*number)[0]; ++*number)
+        if (word && strcmp(name(*number), word) == 0)
+            return true;
+    return gis_fail_usage(error, "%s: the library knows nothing of the name %s", gis_option_table[option].names,
+                          word ? word : "(none)");
 }
 
 static const char *algorithm_name(unsigned i)
@@ -49,9 +52,14 @@ static const char *order_name(unsigned i)
 static bool choose_road(sum_run *run, gis_error *error)
 {
     const gis_options *options = run->options;
-    run->how.algorithm = (sunder_algorithm)choice(options->text[OPT_ALGORITHM], algorithm_name);
-    run->how.decomposition = (sunder_decomposition)choice(options->text[OPT_DECOMPOSITION], decomposition_name);
-    run->how.order = (sunder_order)choice(options->text[OPT_ORDER], order_name);
+    unsigned algorithm, decomposition, order;
+    if (!choice(options, OPT_ALGORITHM, algorithm_name, &algorithm, error) ||
+        !choice(options, OPT_DECOMPOSITION, decomposition_name, &decomposition, error) ||
+        !choice(options, OPT_ORDER, order_name, &order, error))
+        return false;
+    run->how.algorithm = (sunder_algorithm)algorithm;
+    run->how.decomposition = (sunder_decomposition)decomposition;
+    run->how.order = (sunder_order)order;
     run->how.seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
     run->how.keep_map = options->given[OPT_PLANAR_MAP];
     if (!run->how.keep_map)

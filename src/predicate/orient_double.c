@@ -1,7 +1,7 @@
 /* The side of a point to a line, on doubles as they come: the ladder in one place, rung by rung. */
 #include "predicate/orient_double.h"
 
-#include "number/big.h"
+#include "number/total.h"
 
 #include <math.h>
 
@@ -19,29 +19,21 @@ int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const s
     return SUNDER_I_UNSURE;
 }
 
-int sunder_i_orient_lattice(const sunder_point *a, const sunder_point *b, const sunder_point *c, bool force_wide)
+/* (a - c) x (b - c) multiplied out: the two products c.x c.y cancel. */
+int sunder_i_orient_exact(const sunder_point *a, const sunder_point *b, const sunder_point *c)
 {
-    const double xy[6] = {a->x, a->y, b->x, b->y, c->x, c->y};
-    sunder_i_extent extent = {0};
-    sunder_i_extent_add(&extent, xy, 3);
-    double origin[1][2];
-    sunder_i_lattice l;
-    sunder_i_lattice_init(&l, &extent, 1, true, origin, force_wide);
-    if (!l.narrow && !force_wide) return SUNDER_I_UNSURE;
-    sunder_i_point p[3];
-    for (int i = 0; i < 3; i++)
-        p[i] = (sunder_i_point){sunder_i_lattice_int(&l, xy[2 * i], origin[0][0]),
-                                sunder_i_lattice_int(&l, xy[2 * i + 1], origin[0][1])};
-    const int s = sunder_i_orient(&l, p[0], p[1], p[2]);
-    const bool failed = l.arena.failed;
-    sunder_i_lattice_free(&l);
-    return failed ? SUNDER_I_UNSURE : s;
+    sunder_i_total det = {{0}};
+    sunder_i_total_add(&det, a->x, b->y);
+    sunder_i_total_sub(&det, a->y, b->x);
+    sunder_i_total_add(&det, b->x, c->y);
+    sunder_i_total_sub(&det, b->y, c->x);
+    sunder_i_total_add(&det, c->x, a->y);
+    sunder_i_total_sub(&det, c->y, a->x);
+    return sunder_i_total_sign(&det);
 }
 
 int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c)
 {
-    int s = sunder_i_orient_filter(a, b, c);
-    if (s == SUNDER_I_UNSURE) s = sunder_i_orient_lattice(a, b, c, false);
-    if (s == SUNDER_I_UNSURE) s = sunder_i_orient_lattice(a, b, c, true);
-    return s == SUNDER_I_UNSURE ? 0 : s; /* unsure here only if memory ran out */
+    const int s = sunder_i_orient_filter(a, b, c);
+    return s == SUNDER_I_UNSURE ? sunder_i_orient_exact(a, b, c) : s;
 }

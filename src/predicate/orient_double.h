@@ -8,8 +8,7 @@
 
 /* Floating point with a proved bound: +1, -1 or SUNDER_I_UNSURE. */
 int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const sunder_point *c);
-/* Native integers on a narrow lattice (SUNDER_I_UNSURE where the points do not fit), or big ones on a wide lattice
- * (SUNDER_I_UNSURE only when memory is out). */
-int sunder_i_orient_lattice(const sunder_point *a, const sunder_point *b, const sunder_point *c, bool force_wide);
+/* The six products of the determinant, summed exactly in fixed memory. */
+int sunder_i_orient_exact(const sunder_point *a, const sunder_point *b, const sunder_point *c);
 
 #endif

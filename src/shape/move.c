@@ -19,6 +19,7 @@ static sunder_shape *copy_shape(const sunder_shape *s)
     if (!c) return NULL;
     if (s->vertices) memcpy(c->shared, s->shared, s->vertices * sizeof *s->shared);
     c->repaired = s->repaired;
+    c->touches = s->touches;
     return c;
 }
 

@@ -202,7 +202,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
     const sunder_i_place_options *const o = options ? options : &plain;
     sunder_i_placed placed, *const out = &placed;
     memset(out, 0, sizeof *out);
-    if (make_room(p, q, out, err)) return SUNDER_ENOMEM;
+    sunder_status status = make_room(p, q, out, err);
+    if (status) return status;
     const sunder_shape *const shape[2] = {p, q};
     const double *const shift[2] = {o->shift_p, o->shift_q};
     const bool rational = p->rational || (q && q->rational);
@@ -236,7 +237,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
         if (q) place_doubles(&out->lattice, q, shift[1], out->origin_q, out->q);
     }
     if (q && o->reflect_q) reflect(out, q->vertices);
-    if (finish(out, err)) return SUNDER_ENOMEM;
+    status = finish(out, err);
+    if (status) return status;
     *result = placed;
     return SUNDER_OK;
 }

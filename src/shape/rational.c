@@ -32,5 +32,5 @@ bool sunder_i_shape_measure_rational(sunder_shape *s)
     }
     const bool good = !scratch.failed;
     sunder_i_arena_free(&scratch);
-    return good;
+    return good && sunder_i_shape_measure_pieces(s);
 }

@@ -43,6 +43,7 @@ struct sunder_shape {
     sunder_i_big *num;     /* [2 * vertices] */
     sunder_i_big den;
     long exponent;
+    double area, anchor[2]; /* worked out when made, while failing was possible (measure.c) */
 
     /* convex pieces */
     uint32_t pieces;
@@ -77,6 +78,9 @@ static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, u
 {
     return shape->next[u] == v;
 }
+
+/* Area and anchor of a rational shape that is complete but for them. False if memory is out. */
+bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 
 /* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence. */
 const char *sunder_i_shape_check(const sunder_shape *shape);

@@ -1,0 +1,107 @@
+/* number/total: sums of products of doubles of every size against GMP's rationals. */
+#include "number/total.h"
+#include "random.h"
+
+#include <float.h>
+#include <gmp.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+/* Any finite double: exponents all over the range, few or many bits, subnormals too. */
+static double any_double(rng *g)
+{
+    const double m = rng_int(g, 0, 1) ? rng_unit(g) : (double)rng_int(g, 0, 9);
+    const double v = ldexp(m, (int)rng_int(g, -1080, 1020));
+    return rng_int(g, 0, 1) ? -v : v;
+}
+
+/* Is d the nearest double to q, ties to even? Below the midpoint to either neighbour, or on it with an even end. */
+static void demand_nearest(mpq_t q, double d)
+{
+    mpq_t edge, value;
+    mpq_inits(edge, value, NULL);
+    for (int side = -1; side <= 1; side += 2) {
+        const double next = nextafter(d, side < 0 ? -INFINITY : INFINITY);
+        if (isinf(d) || isinf(next)) continue;
+        int exponent;
+        const bool even = fmod(frexp(d, &exponent) * 0x1p53, 2) == 0 && fabs(d) >= DBL_MIN;
+        mpq_set_d(edge, d);
+        mpq_set_d(value, next);
+        mpq_add(edge, edge, value);
+        mpq_div_2exp(edge, edge, 1);
+        const int c = mpq_cmp(q, edge) * side;
+        assert_true(c < 0 || (c == 0 && (even || fabs(d) < DBL_MIN)));
+    }
+    mpq_clears(edge, value, NULL);
+}
+
+static void test_random_sums(void **state)
+{
+    (void)state;
+    rng g = rng_start(test_seed(), 45);
+    mpq_t sum, a, b;
+    mpq_inits(sum, a, b, NULL);
+    for (int i = 0; i < 3000; i++) {
+        sunder_i_total t = {{0}};
+        mpq_set_ui(sum, 0, 1);
+        double x = 0, y = 0;
+        const int n = (int)rng_int(&g, 1, 12);
+        for (int k = 0; k < n; k++) {
+            const bool again = k > 0 && rng_int(&g, 0, 2) == 0; /* takes the last one away */
+            if (!again) x = any_double(&g), y = any_double(&g);
+            mpq_set_d(a, x);
+            mpq_set_d(b, y);
+            mpq_mul(a, a, b);
+            if (again) {
+                sunder_i_total_sub(&t, x, y);
+                mpq_sub(sum, sum, a);
+            } else {
+                sunder_i_total_add(&t, x, y);
+                mpq_add(sum, sum, a);
+            }
+        }
+        assert_int_equal(sunder_i_total_sign(&t), mpq_sgn(sum));
+        const int e = (int)rng_int(&g, -3, 3);
+        if (e >= 0)
+            mpq_mul_2exp(sum, sum, (mp_bitcnt_t)e);
+        else
+            mpq_div_2exp(sum, sum, (mp_bitcnt_t)-e);
+        const double d = sunder_i_total_double(&t, e);
+        if (isinf(d)) { /* from DBL_MAX and half a unit on */
+            mpq_set_d(a, DBL_MAX);
+            mpq_set_d(b, 0x1p970);
+            mpq_add(a, a, b);
+            mpq_abs(sum, sum);
+            assert_true(mpq_cmp(sum, a) >= 0);
+        } else {
+            demand_nearest(sum, d);
+        }
+    }
+    mpq_clears(sum, a, b, NULL);
+}
+
+static void test_ends(void **state)
+{
+    (void)state;
+    sunder_i_total t = {{0}};
+    assert_true(sunder_i_total_sign(&t) == 0 && sunder_i_total_double(&t, 0) == 0);
+    sunder_i_total_sub(&t, 0x1p-1074, 0x1p-1074);
+    assert_true(sunder_i_total_sign(&t) < 0 && sunder_i_total_double(&t, 0) == 0);
+    assert_true(sunder_i_total_double(&t, 1074) == -0x1p-1074);
+    assert_true(sunder_i_total_double(&t, 1073) == 0); /* half of the least: a tie, to even */
+    for (int k = 0; k < 1000; k++) sunder_i_total_add(&t, DBL_MAX, DBL_MAX);
+    assert_true(sunder_i_total_sign(&t) > 0 && isinf(sunder_i_total_double(&t, 0)));
+    for (int k = 0; k < 1000; k++) sunder_i_total_sub(&t, DBL_MAX, DBL_MAX);
+    assert_true(sunder_i_total_double(&t, 1074) == -0x1p-1074);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_sums), cmocka_unit_test(test_ends)};
+    return cmocka_run_group_tests_name("number/total", tests, NULL, NULL);
+}
