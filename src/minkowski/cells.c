@@ -6,12 +6,16 @@
  * sorting it out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
 #define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
-/* After so many splits in a row that thin out less than a tenth a cell is left as it is: a few lines are then
- * bundles of coincident sides, which no split will part and every split doubles; many lines may be a cluster in a
- * corner of the cell (or truly concurrent, and then only one half keeps them). */
-#define STUBBORN_SPLITS_FEW 3
-#define STUBBORN_SPLITS_MANY 12
-#define FEW_LINES 4
+/* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
+ * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
+ * a subsum have grown by more than this since some ancestor had them. As one split at most doubles them, all leaves
+ * together have no more than four times the pairs of the root, whatever the input. */
+#define MOST_GROWTH 2
+/* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
+ * its subsums more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
+ * way the more pairs it has; or sides that are truly concurrent. */
+#define STUBBORN_SPLITS 12
+#define STUBBORN_SHARE 8
 #define MANY_SIDES 250
 #define RECENT_BITS_MOST 14 /* 128 KB, which stay in the second-level cache; more hardly finds more */
 
@@ -262,8 +266,20 @@ static bool choose_axis(const builder *b, cell *c)
     return c->b.high[c->axis] - c->b.low[c->axis] > room;
 }
 
+/* Pairs of a side and a subsum other than its own. */
+static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
+
+/* By how much they have grown in the halves, on the whole, since they were fewest. */
+static double growth_of(const cell *c, const half h[2])
+{
+    const double before = pairs_of(c->sides, c->entry_to - c->entry_from);
+    double after = 0;
+    for (int k = 0; k < 2; k++) after += h[k].held ? 0 : pairs_of(h[k].sides, h[k].entries_n);
+    return before > 0 ? most_of(1, c->growth * (after / before)) : 1;
+}
+
 /* What is left of a half when its lists are made: a cell to split further, or settled. */
-static void settle_half(builder *b, const cell *parent, const half *h)
+static void settle_half(builder *b, const cell *parent, const half *h, double growth)
 {
     if (h->held) {
         sunder_i_cells_close(b, parent, &h->b, h->holder, h->holder);
@@ -271,7 +287,7 @@ static void settle_half(builder *b, const cell *parent, const half *h)
         return;
     }
     cell c = {h->b, b->entries_n,     b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0,
-              0,    parent->share / 2};
+              0,    parent->share / 2, growth};
     memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
     memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
     if (h->entries_n == 1) {
@@ -286,11 +302,11 @@ static void settle_half(builder *b, const cell *parent, const half *h)
         return;
     }
     c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
-    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && choose_axis(b, &c);
+    const bool enough = growth > MOST_GROWTH || c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
+    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !enough && choose_axis(b, &c);
     const size_t lines = at_once ? halve(&c, h) : shrink(b, &c, &h->b);
-    const uint32_t patience = lines <= FEW_LINES ? STUBBORN_SPLITS_FEW : STUBBORN_SPLITS_MANY;
     const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
-    const bool leaf = lines * (h->entries_n - 1) <= few || c.stubborn >= patience || (lines > 0 && !choose_axis(b, &c));
+    const bool leaf = enough || lines * (h->entries_n - 1) <= few || (lines > 0 && !choose_axis(b, &c));
     if (lines > 0 && !leaf) {
         b->entries_n = c.entry_to;
         b->runs_n = c.run_to;
@@ -338,8 +354,9 @@ static void split(builder *b, const cell *c)
             filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
         from += b->entries[i].runs;
     }
-    settle_half(b, c, &h[0]);
-    if (!b->no_memory) settle_half(b, c, &h[1]);
+    const double growth = growth_of(c, h);
+    settle_half(b, c, &h[0], growth);
+    if (!b->no_memory) settle_half(b, c, &h[1], growth);
 }
 
 static sunder_status descend(builder *b, sunder_error *err)

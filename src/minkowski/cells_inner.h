@@ -35,6 +35,7 @@ typedef struct cell {
     uint32_t stubborn;
     int axis;     /* to split across */
     double share; /* of the whole work, taking each half as half of its parent's */
+    double growth; /* see growth_of() */
 } cell;
 
 /* A candidate and the part of the box at hand that it may pass through. */

@@ -122,7 +122,7 @@ static bool list_all(builder *b, const box *all, cell *root)
     }
     ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
     for (size_t i = 0; ok && i < s->n; i++) add_runs(b, order[i]);
-    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1};
+    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);
     sunder_i_free(order);
