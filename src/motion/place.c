@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 /* ---- Making places ---- */
 
@@ -82,41 +81,6 @@ sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_latti
             d[k] = two_to(arena, d[k], -(long)e);
     }
     return sunder_i_place_of_rational(sum, l, n, d);
-}
-
-static bool parse_integer(sunder_i_arena *arena, const char *text, size_t n, sunder_i_big *out)
-{
-    const bool negative = n && *text == '-';
-    if (n && (*text == '-' || *text == '+')) text++, n--;
-    if (n == 0) return false;
-    *out = sunder_i_big_i64(arena, 0);
-    for (size_t i = 0; i < n;) {
-        /* Eighteen digits at a time fit in 64 bits. */
-        int64_t part = 0, scale = 1;
-        for (int k = 0; k < 18 && i < n; k++, i++) {
-            if (text[i] < '0' || text[i] > '9') return false;
-            part = 10 * part + (text[i] - '0');
-            scale *= 10;
-        }
-        *out = sunder_i_big_add(arena, sunder_i_big_mul(arena, *out, sunder_i_big_i64(arena, scale)),
-                                sunder_i_big_i64(arena, part));
-    }
-    if (negative) *out = sunder_i_big_neg(*out);
-    return true;
-}
-
-bool sunder_i_parse_rational(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den)
-{
-    const char *slash = strchr(text, '/');
-    if (!parse_integer(arena, text, slash ? (size_t)(slash - text) : strlen(text), num)) return false;
-    *den = sunder_i_big_i64(arena, 1);
-    if (!slash) return true;
-    if (!parse_integer(arena, slash + 1, strlen(slash + 1), den)) return false;
-    if (sunder_i_big_sign(*den) < 0) {
-        *num = sunder_i_big_neg(*num);
-        *den = sunder_i_big_neg(*den);
-    }
-    return arena->failed || sunder_i_big_sign(*den) > 0;
 }
 
 /* ---- Order ---- */

@@ -28,8 +28,6 @@ sunder_i_place_at sunder_i_place_of_vertex(sunder_i_lattice *lattice, const sund
 sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice,
                                              const sunder_i_big num[2], const sunder_i_big den[2]);
 sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_lattice *lattice, const double xy[2]);
-/* "num" or "num/den", both integers in decimal. False if the text is none of these, or den is zero. */
-bool sunder_i_parse_rational(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den);
 
 /* Lexicographic, x first; and by x or y alone. */
 int sunder_i_place_cmp(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b);

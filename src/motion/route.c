@@ -41,7 +41,7 @@ static sunder_status read_place(sunder_i_space *space, const sunder_place *place
     sunder_i_big num[2], den[2];
     for (int k = 0; k < 2; k++) {
         if (place->text[k]) {
-            if (!sunder_i_parse_rational(&l->arena, place->text[k], &num[k], &den[k]))
+            if (!sunder_i_big_parse_ratio(&l->arena, place->text[k], &num[k], &den[k]))
                 return sunder_i_fail(err, SUNDER_EARG, "%s: %.60s is neither a whole number nor a fraction of two", which,
                                      place->text[k]);
             continue;

@@ -58,4 +58,7 @@ double sunder_i_big_ratio_up(sunder_i_arena *arena, sunder_i_big num, sunder_i_b
  * sunder_i_alloc(), NULL if memory is out. */
 char *sunder_i_big_ratio_text(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent);
 
+/* "num" or "num/den", both integers in decimal. False if the text is none of these, or den is zero. */
+bool sunder_i_big_parse_ratio(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den);
+
 #endif

@@ -22,4 +22,14 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
 sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err);
 
+/* A pair as it stands: P + tp and Q + tq, neither empty. A NULL translation is zero. */
+typedef struct sunder_i_pair {
+    const sunder_shape *p, *q;
+    const double *tp, *tq;
+} sunder_i_pair;
+
+/* Does it stand worse than it did? That is nearer; or in each other, where it was not; or deeper in each other, with a
+ * longer least translation that takes the interiors apart. Exact. */
+sunder_status sunder_i_is_worse(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err);
+
 #endif
