@@ -43,38 +43,26 @@ static uint64_t bodies_of(const sunder_i_town *town, size_t a, size_t b)
     return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
 }
 
-static bool is_left(uint64_t bodies, const key_pair *left, size_t n)
+/* Is it still in conflict? */
+static bool is_left(const sunder_i_job *w, const sunder_i_relation *r)
 {
-    size_t low = 0, high = n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (left[middle].bodies < bodies)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < n && left[low].bodies == bodies;
+    const sunder_i_relation *now = sunder_i_relations_find(&w->now, r->a, r->b);
+    return now && !sunder_i_is_at_peace(now);
 }
 
-/* Of each pair of blocks the pair of members that is hardest to part; none of blocks that are still in conflict. */
+/* Of each pair of blocks the pair of members that is hardest to bring to peace; of those that were. */
 sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err)
 {
     const sunder_i_town *town = &w->town;
     sunder_report *report = w->report;
-    size_t n = 0, left = 0;
-    key_pair *key = sunder_i_alloc(w->start.n + w->now.n, sizeof *key),
-             *remain = sunder_i_alloc(w->now.n, sizeof *remain);
+    size_t n = 0;
+    key_pair *key = sunder_i_alloc(w->start.n, sizeof *key);
     report->bound_pair = sunder_i_calloc(w->start.n, sizeof *report->bound_pair);
-    sunder_status status = key && remain && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
-        for (size_t k = 0; k < w->now.n; k++)
-            if (sunder_i_job_is_between(town, &w->now.pair[k]))
-                remain[left++] = (key_pair){bodies_of(town, w->now.pair[k].a, w->now.pair[k].b), k};
-        qsort(remain, left, sizeof *remain, by_bodies);
         for (size_t k = 0; k < w->start.n; k++) {
             const sunder_i_relation *r = &w->start.pair[k];
-            if (!sunder_i_job_is_between(town, r) || is_left(bodies_of(town, r->a, r->b), remain, left))
-                continue;
+            if (!sunder_i_job_is_conflict(town, r) || is_left(w, r)) continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = r->b;
         }
@@ -104,6 +92,5 @@ sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err)
         status = sunder_i_bound(town, report->bound_pair, out, &report->summary.lower_bound, err);
     }
     sunder_i_free(key);
-    sunder_i_free(remain);
     return status;
 }

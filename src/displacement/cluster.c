@@ -10,6 +10,8 @@
 /* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
  * milliseconds. */
 #define EFFORT 400000u
+/* The same for asking pairs that were given up once more, for a whole cluster: a second or so. */
+#define RETRY_EFFORT 30000000u
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
 {
@@ -18,6 +20,17 @@ static sunder_status finish(sunder_i_search *s, double *move, sunder_status stat
         for (size_t k = 0; k < s->n; k++)
             if (s->mass[k] > 0) sunder_i_round_move(s->town, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
     return status;
+}
+
+/* What became of pairs in conflict goes to the cluster. */
+static void hand_over(sunder_i_search *s, sunder_i_cluster *cluster)
+{
+    cluster->truces = s->truces;
+    cluster->ended = s->ended;
+    cluster->ended_n = s->ended_n;
+    memset(&s->truces, 0, sizeof s->truces);
+    s->ended = NULL;
+    s->ended_n = s->ended_capacity = 0;
 }
 
 /* ---- Neighbours that stay ------------------------------------------------------------------------------------------
@@ -102,7 +115,7 @@ static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *clu
     return ok;
 }
 
-sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     uint32_t *body = NULL;
@@ -115,13 +128,14 @@ sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_c
     if (ok) {
         s.own = cluster->n;
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
-        s.heeds_all = true;
-        sunder_i_search_relax(&s);
+        s.effort = RETRY_EFFORT;
+        sunder_i_search_retry(&s);
         ok = !s.failed;
     }
-    if (ok) {
+    if (ok && s.ended_n + s.truces.n) {
         s.n = cluster->n;
         finish(&s, move, SUNDER_OK, err);
+        hand_over(&s, cluster);
     }
     sunder_i_search_free(&s);
     sunder_i_free(body);
@@ -130,69 +144,6 @@ sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_c
 }
 
 /* ---- From start to moves --------------------------------------------------------------------------------------- */
-
-static int by_pair(const void *a, const void *b)
-{
-    const sunder_i_clash *p = a, *q = b;
-    if (p->i != q->i) return p->i < q->i ? -1 : 1;
-    return p->j < q->j ? -1 : p->j > q->j;
-}
-
-static bool send_home(sunder_i_search *s, uint32_t i)
-{
-    if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
-    s->t[2 * i] = s->t[2 * i + 1] = 0;
-    return true;
-}
-
-/* From where bodies stand to where only those clash that did at home: what came into a clash goes home, until there is
- * no such thing. In the end all are at home. */
-static void undo_harm(sunder_i_search *s)
-{
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    if (!stand) {
-        s->failed = true;
-        return;
-    }
-    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
-    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
-    sunder_i_search_look(s, s->t);
-    const size_t n = s->clashes;
-    sunder_i_clash *at_home = sunder_i_alloc(n, sizeof *at_home);
-    s->failed = s->failed || !at_home;
-    if (!s->failed && n) memcpy(at_home, s->clash, n * sizeof *at_home);
-    if (!s->failed && n) qsort(at_home, n, sizeof *at_home, by_pair);
-    memcpy(s->t, stand, 2 * s->n * sizeof *stand);
-    for (bool any = true; any && !s->failed;) {
-        any = false;
-        sunder_i_search_look(s, s->t);
-        for (size_t k = 0; k < s->clashes; k++) {
-            if (n && bsearch(&s->clash[k], at_home, n, sizeof *at_home, by_pair)) continue;
-            const bool i = send_home(s, s->clash[k].i), j = send_home(s, s->clash[k].j);
-            any = any || i || j;
-        }
-    }
-    sunder_i_free(stand);
-    sunder_i_free(at_home);
-}
-
-/* The pairs that clash are given up; what is left is free, and descends from there. */
-static void give_up(sunder_i_search *s, sunder_i_cluster *cluster)
-{
-    sunder_i_search_clip(s);
-    undo_harm(s);
-    s->given = sunder_i_alloc(s->clashes, sizeof *s->given);
-    cluster->given = sunder_i_alloc(s->clashes, sizeof *cluster->given);
-    s->failed = s->failed || !s->given || !cluster->given;
-    for (size_t k = 0; k < s->clashes && !s->failed; k++) {
-        const uint32_t i = s->clash[k].i, j = s->clash[k].j;
-        s->given[s->given_n++] = (sunder_i_couple){i, j};
-        cluster->given[cluster->given_n++] = (sunder_i_couple){s->body[i], s->body[j]};
-    }
-    if (s->given_n) qsort(s->given, s->given_n, sizeof *s->given, sunder_i_by_couple);
-    s->program.n = 0;
-    if (!s->failed) sunder_i_search_descend(s);
-}
 
 sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
@@ -204,7 +155,10 @@ sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster
         if (!sunder_i_search_jump(&s) && cluster->limited) break;
         done = sunder_i_search_descend(&s);
     }
-    if (!done && !s.failed && cluster->limited) give_up(&s, cluster);
+    if (!done && !s.failed && cluster->limited) {
+        sunder_i_search_yield(&s);
+        hand_over(&s, cluster);
+    }
     const sunder_status status = finish(&s, move, SUNDER_OK, err);
     sunder_i_search_free(&s);
     return status;

@@ -7,7 +7,10 @@
 
 static void free_clusters(sunder_i_job *w)
 {
-    for (size_t k = 0; k < w->clusters; k++) sunder_i_free(w->cluster[k].given);
+    for (size_t k = 0; k < w->clusters; k++) {
+        sunder_i_truces_free(&w->cluster[k].truces);
+        sunder_i_free(w->cluster[k].ended);
+    }
     sunder_i_free(w->cluster);
     w->cluster = NULL;
     w->clusters = 0;
@@ -132,7 +135,7 @@ sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err)
         sunder_i_cluster *c = &w->cluster[w->clusters++];
         for (end = first; end < w->members && w->member[end].root == w->member[first].root; end++) {
             const sunder_i_body *body = &w->town.body[w->member[end].body];
-            c->limited = c->limited || body->fixed || body->limit < INFINITY;
+            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY;
         }
         c->body = w->body + first;
         c->n = end - first;

@@ -65,6 +65,7 @@ static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_cons
 typedef struct sighting {
     const double *near, *u;
     double reach;
+    bool yields;
     const sunder_i_constraint *known;
     size_t known_n;
 } sighting;
@@ -87,7 +88,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *
     if (h.distance > s->gap + at->reach) return;
     if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
-    double d = h.support + gap - sunder_i_search_allowed(s, pair->i, pair->j);
+    double d = h.support + gap;
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
      * sides, would be a contradiction. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
@@ -112,7 +113,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
 {
     sighted pair = {at, i, j, s->program.n};
-    sunder_i_search_parts(s, i, j, at->near, at->reach + s->gap, constrain_part, &pair);
+    sunder_i_search_parts(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
 }
 
 typedef struct around {
@@ -125,13 +126,13 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     around *a = context;
     double u[2] = {a->t[2 * j] - a->t[2 * i], a->t[2 * j + 1] - a->t[2 * i + 1]};
-    const double allowed = sunder_i_search_allowed(s, i, j);
-    if (sunder_i_search_pair(s, i, j, u) - allowed > s->tolerance) {
+    bool yields;
+    if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) {
         a->clashing = true;
         double place[1][2];
         if (sunder_i_search_free_pair(s, i, j, u, 0, 1, place)) memcpy(u, place[0], sizeof u);
     }
-    constrain_pair(s, i, j, &(sighting){u, u, a->reach, NULL, 0});
+    constrain_pair(s, i, j, &(sighting){u, u, a->reach, yields, NULL, 0});
 }
 
 static void sort_constraints(sunder_i_search *s)
@@ -248,9 +249,10 @@ static double solve_lazily(sunder_i_search *s, double softness)
         for (size_t c = 0; c < clashes && !s->failed; c++) {
             const uint32_t i = s->clash[c].i, j = s->clash[c].j;
             double u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
-            if (sunder_i_search_pair(s, i, j, u) - sunder_i_search_allowed(s, i, j) > s->tolerance) continue;
+            bool yields;
+            if (sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance) continue;
             const double w[2] = {s->next[2 * j] - s->next[2 * i], s->next[2 * j + 1] - s->next[2 * i + 1]};
-            constrain_pair(s, i, j, &(sighting){w, u, -s->tolerance, known, before});
+            constrain_pair(s, i, j, &(sighting){w, u, -s->tolerance, yields, known, before});
         }
         more = more || s->program.n > before;
         sunder_i_free(known);
@@ -351,16 +353,6 @@ bool sunder_i_search_descend(sunder_i_search *s)
     if (!free_now && least_left < INFINITY && !s->failed) memcpy(s->t, best, 2 * s->n * sizeof *best);
     sunder_i_free(best);
     return free_now && !s->failed;
-}
-
-bool sunder_i_search_round(sunder_i_search *s)
-{
-    constrain_all(s, fmax(s->gap / 2, s->extent / 50));
-    if (s->failed) return false;
-    const double v = solve_lazily(s, 0);
-    if (s->failed || v > s->tolerance || sunder_i_search_look(s, s->next) > s->tolerance) return false;
-    memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
-    return true;
 }
 
 /* ---- Jumping

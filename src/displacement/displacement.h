@@ -131,6 +131,7 @@ typedef struct sunder_i_body {
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
+    bool pinned;              /* stays where it came from, for rounding would make a pair of it stand worse (uphold.c) */
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
 } sunder_i_body;
@@ -151,6 +152,28 @@ typedef struct sunder_i_couple {
 int sunder_i_by_couple(const void *a, const void *b);
 /* Where the pair, in either order, is in a sorted list of pairs with the lesser first; n if it is not. */
 size_t sunder_i_couple_at(const sunder_i_couple *list, size_t n, uint32_t x, uint32_t y);
+
+/* A pair of features, a < b, that is left in conflict, and what is demanded of it instead of peace: that b + shift keep
+ * `gap` from a; or that the one stay inside the other. See truce.c. */
+typedef struct sunder_i_truce {
+    uint32_t a, b;
+    double shift[2], gap;
+    bool inside;
+    bool hopeless; /* no moves within the limits make peace, which was proved; else the search gave up */
+} sunder_i_truce;
+
+/* Bodies i < j with a truce between members of theirs; no shift is longer than `reach`. */
+typedef struct sunder_i_torn {
+    uint32_t i, j;
+    double reach;
+} sunder_i_torn;
+
+typedef struct sunder_i_truces {
+    sunder_i_truce *item; /* sorted, as `torn` is, by sunder_i_truces_index() */
+    size_t n, capacity;
+    sunder_i_torn *torn;
+    size_t torn_n, torn_capacity;
+} sunder_i_truces;
 
 /* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
 typedef struct sunder_i_town {
@@ -178,10 +201,8 @@ typedef struct sunder_i_town {
     sunder_i_couple *held;  /* bodies: a holds b, which therefore goes where a goes; sorted */
     size_t held_n;
     size_t kept_n;
-    sunder_i_couple
-        *hopeless; /* pairs that the limits cannot part, in clusters too large to make the best of it; sorted */
-    size_t hopeless_n;
-    sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is apart; sorted */
+    sunder_i_truces truces;
+    sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is at peace; sorted */
     size_t given_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     bool *inexact; /* [features] the translate was rounded */
@@ -220,10 +241,27 @@ sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, siz
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
 const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
 void sunder_i_town_free(sunder_i_town *town);
-bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g);
-bool sunder_i_is_given_up(const sunder_i_town *town, uint32_t body, uint32_t other);
-/* Kept or hopeless: the search lets such pairs alone. */
-bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g);
+
+/* ---- Pairs left in conflict ----------------------------------------------------------------------------------------
+ */
+
+void sunder_i_truces_free(sunder_i_truces *truces);
+/* Appends one; to be indexed before anything is looked up. False if memory is out. */
+bool sunder_i_truces_add(sunder_i_truces *truces, const sunder_i_truce *truce);
+bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town);
+/* The truce of two features, or between members of two bodies; NULL: there is none. */
+const sunder_i_truce *sunder_i_truces_find(const sunder_i_truces *truces, uint32_t f, uint32_t g);
+const sunder_i_torn *sunder_i_truces_between(const sunder_i_truces *truces, uint32_t body, uint32_t other);
+/* Ends all truces between the two bodies. Order stays. */
+void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, uint32_t body, uint32_t other);
+/* A truce for two features, by how they stood at the start. */
+sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t g, sunder_i_truce *out,
+                                sunder_error *err);
+/* Appends truces for all members of two bodies that stood within reach of each other. */
+sunder_status sunder_i_truces_make(const sunder_i_town *town, uint32_t body, uint32_t other, double reach,
+                                   sunder_i_truces *out, sunder_error *err);
+/* By how much `of_j`, one of its features, is shifted before it is measured; returns the distance it then keeps. */
+double sunder_i_truce_shift(const sunder_i_truce *truce, uint32_t of_j, double shift[2]);
 
 /* ---- What stays inside ---------------------------------------------------------------------------------------------
  */
@@ -248,6 +286,8 @@ sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations
                                    sunder_error *err);
 /* The bodies that body b holds: *n of them, side b of each couple. */
 const sunder_i_couple *sunder_i_held_by(const sunder_i_town *town, uint32_t b, size_t *n);
+/* Of a pair that is in town->kept: does `inner` lie in `holder`, and not the other way round? */
+bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder);
 /* Does `holder` keep `inner` inside? Then *keeping tells how. */
 bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping);
 
@@ -355,17 +395,18 @@ typedef struct sunder_i_cluster {
     size_t n;
     double margin;          /* what is demanded beyond the gap, to cover rounding */
     bool limited;           /* a limit or a fixed body is in it: it may have no solution */
-    sunder_i_couple *given; /* [given_n] pairs of bodies that its solution gave up; owned */
-    size_t given_n;
+    sunder_i_truces truces; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
+    sunder_i_couple *ended; /* [ended_n] pairs of bodies that were under a truce, and now are at peace; owned */
+    size_t ended_n;
 } sunder_i_cluster;
 
 /* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
  * pairs are given up, and the rest is solved. */
 sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
-/* What the pairs given up miss at worst made least, then the next, then the cost; the rest stays apart, and neighbours
- * outside the cluster stay where they are. */
-sunder_status sunder_i_cluster_relax(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+/* Pairs given up are asked for peace once more, one after the other, and keep it where there is a solution; overlaps come
+ * first. All others keep theirs, and neighbours outside the cluster stay where they are. */
+sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,

@@ -177,7 +177,7 @@ static sunder_status ask(const sunder_i_job *w, const components *all, bool *ask
 }
 
 /* Lets no pair of these bodies be given up any longer. */
-static void take_back(sunder_i_town *town, const sunder_i_solution *s)
+static bool take_back(sunder_i_town *town, const sunder_i_solution *s)
 {
     size_t out = 0;
     for (size_t k = 0; k < town->given_n; k++)
@@ -185,13 +185,21 @@ static void take_back(sunder_i_town *town, const sunder_i_solution *s)
             !sunder_i_set_has(s->body, s->bodies, town->given[k].b))
             town->given[out++] = town->given[k];
     town->given_n = out;
+    out = 0;
+    for (size_t k = 0; k < town->truces.n; k++) {
+        const sunder_i_truce *t = &town->truces.item[k];
+        if (t->hopeless || (!sunder_i_set_has(s->body, s->bodies, town->body_of[t->a]) &&
+                            !sunder_i_set_has(s->body, s->bodies, town->body_of[t->b])))
+            town->truces.item[out++] = *t;
+    }
+    town->truces.n = out;
+    return sunder_i_truces_index(&town->truces, town);
 }
 
 /* Puts the bodies where the solution has them; what it moved becomes one cluster. */
 static bool go_on_from(sunder_i_job *w, const component *c, const sunder_i_solution *s)
 {
-    bool ok = true;
-    take_back(&w->town, s);
+    bool ok = take_back(&w->town, s);
     for (size_t k = 0; k < s->bodies; k++) {
         const uint32_t b = s->body[k];
         double move[2];

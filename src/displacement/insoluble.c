@@ -1,5 +1,5 @@
-/* What limits and fixed bodies leave no solution for: pairs that no admissible moves can part, found exactly; pairs
- * that a cluster gave up, of which the best is made at the end. */
+/* What limits and fixed bodies leave no solution for: pairs that no admissible moves bring to peace, found exactly before
+ * anything moves; pairs that a cluster gave up, which are asked once more at the end. */
 #include "displacement/job.h"
 #include "displacement/peace.h"
 
@@ -18,145 +18,169 @@ sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err)
     return status;
 }
 
-/* In clusters of more bodies than this a pair that its limits cannot part is left as it is: to make the worst of
- * hundreds of such violations least would take hours, and gain nobody anything. */
-#define LARGE 50
+/* ---- Hopeless by itself --------------------------------------------------------------------------------------------
+ */
 
 typedef struct judging {
     const sunder_i_town *town;
     const sunder_i_relations *start;
-    const uint32_t *root, *size;
-    bool *hopeless; /* [start->n] */
+    sunder_i_truce *truce; /* [start->n] hopeless ones are filled */
 } judging;
 
 static double limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
+
+/* Is there surely a move of no more than `reach` that takes b's box the gap off a's? Then the exact question is spared. */
+static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
+{
+    const double out = fmin(fmin(a[2] - b[0], b[2] - a[0]), fmin(a[3] - b[1], b[3] - a[1]));
+    return out + gap < reach * (1 - 0x1p-40);
+}
 
 static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
     const sunder_i_town *town = g->town;
-    for (size_t k = begin; k < end; k++) {
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const double reach = limit_of(&town->body[i]) + limit_of(&town->body[j]);
-        const uint32_t root = town->body[i].fixed ? g->root[j] : g->root[i];
-        if (!sunder_i_job_is_between(town, r) || reach == INFINITY || g->size[root] <= LARGE) continue;
         sunder_i_peace peace;
-        const sunder_status status =
-            sunder_i_make_peace(&town->rules, town->layer->feature[r->a].shape, town->layer->feature[r->b].shape,
-                                nextafter(reach, INFINITY), &peace, err);
-        if (status) return status;
-        g->hopeless[k] = peace.beyond;
+        if (!sunder_i_job_is_between(town, r) || reach == INFINITY ||
+            boxes_can_part(town->box + 4 * (size_t)r->a, town->box + 4 * (size_t)r->b, town->rules.gap, reach))
+            continue;
+        status = sunder_i_make_peace(&town->rules, town->layer->feature[r->a].shape, town->layer->feature[r->b].shape,
+                                     nextafter(reach, INFINITY), &peace, err);
+        if (status || !peace.beyond) continue;
+        status = sunder_i_truce_of(town, r->a, r->b, &g->truce[k], err);
+        g->truce[k].hopeless = true;
     }
-    return SUNDER_OK;
+    return status;
 }
 
-/* Finds the pairs of large clusters that cannot be parted within their limits; exact. */
 sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err)
 {
     sunder_i_town *town = &w->town;
-    const size_t n = town->bodies;
-    uint32_t *root = sunder_i_alloc(n, sizeof *root), *size = sunder_i_calloc(n, sizeof *size);
-    bool *hopeless = sunder_i_calloc(w->start.n, sizeof *hopeless);
-    sunder_status status = root && size && hopeless ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) {
-        for (size_t b = 0; b < n; b++) root[b] = (uint32_t)b;
-        for (size_t k = 0; k < w->start.n; k++) {
-            const sunder_i_relation *r = &w->start.pair[k];
-            const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
-            if (!sunder_i_job_is_between(town, r) || town->body[i].fixed || town->body[j].fixed) continue;
-            const uint32_t a = sunder_i_union_find(root, i), b = sunder_i_union_find(root, j);
-            if (a != b) root[a < b ? b : a] = a < b ? a : b;
-        }
-        for (size_t b = 0; b < n; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
-        for (size_t b = 0; b < n; b++) size[root[b]]++;
-        judging g = {town, &w->start, root, size, hopeless};
-        status = sunder_i_parallel(town->rules.threads, w->start.n, 8, judge, &g, err);
-    }
-    size_t found = 0;
-    for (size_t k = 0; !status && k < w->start.n; k++) found += hopeless[k];
-    if (!status) town->hopeless = sunder_i_alloc(found, sizeof *town->hopeless);
-    if (!status && !town->hopeless) status = sunder_i_no_memory(err);
+    sunder_i_truce *truce = sunder_i_calloc(w->start.n, sizeof *truce);
+    if (!truce) return sunder_i_no_memory(err);
+    judging g = {town, &w->start, truce};
+    sunder_status status = sunder_i_parallel(town->rules.threads, w->start.n, 8, judge, &g, err);
     for (size_t k = 0; !status && k < w->start.n; k++)
-        if (hopeless[k]) town->hopeless[town->hopeless_n++] = (sunder_i_couple){w->start.pair[k].a, w->start.pair[k].b};
-    sunder_i_free(root);
-    sunder_i_free(size);
-    sunder_i_free(hopeless);
+        if (truce[k].hopeless && !sunder_i_truces_add(&town->truces, &truce[k])) status = sunder_i_no_memory(err);
+    sunder_i_free(truce);
+    if (!status && !sunder_i_truces_index(&town->truces, town)) status = sunder_i_no_memory(err);
     return status;
 }
 
-static bool gave_up(const sunder_i_job *w, const sunder_i_cluster *c)
+/* ---- What clusters did ---------------------------------------------------------------------------------------------
+ */
+
+/* Pairs of bodies that are at peace again. */
+static void end_truces(sunder_i_town *town, const sunder_i_cluster *c)
 {
-    const sunder_i_town *town = &w->town;
-    for (size_t k = 0; k < town->given_n; k++)
-        if (sunder_i_set_has(c->body, c->n, town->given[k].a) && sunder_i_set_has(c->body, c->n, town->given[k].b))
-            return true;
-    return false;
+    for (size_t k = 0; k < c->ended_n; k++) {
+        const sunder_i_couple *pair = &c->ended[k];
+        sunder_i_truces_end(&town->truces, town, pair->a, pair->b);
+        const size_t at = sunder_i_couple_at(town->given, town->given_n, pair->a, pair->b);
+        if (at == town->given_n) continue;
+        memmove(town->given + at, town->given + at + 1, (--town->given_n - at) * sizeof *town->given);
+    }
 }
 
-static sunder_status relax_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static bool add_given(sunder_i_town *town, const sunder_i_truces *truces)
+{
+    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + truces->n, sizeof *given);
+    if (!given) return false;
+    town->given = given;
+    for (size_t k = 0; k < truces->n; k++) {
+        const uint32_t i = town->body_of[truces->item[k].a], j = town->body_of[truces->item[k].b];
+        if (!truces->item[k].hopeless) given[town->given_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
+    }
+    if (town->given_n) qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
+    size_t out = 0;
+    for (size_t k = 0; k < town->given_n; k++)
+        if (k == 0 || sunder_i_by_couple(&given[out - 1], &given[k])) given[out++] = given[k];
+    town->given_n = out;
+    return true;
+}
+
+/* The cluster's truces, in place of what the town had for the same features. */
+static bool take_truces(sunder_i_town *town, const sunder_i_cluster *c)
+{
+    sunder_i_truces *all = &town->truces;
+    const size_t before = all->n;
+    for (size_t k = 0; k < c->truces.n; k++) {
+        const sunder_i_truce *truce = &c->truces.item[k];
+        const sunder_i_truce *old = sunder_i_truces_find(all, truce->a, truce->b);
+        if (old) {
+            const bool hopeless = old->hopeless;
+            all->item[old - all->item] = *truce;
+            all->item[old - all->item].hopeless = hopeless;
+        }
+    }
+    for (size_t k = 0; k < c->truces.n; k++) {
+        const sunder_i_truces known = {.item = all->item, .n = before};
+        if (!sunder_i_truces_find(&known, c->truces.item[k].a, c->truces.item[k].b) &&
+            !sunder_i_truces_add(all, &c->truces.item[k]))
+            return false;
+    }
+    return sunder_i_truces_index(all, town) && add_given(town, &c->truces);
+}
+
+sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err)
+{
+    for (size_t k = 0; k < w->clusters; k++) {
+        end_truces(&w->town, &w->cluster[k]);
+        if (w->cluster[k].truces.n && !take_truces(&w->town, &w->cluster[k])) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+/* ---- Once more -----------------------------------------------------------------------------------------------------
+ */
+
+static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_job *w = context;
     for (size_t k = begin; k < end; k++) {
-        const sunder_i_cluster *c = &w->cluster[k];
+        sunder_i_cluster *c = &w->cluster[k];
         double *move = w->move + 2 * (size_t)(c->body - w->body);
         sunder_i_job_load_moves(w, c, move);
-        if (!gave_up(w, c)) continue;
-        const sunder_status status = sunder_i_cluster_relax(&w->town, c, move, err);
+        if (!sunder_i_job_is_dirty(w, c)) continue;
+        const sunder_status status = sunder_i_cluster_retry(&w->town, c, move, err);
         if (status) return status;
     }
     return SUNDER_OK;
 }
 
-/* Where two clusters that were relaxed side by side came into conflict, both go back to where they stood before. */
-static sunder_status undo_harm(sunder_i_job *w, const double *before, sunder_error *err)
+/* Pairs that cannot be brought to peace, but off each other, become members of clusters. */
+static bool join_torn(sunder_i_job *w)
 {
-    sunder_i_town *town = &w->town;
-    bool *back = sunder_i_alloc(town->bodies, sizeof *back);
-    sunder_status status = back ? SUNDER_OK : sunder_i_no_memory(err);
-    for (bool any = true; any && !status;) {
-        any = false;
-        memset(back, 0, town->bodies * sizeof *back);
-        for (size_t k = 0; k < w->now.n; k++) {
-            const sunder_i_relation *r = &w->now.pair[k];
-            if (!sunder_i_job_is_between(town, r)) continue;
-            const uint32_t pair[2] = {town->body_of[r->a], town->body_of[r->b]};
-            for (int e = 0; e < 2; e++)
-                if (!town->body[pair[e]].fixed) back[sunder_i_union_find(w->parent, pair[e])] = true;
-        }
-        for (size_t k = 0; k < w->members; k++) {
-            const uint32_t b = w->body[k];
-            const double *stood = before + 2 * (size_t)b;
-            double *move = w->move + 2 * k;
-            memcpy(move, town->move + 2 * (size_t)b, 2 * sizeof *move);
-            if (town->body[b].fixed || !back[sunder_i_union_find(w->parent, b)]) continue;
-            any = any || memcmp(move, stood, 2 * sizeof *move) != 0;
-            memcpy(move, stood, 2 * sizeof *move);
-        }
-        if (!any) break;
-        sunder_i_job_commit(w);
-        status = sunder_i_job_check(w, err);
+    const sunder_i_town *town = &w->town;
+    for (size_t k = 0; k < town->truces.torn_n; k++) {
+        const sunder_i_torn *t = &town->truces.torn[k];
+        if (t->reach > 0 && t->reach <= limit_of(&town->body[t->i]) + limit_of(&town->body[t->j]) &&
+            !sunder_i_job_add_edge(w, t->i, t->j))
+            return false;
     }
-    sunder_i_free(back);
-    return status;
+    return true;
 }
 
-/* Once nothing joins clusters any more: makes the best of the pairs given up. */
-sunder_status sunder_i_job_relax(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err)
 {
-    if (w->town.given_n == 0) return SUNDER_OK;
-    const size_t n = 2 * w->town.bodies;
-    double *before = sunder_i_alloc(n, sizeof *before);
-    sunder_status status = before ? sunder_i_job_gather(w, err) : sunder_i_no_memory(err);
-    if (!status) {
-        memcpy(before, w->town.move, n * sizeof *before);
-        status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, relax_clusters, w, err);
+    const sunder_i_truces *truces = &w->town.truces;
+    if (truces->n == 0) return SUNDER_OK;
+    if (!join_torn(w)) return sunder_i_no_memory(err);
+    sunder_status status = sunder_i_job_gather(w, err);
+    if (!status) status = sunder_i_job_unite_blocks(w, err);
+    memset(w->dirty, 0, w->town.bodies * sizeof *w->dirty);
+    for (size_t k = 0; k < truces->torn_n; k++) {
+        w->dirty[truces->torn[k].i] = !w->town.body[truces->torn[k].i].fixed;
+        w->dirty[truces->torn[k].j] = !w->town.body[truces->torn[k].j].fixed;
     }
-    if (!status) {
-        sunder_i_job_commit(w);
-        status = sunder_i_job_check(w, err);
-    }
-    if (!status) status = undo_harm(w, before, err);
-    sunder_i_free(before);
-    return status;
+    if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, retry_clusters, w, err);
+    if (status) return status;
+    sunder_i_job_commit(w);
+    status = sunder_i_job_note_truces(w, err);
+    return status ? status : sunder_i_job_check(w, err);
 }

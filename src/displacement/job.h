@@ -55,8 +55,13 @@ sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err);
 
 /* Do the two stand in conflict, in different bodies? */
 bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation *r);
-/* ... and is it one that the search is to resolve? */
+/* ... and is it one that the search is to resolve, with no truce? */
 bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r);
+/* Is one of the cluster's bodies dirty? */
+bool sunder_i_job_is_dirty(const sunder_i_job *w, const sunder_i_cluster *c);
+/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
+ * no two threads do the same. */
+sunder_status sunder_i_job_unite_blocks(sunder_i_job *w, sunder_error *err);
 /* The moves that a cluster starts from. */
 void sunder_i_job_load_moves(const sunder_i_job *w, const sunder_i_cluster *c, double *move);
 /* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
@@ -74,10 +79,21 @@ sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err);
 
 /* What lies in two that are in conflict is kept in one of them. */
 sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err);
-/* Finds the pairs of large clusters that cannot be parted within their limits; exact. */
+/* Finds the pairs that cannot be brought to peace within their limits, exactly, and puts them under a truce. */
 sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err);
-/* Once nothing joins clusters any more: makes the best of the pairs given up. */
-sunder_status sunder_i_job_relax(sunder_i_job *w, sunder_error *err);
+/* Takes over the truces that clusters made, and ended. */
+sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err);
+/* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
+sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err);
+
+/* ---- uphold.c ---- */
+
+/* Does the pair, which is in conflict, stand worse than it stood? Exact. */
+sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relation *r, bool *worse, sunder_error *err);
+/* Takes back what rounding made worse, pair by pair. */
+sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err);
+/* Does no pair in conflict stand worse than it stood? */
+sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder_error *err);
 
 /* ---- bound_pairs.c ---- */
 

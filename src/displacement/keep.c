@@ -23,28 +23,19 @@ bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
     return at < town->kept_n && town->keeping[at] != SUNDER_I_LAPSED;
 }
 
+bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder)
+{
+    const size_t at = sunder_i_kept_at(town, holder, inner);
+    return at < town->kept_n && town->a_in_b[at] == (inner < holder);
+}
+
 bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping)
 {
     const size_t at = sunder_i_kept_at(town, holder, inner);
-    if (at == town->kept_n || town->keeping[at] == SUNDER_I_LAPSED || town->a_in_b[at] != (inner < holder))
+    if (at == town->kept_n || town->keeping[at] == SUNDER_I_LAPSED || !sunder_i_is_inner(town, inner, holder))
         return false;
     *keeping = (sunder_i_keeping)town->keeping[at];
     return true;
-}
-
-bool sunder_i_is_hopeless(const sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    return sunder_i_couple_at(town->hopeless, town->hopeless_n, f, g) < town->hopeless_n;
-}
-
-bool sunder_i_is_given_up(const sunder_i_town *town, uint32_t body, uint32_t other)
-{
-    return sunder_i_couple_at(town->given, town->given_n, body, other) < town->given_n;
-}
-
-bool sunder_i_is_exempt(const sunder_i_town *town, uint32_t f, uint32_t g)
-{
-    return sunder_i_is_kept(town, f, g) || sunder_i_is_hopeless(town, f, g);
 }
 
 sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err)

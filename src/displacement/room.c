@@ -31,10 +31,10 @@ static void add_wall(sunder_i_search *s, const sunder_i_part *part, void *contex
 
 /* The walls of either that keep the other inside. */
 static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
-                      const double offset[2], const double v[2], double reach)
+                      const double offset[2], const double v[2], double reach, bool torn)
 {
     const sunder_i_town *town = s->town;
-    sunder_i_part part = {.offset = {offset[0], offset[1]}};
+    sunder_i_part part = {.offset = {offset[0], offset[1]}, .torn = torn};
     const double back[2] = {-v[0], -v[1]};
     if (p->walls)
         sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, add_wall, o);
@@ -48,17 +48,21 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                           double reach)
 {
     const sunder_i_town *town = s->town;
-    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap;
+    double shift;
+    const bool torn = sunder_i_search_is_torn(s, (uint32_t)(p - town->body), (uint32_t)(q - town->body), &shift);
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap + shift;
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
-    if (p->walls || q->walls) add_walls(s, o, p, q, offset, v, r);
+    if (p->walls || q->walls) add_walls(s, o, p, q, offset, v, r, torn);
     for (uint32_t k = 0; k < np; k++) {
         const sunder_i_piece *a = part_of(town, p, coarse_p, k);
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
         if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < nq; l++) {
             const sunder_i_piece *b = part_of(town, q, coarse_q, l);
-            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_exempt(town, a->feature, b->feature))
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature))
                 continue;
+            const sunder_i_truce *truce = torn ? sunder_i_search_truce(s, a, b) : NULL;
+            if (truce && truce->inside) continue;
             const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
                                                  town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
@@ -66,8 +70,10 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 return;
             }
             s->steps += 4;
+            const double gap =
+                truce ? fmin(s->gap, sunder_i_search_shift(truce, b->feature, s->scratch.xy, n)) : s->gap;
             /* A little more room than is asked, so that no rounding makes a clash of it. */
-            sunder_i_obstacles_add(o, s->scratch.xy, n, s->gap + 2 * s->tolerance);
+            sunder_i_obstacles_add(o, s->scratch.xy, n, gap + 2 * s->tolerance);
         }
     }
 }
@@ -125,9 +131,11 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
     const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
+    double shift;
+    const bool torn = sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && town->kept_n + town->hopeless_n == 0 && ps && qs &&
+    if (many && most == 1 && town->kept_n == 0 && !torn && ps && qs &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]))
         return 1;
     const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
@@ -197,7 +205,7 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
         if (k == i) continue;
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
         const sunder_i_body *q = &town->body[body];
-        if (q->pieces == 0 || (k < s->n && sunder_i_search_gave_up(s, i, (uint32_t)k))) continue;
+        if (q->pieces == 0) continue;
         const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};

@@ -23,7 +23,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     if (!s->mass || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &town->body[body[k]];
-        s->mass[k] = b->fixed ? 0 : 0.5 / b->weight;
+        s->mass[k] = b->fixed || b->pinned ? 0 : 0.5 / b->weight;
         if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
     memcpy(s->t, move, 2 * n * sizeof *s->t);
@@ -44,8 +44,8 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->program.constraint);
     sunder_i_free(s->old);
     sunder_i_free(s->clash);
-    sunder_i_free(s->allowed);
-    sunder_i_free(s->given);
+    sunder_i_truces_free(&s->truces);
+    sunder_i_free(s->ended);
     sunder_i_free(s->scratch.xy);
     memset(s, 0, sizeof *s);
 }
@@ -109,11 +109,49 @@ void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sun
 /* ---- Who clashes --------------------------------------------------------------------------------------------------
  */
 
-bool sunder_i_search_gave_up(const sunder_i_search *s, uint32_t i, uint32_t j)
+/* Is it one of the town's truces that still counts here? */
+static bool still_counts(const sunder_i_search *s, uint32_t body, uint32_t other)
 {
-    if (s->heeds_all) return false;
-    if (sunder_i_couple_at(s->given, s->given_n, i, j) < s->given_n) return true;
-    return s->town->given_n && sunder_i_is_given_up(s->town, s->body[i], s->body[j]);
+    return sunder_i_couple_at(s->ended, s->ended_n, body, other) == s->ended_n;
+}
+
+bool sunder_i_search_is_torn(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)
+{
+    *reach = 0;
+    if (s->truces.n + s->town->truces.n == 0) return false;
+    const sunder_i_torn *own = sunder_i_truces_between(&s->truces, body, other),
+                        *all = sunder_i_truces_between(&s->town->truces, body, other);
+    if (all && !still_counts(s, body, other)) all = NULL;
+    if (own) *reach = own->reach;
+    if (all) *reach = fmax(*reach, all->reach);
+    return own || all;
+}
+
+const sunder_i_truce *sunder_i_search_truce(const sunder_i_search *s, const sunder_i_piece *a, const sunder_i_piece *b)
+{
+    const sunder_i_truce *truce = sunder_i_truces_find(&s->truces, a->feature, b->feature);
+    if (truce) return truce;
+    truce = sunder_i_truces_find(&s->town->truces, a->feature, b->feature);
+    return truce && still_counts(s, s->town->body_of[a->feature], s->town->body_of[b->feature]) ? truce : NULL;
+}
+
+/* Does the wall keep the piece inside, by the rules or by a truce? */
+static bool keeps(const sunder_i_search *s, const sunder_i_piece *wall, const sunder_i_piece *piece,
+                  sunder_i_part *part)
+{
+    if (sunder_i_holds(s->town, wall->feature, piece->feature, &part->keeping)) return true;
+    if (!part->torn) return false;
+    const sunder_i_truce *truce = sunder_i_search_truce(s, wall, piece);
+    part->keeping = SUNDER_I_LENIENT;
+    return truce && truce->inside && sunder_i_is_inner(s->town, piece->feature, wall->feature);
+}
+
+/* Do the pieces let each other alone? */
+static bool are_exempt(const sunder_i_search *s, const sunder_i_piece *a, const sunder_i_piece *b, sunder_i_part *part)
+{
+    part->keeping = SUNDER_I_LAPSED;
+    if (part->torn) part->truce = sunder_i_search_truce(s, a, b);
+    return sunder_i_is_kept(s->town, a->feature, b->feature) || (part->truce && part->truce->inside);
 }
 
 /* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
@@ -130,10 +168,8 @@ void sunder_i_search_visit(sunder_i_search *s, const sunder_i_piece *from, uint3
         for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
             const sunder_i_piece *b = &town->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
-            part->keeping = SUNDER_I_LAPSED;
-            if (walls ? !sunder_i_holds(town, a->feature, b->feature, &part->keeping)
-                      : sunder_i_is_exempt(town, a->feature, b->feature))
-                continue;
+            part->truce = NULL;
+            if (walls ? !keeps(s, a, b, part) : are_exempt(s, a, b, part)) continue;
             const uint64_t key = walls ? UINT64_C(1) << 62 | (uint64_t)(a - town->wall) << 32 | l
                                        : (uint64_t)(a - town->piece) << 32 | l;
             part->a = swapped ? b : a;
@@ -144,19 +180,29 @@ void sunder_i_search_visit(sunder_i_search *s, const sunder_i_piece *from, uint3
     }
 }
 
-void sunder_i_search_parts(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+void sunder_i_search_parts(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach, bool yields,
                            sunder_i_visit_part visit, void *context)
 {
     const sunder_i_town *town = s->town;
-    if (sunder_i_search_gave_up(s, i, j)) return;
     const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
     sunder_i_part part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
     const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
+    double shift = 0;
+    part.torn = yields && sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift);
+    reach += shift;
     sunder_i_search_visit(s, town->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
     if (p->walls)
         sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
     if (q->walls)
         sunder_i_search_visit(s, town->wall + q->wall, q->walls, p, back, reach, &part, true, true, visit, context);
+}
+
+double sunder_i_search_shift(const sunder_i_truce *truce, uint32_t of_j, double *corner, size_t n)
+{
+    double shift[2];
+    const double gap = sunder_i_truce_shift(truce, of_j, shift);
+    for (size_t k = 0; k < 2 * n; k++) corner[k] -= shift[k & 1];
+    return gap;
 }
 
 size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_part *part, double *gap)
@@ -167,6 +213,10 @@ size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_part *part, d
                             corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
     if (n == 0) s->failed = true;
     s->steps++;
+    if (part->truce) {
+        *gap = fmin(s->gap, sunder_i_search_shift(part->truce, part->b->feature, s->scratch.xy, n));
+        return n;
+    }
     const double margin = s->gap - s->town->rules.gap;
     if (part->keeping == SUNDER_I_LAPSED)
         *gap = s->gap;
@@ -190,10 +240,16 @@ static void measure_part(sunder_i_search *s, const sunder_i_part *part, void *co
     if (n) m->worst = fmax(m->worst, gap - sunder_i_support_at(s->scratch.xy, n, m->u).distance);
 }
 
-double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
 {
     missing m = {u, 0};
-    sunder_i_search_parts(s, i, j, u, s->gap, measure_part, &m);
+    double shift;
+    *yields = false;
+    sunder_i_search_parts(s, i, j, u, s->gap, false, measure_part, &m);
+    if (m.worst <= s->tolerance || !sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift)) return m.worst;
+    *yields = true;
+    m.worst = 0;
+    sunder_i_search_parts(s, i, j, u, s->gap, true, measure_part, &m);
     return m.worst;
 }
 
@@ -206,7 +262,8 @@ static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     look *l = context;
     const double u[2] = {l->t[2 * j] - l->t[2 * i], l->t[2 * j + 1] - l->t[2 * i + 1]};
-    const double v = sunder_i_search_pair(s, i, j, u) - sunder_i_search_allowed(s, i, j);
+    bool yields;
+    const double v = sunder_i_search_pair(s, i, j, u, &yields);
     if (v > l->worst) l->worst = v;
     if (v <= s->tolerance || s->failed) return;
     if (!sunder_i_reserve(&s->clash, &s->clash_capacity, s->clashes + 1, sizeof *s->clash)) {

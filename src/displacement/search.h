@@ -26,12 +26,9 @@ typedef struct sunder_i_search {
     size_t old_n, old_capacity;
     sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
-    sunder_i_couple *given; /* places in the cluster of the pairs that this search has given up, besides those of the
-                             * town; the lesser first, sorted */
-    size_t given_n;
-    bool heeds_all;          /* nothing is given up */
-    sunder_i_clash *allowed; /* pairs that are granted a shortfall: `violation` of it */
-    size_t allowed_n;
+    sunder_i_truces truces; /* of pairs that this search has given up; they come before those of the town */
+    sunder_i_couple *ended; /* pairs of bodies for which those of the town do not count; sorted */
+    size_t ended_n, ended_capacity;
     sunder_i_scratch scratch;
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
@@ -44,7 +41,8 @@ bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, co
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
 
-bool sunder_i_search_gave_up(const sunder_i_search *search, uint32_t i, uint32_t j);
+/* Is there a truce between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where not. */
+bool sunder_i_search_is_torn(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);
 
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
@@ -56,27 +54,36 @@ typedef struct sunder_i_part {
     double offset[2];            /* of j's origin from i's */
     uint64_t key;                /* tells it from all others */
     sunder_i_keeping keeping;    /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
+    bool torn;                   /* the bodies: some of the pieces owe each other less */
+    const sunder_i_truce *truce; /* ... these; or NULL */
 } sunder_i_part;
 
 typedef void (*sunder_i_visit_part)(sunder_i_search *search, const sunder_i_part *part, void *context);
-/* All parts of the pair whose boxes are within reach of each other at relative position u. */
+/* All parts of the pair whose boxes are within reach of each other at relative position u; yields: they are held to
+ * their truces, where there are any. */
 void sunder_i_search_parts(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
-                           sunder_i_visit_part visit, void *context);
+                           bool yields, sunder_i_visit_part visit, void *context);
 /* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
  * from it. part->offset is the caller's; swapped: `from` is of j. */
 void sunder_i_search_visit(sunder_i_search *search, const sunder_i_piece *from, uint32_t n, const sunder_i_body *other,
                            const double v[2], double reach, sunder_i_part *part, bool swapped, bool walls,
                            sunder_i_visit_part visit, void *context);
-/* The part's obstacle A + (-B), in search->scratch: how many corners (0: memory is out), and the gap that it owes. */
+/* The truce that pieces a and b are held to; NULL: none, they owe each other peace. */
+const sunder_i_truce *sunder_i_search_truce(const sunder_i_search *search, const sunder_i_piece *a,
+                                            const sunder_i_piece *b);
+/* Shifts the n corners of an obstacle as the truce says; returns the gap that it leaves. */
+double sunder_i_search_shift(const sunder_i_truce *truce, uint32_t of_j, double *corner, size_t n);
+/* The part's obstacle A + (-B), in search->scratch, shifted by its truce: how many corners (0: memory is out), and the
+ * gap that it owes. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_part *part, double *gap);
 
-/* Fills search->clash with the pairs that violate the gap at t, beyond what they are allowed; returns the worst
- * violation, of a limit of moves too. */
+/* Fills search->clash with the pairs that violate the gap at t, or their truce; returns the worst violation, of a limit
+ * of moves too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
 /* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
 void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);
-/* What pair (i, j) misses at relative position u. */
-double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
+/* What pair (i, j) misses at relative position u: of peace, or where it has none (*yields) of its truce. */
+double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 /* sum w |t|^2 */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
@@ -91,13 +98,16 @@ bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
-/* One round from a position that is free but for the shortfalls allowed: true if it found another, and went there. */
-bool sunder_i_search_round(sunder_i_search *search);
 /* Shortens moves to their limits. */
 void sunder_i_search_clip(sunder_i_search *search);
-/* The shortfall that pair (i, j), i < j, is allowed. */
-double sunder_i_search_allowed(const sunder_i_search *search, uint32_t i, uint32_t j);
-/* Clashes that no move within the limits resolves: makes the worst violation least, then the next, then the cost. */
-void sunder_i_search_relax(sunder_i_search *search);
+
+/* ---- yield.c: pairs that no solution was found for ---- */
+
+/* From where the search ended, with clashes, to where the pairs that clashed at the start are under a truce and nothing
+ * clashes; then down from there. The new truces are in search->truces. */
+void sunder_i_search_yield(sunder_i_search *search);
+/* From a free position, pairs under a truce are asked for peace, or at least not to overlap, one after the other, until
+ * search->effort is spent. What came of it is in search->ended and search->truces. */
+void sunder_i_search_retry(sunder_i_search *search);
 
 #endif

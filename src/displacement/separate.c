@@ -97,9 +97,11 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
         status = sunder_i_job_reconsider(w, &again, err);
         if (!status && again) status = sunder_i_job_settle(w, 0.4, 0.5, err);
     }
+    if (!status) status = sunder_i_job_retry(w, err);
+    if (!status) status = sunder_i_job_settle(w, 0.5, 0.6, err);
     if (!status) status = sunder_i_job_improve(w, err);
     if (!status) status = sunder_i_job_settle(w, 0.6, 0.8, err);
-    if (!status) status = sunder_i_job_relax(w, err);
+    if (!status) status = sunder_i_job_uphold(w, err);
     if (!status) status = sunder_i_job_gather(w, err);
     if (status) return status;
     const double solved = seconds();
@@ -118,10 +120,10 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     status = sunder_i_report_conflicts(report, &w->town, &w->scene, &w->now, true, err);
     if (!status) status = sunder_i_job_bound(w, err);
     if (!status) status = sunder_i_job_name_reasons(w, err);
+    if (!status) status = sunder_i_job_is_upheld(w, &report->summary.verified, err);
     if (status) return status;
     fill_moves(w);
     report->summary.clusters = w->clusters;
-    report->summary.verified = true;
     sunder_i_progress(&w->town.rules, 1);
     return SUNDER_OK;
 }

@@ -8,7 +8,7 @@
 
 #define MOST_MARGINS 14
 
-static bool is_dirty(const sunder_i_job *w, const sunder_i_cluster *c)
+bool sunder_i_job_is_dirty(const sunder_i_job *w, const sunder_i_cluster *c)
 {
     for (size_t k = 0; k < c->n; k++)
         if (w->dirty[c->body[k]]) return true;
@@ -30,7 +30,7 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
         sunder_i_cluster *c = &w->cluster[k];
         double *move = w->move + 2 * (size_t)(c->body - w->body);
         sunder_i_job_load_moves(w, c, move);
-        if (!is_dirty(w, c)) continue;
+        if (!sunder_i_job_is_dirty(w, c)) continue;
         const sunder_status status = sunder_i_cluster_solve(&w->town, c, move, err);
         if (status) return status;
     }
@@ -91,8 +91,7 @@ bool sunder_i_job_is_conflict(const sunder_i_town *town, const sunder_i_relation
 
 bool sunder_i_job_is_between(const sunder_i_town *town, const sunder_i_relation *r)
 {
-    return sunder_i_job_is_conflict(town, r) && !sunder_i_is_exempt(town, r->a, r->b) &&
-           !sunder_i_is_given_up(town, town->body_of[r->a], town->body_of[r->b]);
+    return sunder_i_job_is_conflict(town, r) && !sunder_i_truces_find(&town->truces, r->a, r->b);
 }
 
 /* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
@@ -105,7 +104,7 @@ static void carry(sunder_i_job *w, uint32_t f, uint32_t g)
         const uint32_t holder = town->body_of[e ? g : f], inner = town->body_of[e ? f : g];
         const double *t = town->move + 2 * (size_t)holder, *own = town->move + 2 * (size_t)inner;
         if (sunder_i_holds(town, e ? g : f, e ? f : g, &keeping) && own[0] == 0 && own[1] == 0 &&
-            !town->body[inner].fixed && sunder_i_within(t, town->body[inner].limit))
+            !town->body[inner].fixed && !town->body[inner].pinned && sunder_i_within(t, town->body[inner].limit))
             w->carrier[inner] = holder;
     }
 }
@@ -120,6 +119,18 @@ static bool are_together(const sunder_i_job *w, uint32_t i, uint32_t j)
     return sunder_i_job_has_member(w, sunder_i_union_find(w->parent, other), still);
 }
 
+/* A truce between bodies of different clusters is not in the way of either, unless it was broken. */
+static sunder_status heed_truce(sunder_i_job *w, const sunder_i_relation *r, bool *any, sunder_error *err)
+{
+    const uint32_t i = w->town.body_of[r->a], j = w->town.body_of[r->b];
+    bool worse;
+    if (are_together(w, i, j)) return SUNDER_OK;
+    const sunder_status status = sunder_i_job_is_worse(w, r, &worse, err);
+    if (status || !worse) return status;
+    *any = true;
+    return sunder_i_job_add_edge(w, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
 /* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
  * Returns whether there is anything to do. */
 static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
@@ -131,8 +142,12 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
         const sunder_i_relation *r = &w->now.pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
-        if (sunder_i_is_at_peace(r) || i == j || sunder_i_is_hopeless(town, r->a, r->b) || (fi && fj)) continue;
-        if (sunder_i_is_given_up(town, i, j)) continue;
+        if (sunder_i_is_at_peace(r) || i == j || ((fi || town->body[i].pinned) && (fj || town->body[j].pinned))) continue;
+        if (sunder_i_truces_find(&town->truces, r->a, r->b)) {
+            const sunder_status status = heed_truce(w, r, any, err);
+            if (status) return status;
+            continue;
+        }
         if (!are_together(w, i, j)) {
             if (!sunder_i_job_add_edge(w, i, j)) return sunder_i_no_memory(err);
             carry(w, r->a, r->b);
@@ -155,28 +170,7 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Takes over the pairs that clusters gave up. */
-static sunder_status note_given(sunder_i_job *w, sunder_error *err)
-{
-    sunder_i_town *town = &w->town;
-    size_t more = 0;
-    for (size_t k = 0; k < w->clusters; k++) more += w->cluster[k].given_n;
-    if (more == 0) return SUNDER_OK;
-    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + more, sizeof *given);
-    if (!given) return sunder_i_no_memory(err);
-    town->given = given;
-    for (size_t k = 0; k < w->clusters; k++)
-        for (size_t g = 0; g < w->cluster[k].given_n; g++) {
-            const sunder_i_couple c = w->cluster[k].given[g];
-            given[town->given_n++] = c.a < c.b ? c : (sunder_i_couple){c.b, c.a};
-        }
-    qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
-    return SUNDER_OK;
-}
-
-/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
- * no two threads do the same. */
-static sunder_status unite_blocks(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_job_unite_blocks(sunder_i_job *w, sunder_error *err)
 {
     bool *seen = sunder_i_calloc(w->town.bodies, sizeof *seen);
     uint32_t *body = sunder_i_alloc(w->members, sizeof *body);
@@ -200,12 +194,12 @@ sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunde
         if (!sunder_i_progress(&w->town.rules, from + (to - from) * (1 - 1 / (1 + 0.25 * (double)round))))
             return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
         status = sunder_i_job_gather(w, err);
-        if (!status) status = unite_blocks(w, err);
+        if (!status) status = sunder_i_job_unite_blocks(w, err);
         if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, solve_clusters, w, err);
         if (status) return status;
         sunder_i_job_commit(w);
         for (size_t k = 0; k < w->members; k++) w->carrier[w->body[k]] = SUNDER_I_NOBODY;
-        status = note_given(w, err);
+        status = sunder_i_job_note_truces(w, err);
         if (!status) status = sunder_i_job_check(w, err);
         if (!status) status = find_work(w, &any, err);
     }

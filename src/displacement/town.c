@@ -22,7 +22,7 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->keeping);
     sunder_i_free(town->held);
     sunder_i_free(town->wall);
-    sunder_i_free(town->hopeless);
+    sunder_i_truces_free(&town->truces);
     sunder_i_free(town->given);
     sunder_i_free(town->move);
     sunder_i_free(town->inexact);
