@@ -1,5 +1,7 @@
 #include "number/big.h"
 
+#include "number/huge.h"
+
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -129,6 +131,10 @@ sunder_i_big sunder_i_big_mul(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
         b = t;
     }
     const mp_size_t m = limbs(a), n = limbs(b);
+    if (m > SUNDER_I_GMP_LIMBS) {
+        const sunder_i_big v = sunder_i_huge_mul(arena, (sunder_i_big){a.limb, m}, (sunder_i_big){b.limb, n});
+        return sign < 0 ? sunder_i_big_neg(v) : v;
+    }
     mp_limb_t *p = room(arena, m + n);
     if (!p) return zero;
     mpn_mul(p, a.limb, m, b.limb, n);
@@ -183,14 +189,14 @@ sunder_i_big sunder_i_big_shr(sunder_i_arena *arena, sunder_i_big a, unsigned lo
     return sunder_i_big_neg(q);
 }
 
-/* Quotient and remainder of magnitudes, a >= 0, b > 0. */
-static sunder_i_big divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
+sunder_i_big sunder_i_big_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
 {
     const mp_size_t m = limbs(a), n = limbs(b);
     if (cmp_magnitude(a, b) < 0) {
         *remainder = (sunder_i_big){a.limb, m};
         return zero;
     }
+    if (m > SUNDER_I_GMP_LIMBS) return sunder_i_huge_divide(arena, a, b, remainder);
     mp_limb_t *q = room(arena, m - n + 1), *r = room(arena, n);
     *remainder = zero;
     if (!q || !r) return zero;
@@ -201,7 +207,7 @@ static sunder_i_big divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b
 
 sunder_i_big sunder_i_big_div_floor(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
-    sunder_i_big r, q = divide(arena, a.size < 0 ? sunder_i_big_neg(a) : a, b, &r);
+    sunder_i_big r, q = sunder_i_big_divide(arena, a.size < 0 ? sunder_i_big_neg(a) : a, b, &r);
     if (a.size >= 0) return q;
     if (r.size) q = sunder_i_big_add(arena, q, sunder_i_big_i64(arena, 1));
     return sunder_i_big_neg(q);
@@ -211,6 +217,7 @@ sunder_i_big sunder_i_big_sqrt_floor(sunder_i_arena *arena, sunder_i_big a)
 {
     if (a.size <= 0) return zero;
     const mp_size_t n = limbs(a);
+    if (n > SUNDER_I_GMP_LIMBS) return sunder_i_huge_sqrt(arena, a);
     mp_limb_t *p = room(arena, (n + 1) / 2);
     if (!p) return zero;
     mpn_sqrtrem(p, NULL, a.limb, n);
@@ -253,6 +260,7 @@ sunder_i_big sunder_i_big_gcd(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
         u = v;
         v = t;
     }
+    if (limbs(u) > SUNDER_I_GMP_LIMBS) return sunder_i_big_shl(arena, sunder_i_huge_gcd(arena, u, v), twos);
     mp_limb_t *r = room(arena, limbs(v));
     if (!r) return zero;
     const mp_size_t n = mpn_gcd(r, (mp_limb_t *)(uintptr_t)u.limb, limbs(u), (mp_limb_t *)(uintptr_t)v.limb, limbs(v));
@@ -305,7 +313,7 @@ static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, l
     else
         den = sunder_i_big_shl(arena, den, (unsigned long)-shift);
     sunder_i_big r;
-    const sunder_i_big q = divide(arena, num, den, &r);
+    const sunder_i_big q = sunder_i_big_divide(arena, num, den, &r);
     double v = 0;
     if (q.size) v = round_positive(arena, q, r.size != 0, exponent - shift, dir);
     if (!arena->failed) sunder_i_arena_release(arena, mark);
@@ -329,22 +337,12 @@ double sunder_i_big_ratio_up(sunder_i_arena *arena, sunder_i_big num, sunder_i_b
 
 /* ---- Text ---- */
 
-/* Digits of a >= 0 at text; returns how many. mpn_get_str destroys its operand and wants it not zero. */
+/* Digits of a >= 0 at text; returns how many. */
 static size_t digits(sunder_i_arena *arena, sunder_i_big a, char *text)
 {
-    if (a.size == 0) {
-        text[0] = '0';
-        return 1;
-    }
-    mp_limb_t *copy = room(arena, limbs(a) + 1);
-    if (!copy) return 0;
-    mpn_copyi(copy, a.limb, limbs(a));
-    const size_t n = mpn_get_str((unsigned char *)text, 10, copy, limbs(a));
-    size_t zeros = 0;
-    while (zeros + 1 < n && text[zeros] == 0) zeros++;
-    memmove(text, text + zeros, n - zeros);
-    for (size_t i = 0; i < n - zeros; i++) text[i] = (char)(text[i] + '0');
-    return n - zeros;
+    if (a.size) return sunder_i_huge_digits(arena, a, text);
+    text[0] = '0';
+    return 1;
 }
 
 /* Enough characters for the digits of a number of that many bits, and a spare one. */

@@ -1,7 +1,8 @@
 /* Integers of any size: sign and magnitude on arena memory, GMP's mpn_ layer beneath.
  *
  * Values are immutable and passed by value; results live in the arena given, so nothing is freed one by one, and a
- * failed allocation sets arena->failed and yields zero instead of ending the process (as mpz_ would).
+ * failed allocation sets arena->failed and yields zero instead of ending the process (as mpz_ would, and mpn_ on large
+ * operands: those never get there, see huge.h).
  * Canonical form: `size` is 0 for zero; otherwise |size| limbs, the top one not zero, sign of size = sign of the value. */
 #ifndef SUNDER_I_BIG_H
 #define SUNDER_I_BIG_H
@@ -34,6 +35,8 @@ sunder_i_big sunder_i_big_shl(sunder_i_arena *arena, sunder_i_big a, unsigned lo
 sunder_i_big sunder_i_big_shr(sunder_i_arena *arena, sunder_i_big a, unsigned long shift);
 /* floor(a / b), b > 0. */
 sunder_i_big sunder_i_big_div_floor(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b);
+/* The same and the remainder, a >= 0. */
+sunder_i_big sunder_i_big_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder);
 /* floor(sqrt(a)), a >= 0. */
 sunder_i_big sunder_i_big_sqrt_floor(sunder_i_arena *arena, sunder_i_big a);
 /* Greatest common divisor, >= 0. */
