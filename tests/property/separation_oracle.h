@@ -175,7 +175,7 @@ static inline bool interiors_meet(const polyset *p, const polyset *q, const mpq_
 static inline bool escapes(const polyset *p, const polyset *q) { return ask_slabs(p, q, NULL, NULL, ESCAPE); }
 
 /* Moves q over p, a few units off. */
-static void bring_together(const polyset *p, polyset *q, rng *r)
+static inline void bring_together(const polyset *p, polyset *q, rng *r)
 {
     for (int k = 0; k < 2; k++) {
         double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
