@@ -1,6 +1,10 @@
 /* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less
  * than a grid step, so they fall in one grid square, or both close to the border between two: looking into every
- * square that the error reaches finds the point. Equality itself is decided exactly. */
+ * square that the error reaches finds the point. Equality itself is decided exactly.
+ *
+ * Where the approximations cannot tell places apart (small detail far from the origin, in a sum of which another member
+ * is farther still) one square would come to hold all of them. Then the table is made anew with hashes of the exact
+ * coordinates, which cost two divisions of big integers each. */
 #include "minkowski/places.h"
 
 #include <string.h>
@@ -23,20 +27,27 @@ static square square_of(const sunder_i_places *g, double x, double y)
     return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
 }
 
-static uint32_t find(const sunder_i_places *g, square q, const sunder_i_hpoint *p)
+/* So many taken slots in a row do not come about by chance: in a table of n places, half full, the longest row is about
+ * 5 ln n long. */
+#define CROWD 128
+
+static uint32_t find(const sunder_i_places *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
 {
-    for (size_t at = hash(q) & g->mask; g->slot[at]; at = (at + 1) & g->mask)
+    size_t at = start & g->mask;
+    for (; g->slot[at]; at = (at + 1) & g->mask)
         if (sunder_i_hpoint_equal(g->lattice, &g->point[g->slot[at] - 1], p)) return g->slot[at] - 1;
+    if (((at - start) & g->mask) > CROWD) *crowded = true;
     return SUNDER_I_NO_PLACE;
 }
 
-static uint32_t find_near(const sunder_i_places *g, const sunder_i_hpoint *p)
+/* The place of p, if it is known; *crowded is set if that was hard to tell. */
+static uint32_t find_near(const sunder_i_places *g, const sunder_i_hpoint *p, bool *crowded)
 {
     const square low = square_of(g, p->ax - g->error, p->ay - g->error);
     const square high = square_of(g, p->ax + g->error, p->ay + g->error);
     for (int64_t x = low.x; x <= high.x; x++)
         for (int64_t y = low.y; y <= high.y; y++) {
-            const uint32_t v = find(g, (square){x, y}, p);
+            const uint32_t v = find(g, hash((square){x, y}), p, crowded);
             if (v != SUNDER_I_NO_PLACE) return v;
         }
     return SUNDER_I_NO_PLACE;
@@ -44,7 +55,8 @@ static uint32_t find_near(const sunder_i_places *g, const sunder_i_hpoint *p)
 
 static void insert(sunder_i_places *g, uint32_t number)
 {
-    size_t at = hash(square_of(g, g->point[number].ax, g->point[number].ay)) & g->mask;
+    const sunder_i_hpoint *p = &g->point[number];
+    size_t at = (g->exact ? sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay))) & g->mask;
     while (g->slot[at]) at = (at + 1) & g->mask;
     g->slot[at] = number + 1;
 }
@@ -86,8 +98,15 @@ uint32_t sunder_i_places_append(sunder_i_places *places, const sunder_i_hpoint *
 
 uint32_t sunder_i_places_add(sunder_i_places *places, const sunder_i_hpoint *p)
 {
-    const uint32_t known = find_near(places, p);
+    bool crowded = false;
+    const uint32_t known = places->exact ? find(places, sunder_i_hpoint_hash(places->lattice, p), p, &crowded)
+                                         : find_near(places, p, &crowded);
     if (known != SUNDER_I_NO_PLACE) return known;
+    if (crowded && !places->exact) {
+        places->exact = true;
+        if (!make_table(places, places->n)) return SUNDER_I_NO_PLACE;
+        places->entered = places->n;
+    }
     if (2 * (places->entered + 1) > places->mask + 1) {
         if (!make_table(places, 2 * places->n)) return SUNDER_I_NO_PLACE;
         places->entered = places->n;

@@ -5,6 +5,7 @@
 #include <assert.h>
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Relative to the larger of 1 and the coordinate: three conversions, a division. */
@@ -152,6 +153,29 @@ bool sunder_i_hpoint_equal(sunder_i_lattice *l, const sunder_i_hpoint *a, const 
     l->operations.comparisons++;
     if (filter(a->ax, b->ax) || filter(a->ay, b->ay)) return false;
     return coordinate_cmp(l, &a->x, a->w, &b->x, b->w) == 0 && coordinate_cmp(l, &a->y, a->w, &b->y, b->w) == 0;
+}
+
+static uint64_t mix(uint64_t h, uint64_t v)
+{
+    h = (h ^ v) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 32;
+}
+
+/* Of the square of 2^-64 units that the point is in: floor(2^64 x / w) depends on the value of the fraction alone. */
+uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
+{
+    sunder_i_arena *arena = &l->arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    sunder_i_big at[2], w;
+    uint64_t h = 0;
+    sunder_i_hpoint_big(l, p, &at[0], &at[1], &w);
+    for (int k = 0; k < 2 && !arena->failed; k++) {
+        const sunder_i_big v = sunder_i_big_div_floor(arena, sunder_i_big_shl(arena, at[k], 64), w);
+        for (long i = 0; i < labs(v.size); i++) h = mix(h, v.limb[i]);
+        h = mix(h, (uint64_t)v.size);
+    }
+    sunder_i_wide_drop(l, mark);
+    return h;
 }
 
 int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)

@@ -71,6 +71,9 @@ int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, con
 /* By y alone. */
 int sunder_i_hpoint_cmp_y(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
+/* Equal for equal points, whatever integers they are written with; as a rule different for points that are more than
+ * 2^-64 lattice units apart, also where ax, ay are far too coarse to tell them. Degree 3 over 2. */
+uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *a);
 /* Side of c to line ab. Degree 4. */
 int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c);
 /* The three integers, in that arena: the lattice stays as it is, and threads may ask at once. */

@@ -1,0 +1,102 @@
+/* minkowski/places.h: every point gets the number of its place, however its integers are written, spread out or crowded
+ * in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
+#include "failing.h"
+#include "minkowski/places.h"
+#include "random.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define SIDE 60 /* places are a board of so many columns and rows */
+#define FAR ((int64_t)1 << 57)
+
+static void open_lattice(sunder_i_lattice *l, bool wide)
+{
+    double origin[1][2];
+    const double corner[] = {-0x1p57, -0x1p57, 1, 3};
+    sunder_i_extent e = {0};
+    sunder_i_extent_add(&e, corner, 2);
+    sunder_i_lattice_init(l, &e, 1, false, origin, wide);
+    assert_true(l->narrow != wide);
+}
+
+/* Place i of the board: thirds of `step` lattice units beside a far corner, written with a factor drawn at random. */
+static sunder_i_hpoint point(sunder_i_lattice *l, rng *r, int i, int64_t step)
+{
+    sunder_i_arena *arena = &l->arena;
+    const int64_t k = rng_int(r, 1, 1000);
+    const sunder_i_big x = sunder_i_big_i128(arena, (sunder_i_i128)(3 * FAR + i % SIDE * step) * k);
+    const sunder_i_big y = sunder_i_big_i128(arena, (sunder_i_i128)(i / SIDE * step - 3 * FAR) * k);
+    return sunder_i_hpoint_make(l, x, y, sunder_i_big_i64(arena, 3 * k));
+}
+
+/* All places in a random order, then all again; the comparisons that took. */
+static uint64_t add_twice(bool wide, int64_t step, size_t expected)
+{
+    sunder_i_lattice l;
+    sunder_i_places places;
+    uint32_t number[SIDE * SIDE];
+    rng r = rng_start(test_seed(), (uint64_t)step);
+    open_lattice(&l, wide);
+    assert_true(sunder_i_places_init(&places, &l, 0x1p58 / (wide ? 1 << l.approx_shift : 1), expected, 0));
+    memset(number, 0xff, sizeof number);
+    for (int i = 0; i < 3 * SIDE * SIDE; i++) {
+        const int place = i < SIDE * SIDE ? (int)rng_int(&r, 0, SIDE * SIDE - 1) : i % (SIDE * SIDE);
+        const sunder_i_hpoint p = point(&l, &r, place, step);
+        const size_t before = places.n;
+        const uint32_t got = sunder_i_places_add(&places, &p);
+        if (number[place] == UINT32_MAX) {
+            assert_int_equal(got, before);
+            assert_int_equal(places.n, before + 1);
+            number[place] = got;
+        }
+        assert_int_equal(got, number[place]);
+    }
+    assert_int_equal(places.n, SIDE * SIDE);
+    sunder_i_places_free(&places);
+    assert_false(l.arena.failed);
+    sunder_i_lattice_free(&l);
+    return l.operations.comparisons;
+}
+
+/* Far apart, within a square of the grid, and closer than neighbouring doubles are. */
+static void test_places(void **state)
+{
+    (void)state;
+    const int64_t steps[] = {(int64_t)1 << 50, (int64_t)1 << 20, 1 << 10, 16, 1};
+    print_message("SUNDER_SEED=%llu\n", (unsigned long long)test_seed());
+    for (int wide = 0; wide < 2; wide++)
+        for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+            for (size_t expected = 0; expected <= SIDE * SIDE; expected += SIDE * SIDE) {
+                /* Until the crowd is seen each new place is compared with all others: some 128^2 / 2. */
+                const uint64_t comparisons = add_twice(wide, steps[i], expected);
+                assert_true(comparisons < 3 * 3 * SIDE * SIDE + 4 * 128 * 128);
+            }
+}
+
+/* Points of one value have one hash; others nearly never. */
+static void test_hash(void **state)
+{
+    (void)state;
+    for (int wide = 0; wide < 2; wide++) {
+        sunder_i_lattice l;
+        rng r = rng_start(test_seed(), 7);
+        open_lattice(&l, wide);
+        for (int i = 0; i < 1000; i++) {
+            const int j = (int)rng_int(&r, 0, SIDE * SIDE - 1);
+            const sunder_i_hpoint a = point(&l, &r, i, 1), b = point(&l, &r, i, 1), c = point(&l, &r, j, 1);
+            assert_true(sunder_i_hpoint_hash(&l, &a) == sunder_i_hpoint_hash(&l, &b));
+            assert_true((i == j) == (sunder_i_hpoint_hash(&l, &a) == sunder_i_hpoint_hash(&l, &c)));
+        }
+        sunder_i_lattice_free(&l);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_places), cmocka_unit_test(test_hash)};
+    return cmocka_run_group_tests_name("places", tests, NULL, NULL);
+}
