@@ -1,0 +1,152 @@
+/* The search with a gap: its numbers, and what covers a point. */
+#include "separation/gap_search.h"
+
+#include <float.h>
+#include <math.h>
+
+/* ---- Numbers ---- */
+
+/* From the topmost limbs; in two factors: the smallest sides of a wide lattice lie below all doubles. */
+double sunder_i_gap_big(sunder_i_big v, long exponent)
+{
+    const long top = v.size < 0 ? -v.size : v.size;
+    double r = 0;
+    for (long i = top - 1; i >= 0 && i >= top - 4; i--) {
+        const int e = (int)(64 * i + exponent);
+        r += (double)v.limb[i] * ldexp(1, e / 2) * ldexp(1, e - e / 2);
+    }
+    return v.size < 0 ? -r : r;
+}
+
+double sunder_i_gap_length(double x, double y) { return sqrt(x * x + y * y); }
+
+/* Cut at 2^-60 of the magnitude. */
+void sunder_i_gap_place(sunder_i_gap_state *s, const sunder_i_spot *spot, double *x, double *y)
+{
+    const sunder_i_lattice *l = &s->g->placed.lattice;
+    const long size = ilogb(s->g->magnitude) + l->approx_shift;
+    const unsigned long bits = size < 60 ? (unsigned long)(60 - size) : 0;
+    sunder_i_big xy[2];
+    sunder_i_spot_scaled(s->g, spot, bits, xy);
+    *x = sunder_i_gap_big(xy[0], -(long)bits - l->approx_shift);
+    *y = sunder_i_gap_big(xy[1], -(long)bits - l->approx_shift);
+}
+
+/* ---- Subsums ---- */
+
+const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
+{
+    sunder_i_gap_piece *r = s->pieces + k;
+    if (r->n) return r;
+    sunder_i_subsum *m = s->g->subsum + k;
+    if (!m->sides && !sunder_i_subsum_make(s->g, m)) {
+        s->failed = true;
+        return NULL;
+    }
+    const size_t n = m->sides;
+    double *block = sunder_i_arena_alloc(&s->g->placed.lattice.arena, 2 * n, sizeof *block);
+    if (!block) {
+        s->failed = true;
+        return NULL;
+    }
+    *r = (sunder_i_gap_piece){m->sides, false, m->cx, m->cy, m->sx, m->sy, block, block + n};
+    for (size_t i = 0; i < n; i++) {
+        r->length[i] = sunder_i_gap_length(r->sx[i], r->sy[i]);
+        r->inverse[i] = 1 / r->length[i];
+        r->vague = r->vague || !(r->length[i] > SUNDER_I_GAP_TINY);
+    }
+    return r;
+}
+
+bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, double y, double reach)
+{
+    const double *b = s->g->subsum[k].box, e = s->g->error;
+    const double r = reach + e;
+    return !(x < b[0] - r || x > b[2] + r || y < b[1] - r || y > b[3] + r); /* what is not a number is near */
+}
+
+/* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error of
+ * a height. (To ask for the sign alone would not do: outside a sharp corner a point is far away, and over either side
+ * by next to nothing.) Whoever is inside and so near to a side's line is as near to a side's foot, which is found. */
+double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y)
+{
+    double least = -1;
+    for (uint32_t i = 0; i < r->n; i++) {
+        double vx = x - r->cx[i], vy = y - r->cy[i];
+        const double length = r->length[i], turn = r->sx[i] * vy - r->sy[i] * vx;
+        if (turn > s->error * length) continue;
+        const double along = r->sx[i] * vx + r->sy[i] * vy;
+        double square;
+        if (along <= 0)
+            square = vx * vx + vy * vy;
+        else if (along >= length * length) {
+            vx -= r->sx[i];
+            vy -= r->sy[i];
+            square = vx * vx + vy * vy;
+        } else {
+            const double height = turn / length;
+            square = height * height;
+        }
+        if (least < 0 || square < least) least = square;
+    }
+    return least < 0 ? 0 : sqrt(least);
+}
+
+/* How far the point stands out over the side that it is farthest outside of, good to `error`: nothing is nearer than
+ * that, and if it is negative the point is inside. */
+static double out_by(const sunder_i_gap_piece *r, double x, double y)
+{
+    double most = -INFINITY;
+    for (uint32_t i = 0; i < r->n; i++) {
+        const double h = (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
+        if (h > most) most = h;
+    }
+    return most;
+}
+
+bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack)
+{
+    if (!sunder_i_gap_near_box(s, k, x, y, s->gap)) return false;
+    const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+    if (!r || r->vague) return false;
+    const double out = out_by(r, x, y), doubt = s->margin + slack;
+    if (out > s->gap + doubt) return false;
+    if (out < -doubt) return true;
+    return sunder_i_gap_distance(s, r, x, y) < s->gap - s->margin - slack;
+}
+
+long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long but)
+{
+    const size_t n = s->g->subsums;
+    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
+        if ((long)k != but && sunder_i_gap_covers(s, k, x, y, 0)) {
+            s->hint = k;
+            return (long)k;
+        }
+    return -1;
+}
+
+long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
+{
+    const size_t n = s->g->subsums;
+    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
+        if (sunder_i_gap_covers(s, k, x, y, slack)) {
+            s->hint = k;
+            return (long)k;
+        }
+    return -1;
+}
+
+bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
+{
+    const size_t n = s->g->subsums;
+    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0) {
+        if (!sunder_i_gap_near_box(s, k, x, y, 0)) continue;
+        const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+        if (!r) return false;
+        if (r->vague || !(out_by(r, x, y) < -s->margin)) continue;
+        s->hint = k;
+        return true;
+    }
+    return false;
+}
