@@ -54,7 +54,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
     sunder_i_pairing *g = p->pairing;
     sunder_i_arena *a = &g->placed.lattice.arena;
     const sunder_i_big zero = {NULL, 0};
-    const sunder_i_rational origin = {zero, zero, sunder_i_big_i64(a, 1)};
+    const sunder_i_spot origin = sunder_i_spot_rational(g, zero, zero, sunder_i_big_i64(a, 1));
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = g->subsum + k;
         const double r = p->gap_units + 2 * g->error;
@@ -81,39 +81,33 @@ static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, s
     if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
     p->segment = heap.item;
     p->segments = heap.n;
-    if (!find_centers(p)) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_gap_search_long(p, answer, err);
-    if (status || (answer->settled && (answer->found || p->limit < INFINITY))) return status;
-    p->last = true;
-    return sunder_i_gap_search_quad(p, answer, err);
+    return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_no_memory(err);
+}
+
+/* Do the doubles keep the gap as well? Exact. */
+static bool doubles_free(const sunder_i_gap_problem *p, double dx, double dy)
+{
+    sunder_i_pairing *g = p->pairing;
+    if (!isfinite(dx) || !isfinite(dy)) return false;
+    const sunder_i_spot at = sunder_i_spot_doubles(g, dx, dy);
+    return !g->placed.lattice.arena.failed && sunder_i_gap_verify(p, &at);
 }
 
 static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts, sunder_separation *out,
                           sunder_error *err)
 {
     sunder_i_pairing *g = p->pairing;
-    const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x, a->at.y, a->at.w);
+    const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x.part[0], a->at.y.part[0], a->at.w);
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
     if (bound < out->lower_bound) out->lower_bound = bound;
     out->overlap = true;
-    out->attained = !a->isolated;
+    out->attained = a->attained;
     out->contact = a->contact;
-    out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy);
-    if (!out->rounded_is_free && isfinite(out->dx) && isfinite(out->dy)) {
-        const sunder_i_rational r = sunder_i_rational_doubles(g, out->dx, out->dy);
-        out->rounded_is_free = true;
-        for (size_t k = 0; k < g->subsums && out->rounded_is_free; k++) {
-            sunder_i_subsum *s = g->subsum + k;
-            double xy[2];
-            sunder_i_rational_units(g, &r, xy);
-            const double e = p->gap_units + 2 * g->error;
-            if (xy[0] < s->box[0] - e || xy[0] > s->box[2] + e || xy[1] < s->box[1] - e || xy[1] > s->box[3] + e)
-                continue;
-            if (!s->sides && !sunder_i_subsum_make(g, s)) break;
-            out->rounded_is_free = sunder_i_gap_cmp(p, s, &r) >= 0;
-        }
-    }
+    out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || doubles_free(p, out->dx, out->dy);
+    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    if (!sunder_i_gap_verify(p, &a->at) && !g->placed.lattice.arena.failed)
+        return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: a translation failed its exact check");
     if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
@@ -132,11 +126,11 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     sunder_i_gap_answer answer;
     const sunder_status status = run(p, &answer, err);
     if (status) return status;
-    if (!answer.found || answer.bound * g->unit > o->upper) {
-        sunder_i_too_far(o->upper, out, beyond);
-        return SUNDER_OK;
-    }
-    return fill(p, &answer, o->texts, out, err);
+    if (answer.found && answer.bound * g->unit <= o->upper) return fill(p, &answer, o->texts, out, err);
+    if (!(o->upper < INFINITY)) /* two sets can always be parted */
+        return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: no free translation was found");
+    sunder_i_too_far(o->upper, out, beyond);
+    return SUNDER_OK;
 }
 
 /* The operands and the gap beside them. A gap that dwarfs them goes on the lattice too, whose units are then chosen to

@@ -1,9 +1,10 @@
 /* Least separating translations that keep a gap g: the obstacle is the union of the subsums, each grown by an open disc
  * of radius g. Its boundary consists of sides moved outward by g and of arcs round corners, so the optimum may be
- * irrational. */
+ * irrational; it is known exactly all the same. */
 #ifndef SUNDER_I_GAP_H
 #define SUNDER_I_GAP_H
 
+#include "number/surd.h"
 #include "separation/answer.h"
 #include "separation/candidates.h"
 #include "separation/least.h"
@@ -15,17 +16,18 @@ typedef struct sunder_i_curve {
     sunder_i_point a, d;
 } sunder_i_curve;
 
-/* (x / w, y / w) in lattice units, w > 0. */
-typedef struct sunder_i_rational {
-    sunder_i_big x, y, w;
-} sunder_i_rational;
+/* A point of the plane of translations, exactly: (x / w, y / w) in lattice units, w > 0. At most two roots. */
+typedef struct sunder_i_spot {
+    sunder_i_roots roots;
+    sunder_i_surd x, y;
+    sunder_i_big w;
+} sunder_i_spot;
 
 typedef struct sunder_i_gap_problem {
     sunder_i_pairing *pairing;
     sunder_i_big gap; /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
     unsigned long gap_bits;
     double gap_units, limit;
-    bool last; /* no finer arithmetic will be tried: what cannot be told apart is taken as equal */
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */
     size_t segments;
     const sunder_i_point *center; /* corners that arcs may go round */
@@ -33,44 +35,61 @@ typedef struct sunder_i_gap_problem {
 } sunder_i_gap_problem;
 
 typedef struct sunder_i_gap_answer {
-    bool found;
-    bool isolated; /* nearer than this is a point that cannot be told from an isolated irrational one */
-    bool settled;  /* longer than the bound by at most 1e-9 of it, or isolated */
-    sunder_i_rational at;
-    double bound; /* units; no free point is nearer */
+    bool found;    /* a free point within the limit that is not isolated and irrational */
+    bool attained; /* at is longer than `bound` by at most 1e-9 of it */
+    sunder_i_spot at; /* rational */
+    double bound;     /* units, rounded down; no free point is nearer. 0 if nothing free is within the limit */
     sunder_contact contact;
 } sunder_i_gap_answer;
 
-/* The search, in floating point whose every conclusion clears an error bound; results are checked exactly. Two
- * instances of one text (gap_search.inc): long double, and 113 bits for what that cannot settle. */
-sunder_status sunder_i_gap_search_long(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out,
-                                       sunder_error *err);
-sunder_status sunder_i_gap_search_quad(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out,
-                                       sunder_error *err);
+/* The search: what doubles and long doubles conclude clears an error bound, and all else is decided exactly. */
+sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out, sunder_error *err);
 
-/* ---- Exact points (gap_exact.c) ---- */
+/* ---- Exact points (gap_spot.c) ---- */
 
-/* The point of the curve's line or circle that is nearest to the origin, if it is rational. */
-bool sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_rational *out);
-/* The common point of two of them nearest to (x, y) units, if it is rational. */
+/* The point of the curve's line or circle that is nearest to the origin; of a circle about the origin the leftmost. */
+void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_spot *out);
+/* A common point of two curves, the first of which is a line if one is: on a line and a circle the one farther along
+ * the line (sign 1) or the other one (-1), on two circles left (1) or right of the way from c's center to d's. False if
+ * there is none, or all. */
 bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d,
-                           double x, double y, sunder_i_rational *out);
-/* The point of the curve's moved line that stands `along` units from the foot of the perpendicular from the origin, in
- * the line's direction; false if the line has no such rational point. */
-bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, double along,
-                        sunder_i_rational *out);
-/* Is the distance of the point from the (closed) subsum below, equal to or above the gap? -1, 0, 1. Exact. */
-int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_rational *at);
-/* The same for side k alone, from its first corner (included) to its second (not): the gap is kept from the subsum if
- * it is from all of its sides and the point is outside of one (*outside, if not NULL: or on its line). */
+                           int sign, sunder_i_spot *out);
+/* The rational point of a line of rational length that stands along / 2^bits lattice units from the foot of the
+ * perpendicular from the origin, in the line's direction; false if the length is irrational. */
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *line, sunder_i_big along,
+                        unsigned long bits, sunder_i_spot *out);
+/* The position of a point on that line, from the foot, within 4 of it times 2^bits. */
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_curve *line, const sunder_i_spot *at,
+                           unsigned long bits, sunder_i_big *along);
+/* A vector of doubles of the caller's units. */
+sunder_i_spot sunder_i_spot_doubles(sunder_i_pairing *pairing, double dx, double dy);
+sunder_i_spot sunder_i_spot_rational(sunder_i_pairing *pairing, sunder_i_big x, sunder_i_big y, sunder_i_big w);
+bool sunder_i_spot_is_rational(const sunder_i_spot *spot);
+
+typedef enum sunder_i_reach { SUNDER_I_REACH_CORNER, SUNDER_I_REACH_SIDE } sunder_i_reach;
+
+/* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
+ * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
+ * left of the side. *reach: what of the side is nearest. Exact. */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
-                          const sunder_i_rational *at, bool *outside);
-/* Order of the distances of two points from the origin, then lexicographic. *tie: the distances are equal. */
-int sunder_i_rational_cmp(sunder_i_pairing *pairing, const sunder_i_rational *a, const sunder_i_rational *b);
-/* The same place, nearly, in units. */
-void sunder_i_rational_units(sunder_i_pairing *pairing, const sunder_i_rational *at, double xy[2]);
-/* A vector of doubles of the caller's units, exactly. */
-sunder_i_rational sunder_i_rational_doubles(sunder_i_pairing *pairing, double dx, double dy);
+                          const sunder_i_spot *at, bool *inward, sunder_i_reach *reach);
+/* The same for all of the (closed) subsum. */
+int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_spot *at);
+/* Order of the distances of two points from the origin, then lexicographic. Exact. */
+int sunder_i_spot_cmp(sunder_i_pairing *pairing, const sunder_i_spot *a, const sunder_i_spot *b);
+/* The point's coordinates times 2^bits (lattice units), within 3. */
+void sunder_i_spot_scaled(sunder_i_pairing *pairing, const sunder_i_spot *at, unsigned long bits, sunder_i_big xy[2]);
+/* The same with 72 digits or more in the greater one, which must not be zero: returns the bits. `about`: the length in
+ * units, a guess. */
+unsigned long sunder_i_spot_digits(sunder_i_pairing *pairing, const sunder_i_spot *at, double about,
+                                   sunder_i_big xy[2]);
+/* The distance from the origin in units, rounded down, of a point known to so many bits. */
+double sunder_i_spot_length_down(sunder_i_pairing *pairing, const sunder_i_big xy[2], unsigned long bits);
+
+/* ---- The exact check (gap_verify.c) ---- */
+
+/* P and Q + t, t rational, are the gap apart: asked again of every pair of pieces, without the subsums. Exact. */
+bool sunder_i_gap_verify(const sunder_i_gap_problem *problem, const sunder_i_spot *t);
 
 /* A least translation with gap > 0. */
 sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q,

@@ -1,6 +1,8 @@
 /* The search with a gap: its numbers, and what covers a point. */
 #include "separation/gap_search.h"
 
+#include "number/watch.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -118,6 +120,7 @@ bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, do
 long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long but)
 {
     const size_t n = s->g->subsums;
+    s->failed = s->failed || !sunder_i_steps(n);
     for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
         if ((long)k != but && sunder_i_gap_covers(s, k, x, y, 0)) {
             s->hint = k;
@@ -129,6 +132,7 @@ long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long bu
 long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
 {
     const size_t n = s->g->subsums;
+    s->failed = s->failed || !sunder_i_steps(n);
     for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
         if (sunder_i_gap_covers(s, k, x, y, slack)) {
             s->hint = k;

@@ -35,6 +35,12 @@ typedef struct known {
 #define POCKET "POLYGON((-9 -9,13 -9,13 13,-9 13,-9 -9),(0 0,0 4,4 4,4 0,0 0))"
 #define POCKET8 "POLYGON((-10 -10,18 -10,18 18,-10 18,-10 -10),(0 0,0 8,8 8,8 0,0 0))"
 
+/* Walls that are nearly collinear: over the foot on one of them the other one is nearer than the gap, by 1e-13 of it. */
+#define NEAR_WALLS                                                                                                     \
+    "POLYGON((-4096 -1024,4095.999999999999 -1024,4095.999999999999 0.0001220703125,0 0,-4096 0,-4096 -1024))"
+#define NEAR_POST                                                                                                      \
+    "POLYGON((-1 -1,2.384185791015625e-07 -1,2.384185791015625e-07 9,-1 9,-1 -1))"
+
 static const known KNOWN[] = {
     {"apart", SQUARE, "POLYGON((5 0,6 0,6 1,5 1,5 0))", 0, "0", "0", "0", "none", true},
     {"touching along a side", SQUARE, "POLYGON((4 1,6 1,6 2,4 2,4 1))", 0, "0", "0", "0", "none", true},
@@ -76,6 +82,10 @@ static const known KNOWN[] = {
      true},
     {"a gap across a slanted wall", "POLYGON((0 0,40 0,0 30,0 0))", "POLYGON((16 18,99 18,99 99,16 99,16 18))", 5, "3",
      "4", "25", "edge", true},
+    {"a covered foot is not the end", NEAR_WALLS, NEAR_POST, 32, "-3/4194304", "33",
+     "19157890602369033/17592186044416", "vertex", true},
+    {"a covered foot is not the end, another gap", NEAR_WALLS, NEAR_POST, 31, "-47/67108864", "32",
+     "4611686018427390113/4503599627370496", "vertex", true},
 };
 
 static void check_known(const known *k, const sunder_i_least_options *options)

@@ -1,0 +1,200 @@
+/* Off a free point that is irrational, to a rational one. The grown subsums that touch there are convex, so each lies
+ * behind the line through the point across the normal of its contact: whoever goes where all normals point, or at right
+ * angles to them, is free of all these, however far. The other subsums are farther than the gap, so a small enough step
+ * is free of them too: the step is made smaller, and the numbers longer, until the exact test agrees.
+ *
+ * Where two contacts are opposite there is only the line between them. It is rational: if one is a side, 2 g L is an
+ * integer fraction (the cross product of the side and the way to the other contact), and so is the root L; if both are
+ * corners, the point is the middle between them, and no step is needed. */
+#include "separation/gap_search.h"
+
+#include <float.h>
+#include <math.h>
+
+/* ---- Room ---- */
+
+typedef struct normal {
+    sunder_i_surd x, y;
+} normal;
+
+/* The contact's normal, exactly, of some length. */
+static normal normal_of(sunder_i_gap_state *s, const sunder_i_spot *at, const sunder_i_gap_contact *c)
+{
+    sunder_i_lattice *l = &s->g->placed.lattice;
+    sunder_i_arena *a = &l->arena;
+    const sunder_i_subsum *m = s->g->subsum + c->of;
+    const sunder_i_point p = c->flat ? m->side[c->at] : m->corner[c->at];
+    const sunder_i_big x = sunder_i_lattice_get(l, p.x), y = sunder_i_lattice_get(l, p.y);
+    if (c->flat) return (normal){sunder_i_surd_big(a, y), sunder_i_surd_big(a, sunder_i_big_neg(x))};
+    return (normal){sunder_i_surd_sub(a, at->x, sunder_i_surd_big(a, sunder_i_big_mul(a, x, at->w))),
+                    sunder_i_surd_sub(a, at->y, sunder_i_surd_big(a, sunder_i_big_mul(a, y, at->w)))};
+}
+
+/* Sign of n_i x n_j, or of n_i . n_j. The normals of sides are good to 8 u, those of corners to the point's error over
+ * the gap as well. */
+static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, size_t j, bool dot)
+{
+    const sunder_i_gap_contact *c = f->contact + i, *d = f->contact + j;
+    const double value = dot ? c->nx * d->nx + c->ny * d->ny : c->nx * d->ny - c->ny * d->nx;
+    const double doubt = 4 * (8 * DBL_EPSILON + (f->error + s->error) / s->gap);
+    if (fabs(value) > doubt) return value > 0 ? 1 : -1;
+    if (c->flat && d->flat) {
+        const sunder_i_point u = s->g->subsum[c->of].side[c->at], v = s->g->subsum[d->of].side[d->at];
+        return dot ? sunder_i_pairing_dot(s->g, u, v) : sunder_i_pairing_cross(s->g, u, v);
+    }
+    sunder_i_arena *a = &s->g->placed.lattice.arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(a);
+    const sunder_i_roots *roots = &f->spot.roots;
+    const normal n = normal_of(s, &f->spot, c), m = normal_of(s, &f->spot, d);
+    const sunder_i_surd v = dot ? sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, n.x, m.x),
+                                                    sunder_i_surd_mul(a, roots, n.y, m.y))
+                                : sunder_i_surd_sub(a, sunder_i_surd_mul(a, roots, n.x, m.y),
+                                                    sunder_i_surd_mul(a, roots, n.y, m.x));
+    const int sign = sunder_i_surd_sign(a, roots, v);
+    sunder_i_arena_release(a, mark);
+    return sign;
+}
+
+/* Is the normal of contact i turned by a right angle, to the left (turn 1) or right (-1), a way to go? */
+static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, int turn)
+{
+    for (size_t k = 0; k < f->contacts; k++)
+        if (k != i && turn * sign_of(s, f, i, k, false) < 0) return false;
+    return true;
+}
+
+sunder_i_gap_room sunder_i_gap_room_at(sunder_i_gap_state *s, const sunder_i_gap_find *f, long *a, long *b)
+{
+    *a = *b = -1;
+    bool same = true;
+    for (size_t k = 1; k < f->contacts && same; k++)
+        same = sign_of(s, f, 0, k, false) == 0 && sign_of(s, f, 0, k, true) > 0;
+    if (same) {
+        *a = *b = f->contacts ? 0 : -1;
+        return SUNDER_I_ROOM_HALF;
+    }
+    for (size_t k = 0; k < f->contacts; k++) {
+        if (*a < 0 && may_turn(s, f, k, 1)) *a = (long)k;
+        if (*b < 0 && may_turn(s, f, k, -1)) *b = (long)k;
+    }
+    if (*a < 0 && *b < 0) return SUNDER_I_ROOM_NONE;
+    if (*a < 0 || *b < 0) return SUNDER_I_ROOM_LINE;
+    /* Between the two ways all is strictly clear, unless some normal is at right angles to both. */
+    for (size_t k = 0; k < f->contacts; k++)
+        if (sign_of(s, f, (size_t)*a, k, false) == 0 && sign_of(s, f, k, (size_t)*b, false) == 0)
+            return SUNDER_I_ROOM_LINE;
+    return SUNDER_I_ROOM_OPEN;
+}
+
+/* ---- Steps ---- */
+
+/* To a place of doubles of the caller's units, where those are fine enough: what users like best. */
+static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_gap_contact *a,
+                       const sunder_i_gap_contact *b, const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out)
+{
+    const double unit = s->g->unit;
+    if (!(unit > 0 && unit < INFINITY)) return false;
+    /* Where the way between a and b is wide, the middle of it. */
+    double ux = a->nx + b->nx, uy = a->ny + b->ny, gain = 1;
+    const double f1 = sunder_i_gap_length(ux, uy);
+    if (!(f1 > 0x1p-20)) return false;
+    ux /= f1;
+    uy /= f1;
+    for (size_t k = 0; k < f->contacts; k++) gain = fmin(gain, ux * f->contact[k].nx + uy * f->contact[k].ny);
+    if (!(gain > 0x1p-20)) return false;
+    const double x = sunder_i_gap_big(xy[0], -(long)bits - s->g->placed.lattice.approx_shift);
+    const double y = sunder_i_gap_big(xy[1], -(long)bits - s->g->placed.lattice.approx_shift);
+    const double size = sunder_i_gap_length(x, y);
+    double step = 0x1p-49 * size / gain;
+    for (int round = 0; round < 8 && step <= size * 4e-10; round++, step *= 8) {
+        const double dx = (x + ux * step) * unit, dy = (y + uy * step) * unit;
+        if (!isfinite(dx) || !isfinite(dy)) return false;
+        *out = sunder_i_spot_doubles(s->g, dx, dy);
+        if (sunder_i_gap_is_free(s, out)) return true;
+    }
+    return false;
+}
+
+/* The unit normal of a contact times 2^bits, within 4. */
+static void unit_normal(sunder_i_gap_state *s, const sunder_i_spot *at, const sunder_i_gap_contact *c,
+                        unsigned long bits, sunder_i_big n[2])
+{
+    sunder_i_arena *a = &s->g->placed.lattice.arena;
+    const normal exact = normal_of(s, at, c);
+    const sunder_i_surd part[2] = {exact.x, exact.y};
+    if (c->flat) {
+        const sunder_i_big x = part[0].part[0], y = part[1].part[0];
+        const sunder_i_big square = sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
+        const sunder_i_big length = sunder_i_big_sqrt_floor(a, sunder_i_big_shl(a, square, 2 * bits));
+        for (int k = 0; k < 2; k++)
+            n[k] = sunder_i_big_div_floor(a, sunder_i_big_shl(a, part[k].part[0], 2 * bits), length);
+        return;
+    }
+    const sunder_i_big length = sunder_i_big_mul(a, s->p->gap, at->w);
+    for (int k = 0; k < 2; k++)
+        n[k] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, part[k], bits + s->p->gap_bits), length);
+}
+
+/* A step of 2^size lattice units into the open, in numbers of `bits` digits and with normals of `digits`. */
+static void step_off(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, size_t j, long size,
+                     unsigned long bits, unsigned long digits, sunder_i_spot *out)
+{
+    sunder_i_arena *a = &s->g->placed.lattice.arena;
+    sunder_i_big at[2], n[2], m[2];
+    sunder_i_spot_scaled(s->g, &f->spot, bits, at);
+    unit_normal(s, &f->spot, f->contact + i, digits, n);
+    unit_normal(s, &f->spot, f->contact + j, digits, m);
+    /* The middle between the normals; where they are far from each other that cancels, and is said by the ways: n turned
+     * left and m turned right. */
+    const bool wide = sign_of(s, f, i, j, true) < 0;
+    const sunder_i_big u[2] = {wide ? sunder_i_big_sub(a, m[1], n[1]) : sunder_i_big_add(a, n[0], m[0]),
+                               wide ? sunder_i_big_sub(a, n[0], m[0]) : sunder_i_big_add(a, n[1], m[1])};
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_big step = sunder_i_big_shr(a, sunder_i_big_shl(a, u[k], (unsigned long)(size + (long)bits)), digits);
+        at[k] = sunder_i_big_add(a, at[k], step);
+    }
+    *out = sunder_i_spot_rational(s->g, at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits));
+}
+
+/* The same along the line between opposite contacts, the way that contact i turned left (turn 1) or right shows. */
+static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, int turn, long size,
+                       unsigned long bits, sunder_i_spot *out)
+{
+    sunder_i_arena *a = &s->g->placed.lattice.arena;
+    size_t k = 0;
+    while (k < f->contacts && !(f->contact[k].flat && sign_of(s, f, i, k, false) == 0)) k++;
+    if (k == f->contacts) return false;
+    const sunder_i_subsum *m = s->g->subsum + f->contact[k].of;
+    const sunder_i_curve wall = {false, m->corner[f->contact[k].at], m->side[f->contact[k].at]};
+    const bool ahead = (sign_of(s, f, i, k, true) > 0) == (turn > 0); /* the side is its normal turned left */
+    sunder_i_big along, step = sunder_i_big_shl(a, sunder_i_big_i64(a, ahead ? 1 : -1), (unsigned long)(size + (long)bits));
+    if (!sunder_i_gap_position(s->p, &wall, &f->spot, bits, &along)) return false;
+    return sunder_i_gap_along(s->p, &wall, sunder_i_big_add(a, along, step), bits, out);
+}
+
+/* Steps from 2^-33 of the length downwards, each round with twice as many digits more than the last: a way as narrow as
+ * an angle of 2^-n is hit with n digits. */
+#define ROUNDS_MAX 12
+
+bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_big xy[2],
+                        unsigned long bits, sunder_i_spot *out)
+{
+    long i, j;
+    const sunder_i_gap_room room = sunder_i_gap_room_at(s, f, &i, &j);
+    if (room == SUNDER_I_ROOM_NONE || (i < 0 && j < 0)) return false;
+    const bool open = room == SUNDER_I_ROOM_OPEN || room == SUNDER_I_ROOM_HALF;
+    if (open && to_doubles(s, f, f->contact + i, f->contact + j, xy, bits, out)) return true;
+    /* The greater coordinate is at least 2^size. */
+    const unsigned long u = sunder_i_big_bits(xy[0]), v = sunder_i_big_bits(xy[1]);
+    const long size = (long)(u > v ? u : v) - 2 - (long)bits;
+    for (int round = 0; round < ROUNDS_MAX && !s->failed && !s->g->placed.lattice.arena.failed; round++) {
+        const long digits = 64L << round, step = size - 33 - (digits - 64) / 2;
+        const long fine = digits - step > 0 ? digits - step : 0;
+        if (open)
+            step_off(s, f, (size_t)i, (size_t)j, step, (unsigned long)fine, (unsigned long)digits, out);
+        else if (!step_along(s, f, (size_t)(i >= 0 ? i : j), i >= 0 ? 1 : -1, step, (unsigned long)fine, out))
+            return false;
+        if (sunder_i_gap_is_free(s, out)) return true;
+    }
+    return false;
+}
