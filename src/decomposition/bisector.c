@@ -133,7 +133,7 @@ static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sund
     const sunder_i_fraction on = sunder_i_crossing(l, other, c->toward, from, toward);
     if (sunder_i_fraction_cmp(l, &on, &c->length) >= 0) return false;
     *t = sunder_i_crossing(l, from, toward, other, c->toward);
-    return l->narrow ? t->num > 0 : sunder_i_big_sign(sunder_i_lattice_get(l, (int64_t)t->num)) > 0;
+    return sunder_i_fraction_sign(l, t) > 0;
 }
 
 /* Does a cut cross the segment from v to the vertex w? */

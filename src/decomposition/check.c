@@ -2,6 +2,7 @@
 #include "decomposition/decomposition.h"
 
 #include "predicate/predicate.h"
+#include "predicate/vector.h"
 
 /* A rational num / den, den > 0. */
 typedef struct rational {
@@ -41,16 +42,15 @@ static rational piece_area(sunder_i_arena *a, const sunder_i_decomposition *d, u
     return sum;
 }
 
-static sunder_i_big ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
-                              uint32_t hi)
+/* Twice the area of a ring. */
+static rational ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
+                          uint32_t hi)
 {
     sunder_i_arena *a = &l->arena;
-    sunder_i_big sum = {NULL, 0};
+    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
     for (uint32_t v = lo; v < hi; v++) {
-        const sunder_i_point p = at[v], q = at[s->next[v]];
-        sum = sunder_i_big_add(a, sum,
-                               determinant(a, sunder_i_lattice_get(l, p.x), sunder_i_lattice_get(l, p.y),
-                                           sunder_i_lattice_get(l, q.x), sunder_i_lattice_get(l, q.y)));
+        const sunder_i_vector p = sunder_i_vector_get(a, l, at[v]), q = sunder_i_vector_get(a, l, at[s->next[v]]);
+        sum = add(a, sum, (rational){sunder_i_vector_cross(a, p, q), sunder_i_big_mul(a, p.w, q.w)});
     }
     return sum;
 }
@@ -60,7 +60,8 @@ static bool agrees(sunder_i_lattice *l, const sunder_i_corner *c, const sunder_i
 {
     sunder_i_arena *a = &l->arena;
     const sunder_i_big dx = determinant(a, e->x, e->w, c->x, c->w), dy = determinant(a, e->y, e->w, c->y, c->w);
-    const sunder_i_big x = sunder_i_lattice_get(l, along.x), y = sunder_i_lattice_get(l, along.y);
+    const sunder_i_vector v = sunder_i_vector_get(a, l, along);
+    const sunder_i_big x = v.x, y = v.y;
     return sunder_i_big_sign(determinant(a, dx, dy, x, y)) == 0 &&
            sunder_i_big_sign(sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y))) > 0;
 }
@@ -86,14 +87,13 @@ static const char *check_corner(sunder_i_lattice *l, const sunder_shape *s, cons
 {
     sunder_i_arena *a = &l->arena;
     const sunder_i_corner *c = &d->corner[i];
-    if (i >= s->vertices) {
-        const sunder_i_big g = sunder_i_big_gcd(a, sunder_i_big_gcd(a, c->x, c->y), c->w);
-        if (c->vertex != UINT32_MAX || sunder_i_big_sign(c->w) <= 0) return "a Steiner point is not said as one";
-        return sunder_i_big_cmp(g, sunder_i_big_i64(a, 1)) ? "a Steiner point is not in lowest terms" : NULL;
-    }
-    if (c->vertex != i || sunder_i_big_cmp(c->w, sunder_i_big_i64(a, 1)) != 0 ||
-        sunder_i_big_cmp(c->x, sunder_i_lattice_get(l, at[i].x)) != 0 ||
-        sunder_i_big_cmp(c->y, sunder_i_lattice_get(l, at[i].y)) != 0)
+    const sunder_i_big g = sunder_i_big_gcd(a, sunder_i_big_gcd(a, c->x, c->y), c->w);
+    if (sunder_i_big_sign(c->w) <= 0 || sunder_i_big_cmp(g, sunder_i_big_i64(a, 1)))
+        return "a corner is not in lowest terms";
+    if (i >= s->vertices) return c->vertex != UINT32_MAX ? "a Steiner point is not said as one" : NULL;
+    const sunder_i_vector v = sunder_i_vector_get(a, l, at[i]);
+    if (c->vertex != i || sunder_i_big_sign(determinant(a, c->x, c->w, v.x, v.w)) != 0 ||
+        sunder_i_big_sign(determinant(a, c->y, c->w, v.y, v.w)) != 0)
         return "a vertex does not stand where the shape has it";
     return NULL;
 }
@@ -104,12 +104,12 @@ static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const 
 {
     sunder_i_arena *a = &l->arena;
     rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
-    sunder_i_big want = {NULL, 0};
+    rational want = sum;
     const uint32_t ring_lo = polygon ? s->poly_end[polygon - 1] : 0;
     for (uint32_t r = ring_lo; r < s->poly_end[polygon]; r++)
-        want = sunder_i_big_add(a, want, ring_area(l, s, at, r ? s->ring_end[r - 1] : 0, s->ring_end[r]));
+        want = add(a, want, ring_area(l, s, at, r ? s->ring_end[r - 1] : 0, s->ring_end[r]));
     for (; *i < d->pieces && d->member[*i] == polygon; ++*i) sum = add(a, sum, piece_area(a, d, *i));
-    if (sunder_i_big_cmp(sum.num, sunder_i_big_mul(a, want, sum.den)) != 0)
+    if (sunder_i_big_sign(determinant(a, sum.num, sum.den, want.num, want.den)) != 0)
         return "the pieces of a member do not have its area";
     return NULL;
 }

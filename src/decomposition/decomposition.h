@@ -29,7 +29,7 @@ typedef enum sunder_i_decomposition_kind {
 const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind);
 
 /* The point (x / w, y / w) on the lattice that the shape was placed on, w > 0, in lowest terms (w is 1 for vertices
- * of the shape, and for Steiner points that happen to be lattice points). */
+ * of the shape that are no crossings, and for points that happen to be lattice points). */
 typedef struct sunder_i_corner {
     sunder_i_big x, y, w;
     uint32_t vertex; /* of the shape; UINT32_MAX: a Steiner point */
@@ -46,7 +46,7 @@ typedef struct sunder_i_decomposition {
     uint32_t *piece_end;    /* [pieces] index past the last side of each */
     uint32_t *piece_corner; /* [sides] the corner where each side starts. Pieces are counter-clockwise and strictly
                                convex, and start with the side of the least angle in [0, 2 pi), so that angles ascend */
-    sunder_i_point *along;  /* [sides] a lattice vector (handles on a wide lattice), a positive multiple of the side */
+    sunder_i_point *along;  /* [sides] a vector of the lattice, a positive multiple of the side */
     uint32_t *member;       /* [pieces] the polygon of the shape that each is a piece of; ascending */
     sunder_operations operations; /* done here; they are in lattice->operations as well */
 } sunder_i_decomposition;

@@ -7,26 +7,27 @@
  * vertex too. */
 #include "decomposition/maker.h"
 
+#include "predicate/vector.h"
+
 #include <math.h>
 
 #define MOST 0x1p20 /* of a coordinate: v + d stays on a narrow lattice, and crossings stay short */
 
 double sunder_i_direction_unit(sunder_i_lattice *l, sunder_i_point u, double unit[2], long *exponent)
 {
-    double x, y;
+    double x = 0, y = 0;
     *exponent = 0;
-    if (l->narrow) {
+    if (sunder_i_point_is_plain(u)) {
         x = (double)u.x;
         y = (double)u.y;
-    } else {
-        const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-        const sunder_i_big bx = sunder_i_lattice_get(l, u.x), by = sunder_i_lattice_get(l, u.y);
-        const sunder_i_big one = sunder_i_big_i64(&l->arena, 1);
-        const unsigned long nx = sunder_i_big_bits(bx), ny = sunder_i_big_bits(by);
-        *exponent = (long)(nx > ny ? nx : ny);
-        x = l->arena.failed ? 0 : sunder_i_big_ratio(&l->arena, bx, one, -*exponent);
-        y = l->arena.failed ? 0 : sunder_i_big_ratio(&l->arena, by, one, -*exponent);
-        if (!l->arena.failed) sunder_i_arena_release(&l->arena, mark);
+    } else if (!l->arena.failed) {
+        const sunder_i_mark mark = sunder_i_lattice_begin(l);
+        const sunder_i_vector v = sunder_i_vector_get(&l->scratch, l, u);
+        const unsigned long nx = sunder_i_big_bits(v.x), ny = sunder_i_big_bits(v.y), nw = sunder_i_big_bits(v.w);
+        *exponent = (long)(nx > ny ? nx : ny) - (long)nw;
+        x = sunder_i_big_ratio(&l->scratch, v.x, v.w, -*exponent);
+        y = sunder_i_big_ratio(&l->scratch, v.y, v.w, -*exponent);
+        sunder_i_lattice_end(l, mark);
     }
     const double length = hypot(x, y);
     unit[0] = length > 0 ? x / length : 0;
@@ -43,13 +44,6 @@ static void halve(const double a[2], const double b[2], double out[2])
     out[1] = straight ? a[0] : y / length;
 }
 
-static sunder_i_point small_vector(sunder_i_lattice *l, double x, double y)
-{
-    if (l->narrow) return (sunder_i_point){(int64_t)x, (int64_t)y};
-    return (sunder_i_point){sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, (int64_t)x)),
-                            sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, (int64_t)y))};
-}
-
 sunder_i_point sunder_i_direction_within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
 {
     double ua[2], ub[2], middle[2], low[2], high[2];
@@ -63,7 +57,7 @@ sunder_i_point sunder_i_direction_within(sunder_i_lattice *l, sunder_i_point a, 
     for (double k = 1; top > 0 && k <= MOST && !l->arena.failed; k *= 2) {
         const double x = round(middle[0] / top * k), y = round(middle[1] / top * k);
         if (low[0] * y - low[1] * x < 0 || x * high[1] - y * high[0] < 0) continue;
-        const sunder_i_point d = small_vector(l, x, y);
+        const sunder_i_point d = {(int64_t)x, (int64_t)y};
         if (sunder_i_cross_sign(l, a, d) > 0 && sunder_i_cross_sign(l, d, b) > 0) return d;
     }
     return a;

@@ -1,17 +1,15 @@
 #include "decomposition/maker.h"
 
+#include "predicate/vector.h"
+
 #include <string.h>
 
 /* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the
  * stages below ask of rounded ones. */
 static double monotone(sunder_i_lattice *l, int64_t n, bool *rounded)
 {
-    if (l->narrow) {
-        if (n > (int64_t)1 << 53 || n < -((int64_t)1 << 53)) *rounded = true;
-        return (double)n;
-    }
-    *rounded = true;
-    return sunder_i_big_ratio(&l->arena, sunder_i_lattice_get(l, n), sunder_i_big_i64(&l->arena, 1), -l->approx_shift);
+    if (!sunder_i_is_plain(n) || n > (int64_t)1 << 53 || n < -((int64_t)1 << 53) || l->approx_shift) *rounded = true;
+    return sunder_i_approx(l, n);
 }
 
 bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sunder_shape *shape,
@@ -156,7 +154,7 @@ static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size
     return to;
 }
 
-/* A Steiner point in lowest terms. */
+/* A Steiner point, or a corner that is a crossing, in lowest terms. */
 static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, const sunder_i_big xyw[3])
 {
     const sunder_i_mark mark = sunder_i_arena_mark(scratch);
@@ -184,11 +182,13 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
         sunder_i_corner *c = &out->corner[i];
         const sunder_i_point at = m->rings.at[i];
-        c->x = m->lattice->narrow ? sunder_i_big_i64(arena, at.x)
-                                  : sunder_i_big_copy(arena, sunder_i_lattice_get(m->lattice, at.x));
-        c->y = m->lattice->narrow ? sunder_i_big_i64(arena, at.y)
-                                  : sunder_i_big_copy(arena, sunder_i_lattice_get(m->lattice, at.y));
-        c->w = (sunder_i_big){&one, 1};
+        if (sunder_i_point_is_plain(at)) {
+            *c = (sunder_i_corner){sunder_i_big_i64(arena, at.x), sunder_i_big_i64(arena, at.y), {&one, 1}, i};
+            continue;
+        }
+        const sunder_i_vector v = sunder_i_vector_get(&m->scratch, m->lattice, at);
+        const sunder_i_big xyw[3] = {v.x, v.y, v.w};
+        *c = reduced(arena, &m->scratch, xyw);
         c->vertex = i;
     }
     for (uint32_t i = 0; i < m->steiner_n && !arena->failed; i++)

@@ -29,9 +29,7 @@ void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
     sunder_i_cut *cut = sunder_i_arena_alloc(&m->scratch, 2 * (size_t)member->reflex, sizeof *cut);
     uint32_t n = 0;
     if (!cut || !sunder_i_sight_init(&sight, r, member, &m->scratch)) return;
-    const int64_t one = l->narrow ? 1 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 1));
-    const int64_t zero = l->narrow ? 0 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 0));
-    const sunder_i_point up = {zero, one}, down = sunder_i_point_neg(l, up);
+    const sunder_i_point up = {0, 1}, down = {0, -1};
     for (uint32_t v = member->first; v < member->first + member->n && !sunder_i_maker_failed(m); v++) {
         if (!sunder_i_is_reflex(r, v)) continue;
         for (int k = 0; k < 2; k++) {

@@ -41,11 +41,14 @@ static bool approximate(builder *b, box *all)
             const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
             const double x = narrow ? (double)from.x : sunder_i_approx(l, from.x);
             const double y = narrow ? (double)from.y : sunder_i_approx(l, from.y);
-            if (narrow)
-                b->side[k] = (approx_side){x, y, (double)(to.x - from.x), (double)(to.y - from.y)};
-            else
-                b->side[k] = (approx_side){x, y, sunder_i_approx(l, sunder_i_lattice_sub(l, to.x, from.x)),
-                                           sunder_i_approx(l, sunder_i_lattice_sub(l, to.y, from.y))};
+            double dx, dy;
+            if (narrow) {
+                dx = (double)(to.x - from.x);
+                dy = (double)(to.y - from.y);
+            } else {
+                sunder_i_point_difference(l, to, from, &dx, &dy);
+            }
+            b->side[k] = (approx_side){x, y, dx, dy};
             own.low[0] = least(own.low[0], x);
             own.high[0] = most_of(own.high[0], x);
             own.low[1] = least(own.low[1], y);

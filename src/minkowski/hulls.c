@@ -99,8 +99,11 @@ static bool assign(ranking *r, sunder_i_point *direction, uint32_t *classes)
     if (!sunder_i_sort_indices(r->order, r->n, compare_keys, r)) return false;
     uint32_t c = 0;
     for (size_t i = 0; i < r->n; i++) {
-        if (i == 0 || sunder_i_cross_sign(r->lattice, r->key[r->order[i - 1]], r->key[r->order[i]]) != 0)
-            direction[c++] = r->key[r->order[i]];
+        const sunder_i_point key = r->key[r->order[i]];
+        if (i == 0 || sunder_i_cross_sign(r->lattice, r->key[r->order[i - 1]], key) != 0)
+            direction[c++] = key;
+        else if (!sunder_i_point_is_plain(direction[c - 1]) && sunder_i_point_is_plain(key))
+            direction[c - 1] = key; /* any will do, and numbers stay short */
         r->rank[r->order[i]] = c - 1;
     }
     for (size_t i = 0; i < r->n; i++)

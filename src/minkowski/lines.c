@@ -1,14 +1,15 @@
 #include "minkowski/lines.h"
 
 #include "predicate/kernel.h"
-#include "predicate/wide_vector.h"
+#include "predicate/vector.h"
 
 #include <string.h>
 
 /* A line is its class and the cross product of the class's direction with any of its points: equal exactly for
  * points of one line. */
 typedef struct key {
-    sunder_i_i128 offset; /* the number itself, or on a wide lattice a handle */
+    sunder_i_i128 offset; /* the number itself, or a handle */
+    bool pooled;
     uint32_t class, hash;
 } key;
 
@@ -25,31 +26,63 @@ static uint64_t mix(uint64_t h, uint64_t v)
     return h ^ h >> 29;
 }
 
+static uint64_t mix_big(uint64_t h, sunder_i_big v)
+{
+    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) h = mix(h, v.limb[i]);
+    return h;
+}
+
+/* The offset of a corner with a denominator, in lowest terms; that of the direction is the same for all of a class. It
+ * is an integer where the line runs through lattice points, and then the same as theirs. */
+static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_point a, uint64_t hash, key *k)
+{
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector u = sunder_i_vector_get(m, l, a);
+    sunder_i_big num = sunder_i_vector_cross(m, sunder_i_vector_get(m, l, d), u), den = u.w;
+    if (!sunder_i_is_one(den)) {
+        const sunder_i_big g = sunder_i_big_gcd(m, num, den);
+        num = sunder_i_big_div_floor(m, num, g);
+        den = sunder_i_big_div_floor(m, den, g);
+    }
+    k->pooled = !sunder_i_is_one(den) || sunder_i_big_bits(num) > 126;
+    if (k->pooled) {
+        k->offset = sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, num), sunder_i_big_copy(&l->arena, den), 0);
+        hash = mix_big(mix_big(hash, num), den);
+    } else {
+        const uint64_t low = num.size ? num.limb[0] : 0, high = num.size > 1 || num.size < -1 ? num.limb[1] : 0;
+        k->offset = (sunder_i_i128)((sunder_i_u128)high << 64 | low);
+        if (num.size < 0) k->offset = -k->offset;
+        hash = mix(mix(hash, (uint64_t)k->offset), (uint64_t)(k->offset >> 64));
+    }
+    sunder_i_lattice_end(l, mark);
+    return hash;
+}
+
 static key make_key(const sunder_i_subsums *s, uint32_t side)
 {
     const uint32_t rank = s->rank[side];
-    key k = {0, rank < s->classes ? rank : rank - s->classes, 0};
+    key k = {0, false, rank < s->classes ? rank : rank - s->classes, 0};
     const sunder_i_point d = s->direction[k.class], a = s->corner[side];
     uint64_t hash = mix(0, k.class);
-    if (s->lattice->narrow) {
+    if (s->lattice->narrow || (sunder_i_point_is_plain(d) && sunder_i_point_is_plain(a))) {
         k.offset = sunder_i_narrow_cross(d, a);
         hash = mix(mix(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
-        k.hash = (uint32_t)(hash >> 32);
-        return k;
+    } else {
+        hash = pooled_offset(s->lattice, d, a, hash, &k);
     }
-    const sunder_i_big v =
-        sunder_i_wide_cross(s->lattice, sunder_i_wide_get(s->lattice, d), sunder_i_wide_get(s->lattice, a));
-    k.offset = sunder_i_lattice_big(s->lattice, v);
-    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) hash = mix(hash, v.limb[i]);
     k.hash = (uint32_t)(hash >> 32);
     return k;
 }
 
 static bool same_line(const sunder_i_subsums *s, const key *a, const key *b)
 {
-    if (a->hash != b->hash || a->class != b->class) return false;
-    if (s->lattice->narrow) return a->offset == b->offset;
-    return sunder_i_int_cmp(s->lattice, (int64_t)a->offset, (int64_t)b->offset) == 0;
+    if (a->hash != b->hash || a->class != b->class || a->pooled != b->pooled) return false;
+    if (!a->pooled) return a->offset == b->offset;
+    sunder_i_arena *m = &s->lattice->scratch; /* where nothing is made: these are no plain numbers */
+    const sunder_i_ratio p = sunder_i_lattice_read(m, s->lattice, (int64_t)a->offset);
+    const sunder_i_ratio q = sunder_i_lattice_read(m, s->lattice, (int64_t)b->offset);
+    return sunder_i_big_cmp(p.num, q.num) == 0 && sunder_i_big_cmp(p.den, q.den) == 0;
 }
 
 /* The number of the line of a side, made if it is new. */

@@ -146,15 +146,14 @@ sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex,
     sunder_i_arena arena = {0};
     sunder_i_i128 origin[2];
     const sunder_i_lattice *l = &sum->lattice;
-    const bool plain = l->narrow && l->exponent >= -900 && l->exponent <= 800 &&
-                       sunder_i_big_bits(l->denominator) == 1 && whole_origin(sum, 0, &origin[0]) &&
+    const bool plain = l->small && l->exponent >= -900 && l->exponent <= 800 && whole_origin(sum, 0, &origin[0]) &&
                        whole_origin(sum, 1, &origin[1]);
     const double unit = plain ? ldexp(1, (int)l->exponent) : 0;
     double most = 0;
     for (size_t i = 0; i < n; i++) {
         const sunder_i_hpoint *p = &sum->vertex[vertex[i]];
         double *at = xy + 2 * i, off[2];
-        if (!plain || !plain_vertex(p, origin, unit, at, off)) big_vertex(&arena, sum, p, at, off);
+        if (!plain || p->w == 0 || !plain_vertex(p, origin, unit, at, off)) big_vertex(&arena, sum, p, at, off);
         const double here = off[0] == 0 ? off[1] : off[1] == 0 ? off[0] : nextafter(hypot(off[0], off[1]), INFINITY);
         if (!(here <= most)) most = here;
     }

@@ -106,8 +106,11 @@ static bool rank_directions(sunder_i_subsums *out, operand *p, operand *q)
     uint32_t classes = 0;
     if (ok) {
         for (size_t i = 0; i < n; i++) {
-            if (i == 0 || sunder_i_cross_sign(l, key[order[i - 1]], key[order[i]]) != 0)
-                out->direction[classes++] = key[order[i]];
+            const sunder_i_point d = key[order[i]];
+            if (i == 0 || sunder_i_cross_sign(l, key[order[i - 1]], d) != 0)
+                out->direction[classes++] = d;
+            else if (!sunder_i_point_is_plain(out->direction[classes - 1]) && sunder_i_point_is_plain(d))
+                out->direction[classes - 1] = d; /* any will do, and numbers stay short */
             rank[order[i]] = classes - 1;
         }
         out->classes = classes;

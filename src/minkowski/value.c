@@ -7,7 +7,6 @@ long sunder_i_sum_coordinate(sunder_i_arena *arena, const sunder_sum *sum, int a
                              sunder_i_big *num, sunder_i_big *den)
 {
     const sunder_i_lattice *l = &sum->lattice;
-    d = sunder_i_big_mul(arena, d, l->denominator);
     /* n * 2^e / d + both origins, over one power of two. */
     long e = l->exponent;
     for (int operand = 0; operand < 2; operand++) {
@@ -57,11 +56,7 @@ sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, c
 /* x, y, w of a vertex. */
 static void vertex_xyw(sunder_i_arena *arena, const sunder_sum *sum, uint32_t vertex, sunder_i_big xyw[3])
 {
-    const sunder_i_lattice *l = &sum->lattice;
-    const sunder_i_hpoint *p = &sum->vertex[vertex];
-    xyw[0] = l->narrow ? sunder_i_big_i256(arena, p->x) : l->pool[p->x.limb[0]];
-    xyw[1] = l->narrow ? sunder_i_big_i256(arena, p->y) : l->pool[p->y.limb[0]];
-    xyw[2] = l->narrow ? sunder_i_big_i128(arena, p->w) : l->pool[(int64_t)p->w];
+    sunder_i_hpoint_read(arena, &sum->lattice, &sum->vertex[vertex], xyw);
 }
 
 void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2])
@@ -183,9 +178,7 @@ sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_er
     const ratio twice = area_twice(&arena, sum);
     char *text = NULL;
     if (!arena.failed) {
-        const sunder_i_big d = sum->lattice.denominator;
-        const sunder_i_big den = sunder_i_big_mul(&arena, twice.den, sunder_i_big_mul(&arena, d, d));
-        text = sunder_i_big_ratio_text(&arena, twice.num, den, 2 * sum->lattice.exponent - 1);
+        text = sunder_i_big_ratio_text(&arena, twice.num, twice.den, 2 * sum->lattice.exponent - 1);
     }
     sunder_i_arena_free(&arena);
     if (!text) return sunder_i_no_memory(err);

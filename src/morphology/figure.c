@@ -1,6 +1,8 @@
 /* Shapes and sums as figures, and shapes as probes: the same numbers, taken off their lattice. */
 #include "morphology/morphology.h"
 
+#include "predicate/vector.h"
+
 void sunder_i_figure_free(sunder_i_figure *figure)
 {
     sunder_i_arena_free(&figure->arena);
@@ -17,9 +19,14 @@ static bool make_room(sunder_i_figure *f, size_t corners, size_t sides, size_t r
     return !f->arena.failed;
 }
 
-static sunder_i_big lattice_number(sunder_i_arena *arena, sunder_i_lattice *lattice, int64_t n)
+/* A lattice point, in the arena of the figure. */
+static void read_point(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point at, sunder_i_xyw out)
 {
-    return sunder_i_big_copy(arena, sunder_i_lattice_get(lattice, n));
+    if (lattice->arena.failed) return;
+    const sunder_i_vector v = sunder_i_vector_get(arena, lattice, at);
+    out[0] = sunder_i_big_copy(arena, v.x);
+    out[1] = sunder_i_big_copy(arena, v.y);
+    out[2] = sunder_i_big_copy(arena, v.w);
 }
 
 bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
@@ -27,12 +34,9 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
 {
     sunder_i_figure f = {0};
     if (make_room(&f, shape->vertices, shape->vertices, shape->rings)) {
-        const sunder_i_big one = sunder_i_big_i64(&f.arena, 1);
         for (uint32_t v = 0; v < shape->vertices; v++) {
             f.ring[v] = v;
-            f.at[v][0] = lattice_number(&f.arena, lattice, at[v].x);
-            f.at[v][1] = lattice_number(&f.arena, lattice, at[v].y);
-            f.at[v][2] = one;
+            read_point(&f.arena, lattice, at[v], f.at[v]);
         }
         for (uint32_t r = 0; r < shape->rings; r++) f.ring_end[r] = shape->ring_end[r];
     }
@@ -92,11 +96,15 @@ void sunder_i_probe_free(sunder_i_probe *probe)
 /* The middle of the triangle of its first three corners, which are not collinear: a point inside the piece. */
 static void find_inner(sunder_i_probe *p, size_t first, sunder_i_xyw inner)
 {
-    sunder_i_arena *arena = &p->arena;
-    for (int k = 0; k < 2; k++)
-        inner[k] = sunder_i_big_add(arena, p->corner[first][k],
-                                    sunder_i_big_add(arena, p->corner[first + 1][k], p->corner[first + 2][k]));
-    inner[2] = sunder_i_big_i64(arena, 3);
+    sunder_i_arena *m = &p->arena;
+    sunder_i_xyw *c = p->corner + first;
+    sunder_i_big w[3]; /* of the other two */
+    for (int i = 0; i < 3; i++) w[i] = sunder_i_times(m, c[(i + 1) % 3][2], c[(i + 2) % 3][2]);
+    for (int k = 0; k < 2; k++) {
+        inner[k] = sunder_i_times(m, c[0][k], w[0]);
+        for (int i = 1; i < 3; i++) inner[k] = sunder_i_big_add(m, inner[k], sunder_i_times(m, c[i][k], w[i]));
+    }
+    inner[2] = sunder_i_big_mul(m, sunder_i_big_i64(m, 3), sunder_i_times(m, c[0][2], w[0]));
 }
 
 bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
@@ -110,18 +118,18 @@ bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shap
     p.side = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.side);
     p.inner = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.inner);
     for (size_t i = 0; i < corners && !arena->failed; i++) {
-        const sunder_i_point here = at[shape->piece_vertex[i]];
-        const int64_t xy[2] = {here.x, here.y};
-        for (int k = 0; k < 2; k++) {
-            const sunder_i_big n = lattice_number(arena, lattice, xy[k]);
-            p.corner[i][k] = reflected ? sunder_i_big_neg(n) : n; /* a half turn: still counter-clockwise */
-        }
+        read_point(arena, lattice, at[shape->piece_vertex[i]], p.corner[i]);
+        for (int k = 0; k < 2 && reflected; k++) /* a half turn: still counter-clockwise */
+            p.corner[i][k] = sunder_i_big_neg(p.corner[i][k]);
     }
     for (uint32_t j = 0; j < p.pieces && !arena->failed; j++) {
         const size_t first = j ? p.end[j - 1] : 0, end = p.end[j] = shape->piece_end[j];
-        for (size_t i = first; i < end; i++)
+        for (size_t i = first; i < end; i++) {
+            const sunder_i_big *a = p.corner[i], *b = p.corner[i + 1 < end ? i + 1 : first];
             for (int k = 0; k < 2; k++)
-                p.side[i][k] = sunder_i_big_sub(arena, p.corner[i + 1 < end ? i + 1 : first][k], p.corner[i][k]);
+                p.side[i][k] = sunder_i_big_sub(arena, sunder_i_times(arena, b[k], a[2]),
+                                                sunder_i_times(arena, a[k], b[2]));
+        }
         find_inner(&p, first, p.inner[j]);
     }
     const bool ok = !arena->failed && !lattice->arena.failed;

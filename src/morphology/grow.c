@@ -27,6 +27,7 @@
 #include "minkowski/minkowski.h"
 #include "morphology/morphology.h"
 #include "number/random.h"
+#include "predicate/vector.h"
 #include "unions/unions.h"
 
 typedef struct growth {
@@ -136,10 +137,11 @@ static bool is_far(sunder_i_arena *arena, const sunder_i_big u[2], const sunder_
     return sunder_i_big_sign(minor(arena, u[0], side[0], u[1], sunder_i_big_neg(side[1]))) > 0;
 }
 
-static void put_corner(sunder_i_arena *arena, const sunder_i_xyw at, const sunder_i_big c[2], sunder_i_xyw out)
+static void put_corner(sunder_i_arena *arena, const sunder_i_xyw at, const sunder_i_xyw c, sunder_i_xyw out)
 {
-    for (int k = 0; k < 2; k++) out[k] = sunder_i_big_add(arena, at[k], sunder_i_big_mul(arena, at[2], c[k]));
-    out[2] = at[2];
+    for (int k = 0; k < 2; k++)
+        out[k] = sunder_i_big_add(arena, sunder_i_times(arena, at[k], c[2]), sunder_i_big_mul(arena, at[2], c[k]));
+    out[2] = sunder_i_times(arena, at[2], c[2]);
 }
 
 /* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A

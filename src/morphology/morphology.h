@@ -35,13 +35,13 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
 bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bool regular, sunder_i_figure *out);
 void sunder_i_figure_free(sunder_i_figure *figure);
 
-/* What a figure is summed with: convex pieces with lattice corners, counter-clockwise, and a point inside each. */
+/* What a figure is summed with: convex pieces, counter-clockwise, and a point inside each. */
 typedef struct sunder_i_probe {
     sunder_i_arena arena;
     uint32_t pieces;
     size_t *end; /* [pieces] index past the last corner of each */
-    sunder_i_big (*corner)[2];
-    sunder_i_big (*side)[2]; /* from each corner to the next of its piece */
+    sunder_i_xyw *corner;
+    sunder_i_big (*side)[2]; /* from each corner to the next of its piece, times something positive */
     sunder_i_xyw *inner;     /* [pieces] */
 } sunder_i_probe;
 
@@ -61,9 +61,9 @@ sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_prob
 
 /* ---- stages.c: P and B on one lattice ---- */
 
-/* Units and origins as sunder_minkowski_sum() has them; wide always: corners of later stages fit no narrow lattice. */
+/* Units and origins as sunder_minkowski_sum() has them; never narrow: corners of later stages have denominators. */
 typedef struct sunder_i_seat {
-    sunder_i_lattice lattice; /* empty, to be copied; owns its denominator */
+    sunder_i_lattice lattice; /* empty, to be copied */
     double origin_p[2], origin_q[2];
     sunder_i_probe probe, reflected; /* B and -B */
     sunder_i_figure figure;          /* P, if it has one member only; else empty */

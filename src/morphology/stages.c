@@ -3,12 +3,10 @@
 
 #include <string.h>
 
-/* The denominator in memory of the lattice's own, and nothing else: placing left all corners of P in its pool. */
-static bool keep_units(sunder_i_lattice *from, sunder_i_lattice *to)
+/* The unit and nothing else: placing left all corners of P in the pool. */
+static sunder_i_lattice empty_like(const sunder_i_lattice *from)
 {
-    *to = (sunder_i_lattice){.exponent = from->exponent, .scale = from->scale, .approx_shift = from->approx_shift};
-    to->denominator = sunder_i_big_copy(&to->arena, from->denominator);
-    return !to->arena.failed;
+    return (sunder_i_lattice){.exponent = from->exponent, .scale = from->scale, .approx_shift = from->approx_shift};
 }
 
 static bool fill(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *placed, sunder_i_seat *seat)
@@ -16,7 +14,8 @@ static bool fill(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *
     memcpy(seat->origin_p, placed->origin_p, sizeof seat->origin_p);
     memcpy(seat->origin_q, placed->origin_q, sizeof seat->origin_q);
     sunder_i_lattice *l = &placed->lattice;
-    return keep_units(l, &seat->lattice) && sunder_i_probe_of_shape(l, b, placed->q, false, &seat->probe) &&
+    seat->lattice = empty_like(l);
+    return sunder_i_probe_of_shape(l, b, placed->q, false, &seat->probe) &&
            sunder_i_probe_of_shape(l, b, placed->q, true, &seat->reflected) &&
            (p->polygons > 1 || sunder_i_figure_of_shape(l, p, placed->p, &seat->figure));
 }
@@ -46,9 +45,7 @@ sunder_sum *sunder_i_seat_sum(const sunder_i_seat *seat, int moved)
 {
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return NULL;
-    const sunder_i_lattice *l = &seat->lattice;
-    sum->lattice = (sunder_i_lattice){.exponent = l->exponent, .scale = l->scale, .approx_shift = l->approx_shift};
-    sum->lattice.denominator = sunder_i_big_copy(&sum->lattice.arena, l->denominator);
+    sum->lattice = empty_like(&seat->lattice);
     sum->method.algorithm = SUNDER_INCREMENTAL;
     for (int k = 0; k < 2; k++) {
         sum->origin[0][k] = seat->origin_p[k];

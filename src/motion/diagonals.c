@@ -2,6 +2,7 @@
 
 #include "number/sort.h"
 #include "predicate/predicate.h"
+#include "predicate/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,15 +61,12 @@ static unsigned bits_of(const double *xy, const uint32_t corner[4])
     return (unsigned)(most - least) + 6;
 }
 
-/* Nearest doubles do not tell how near rational corners are: they differ by a lattice unit at least. */
-static unsigned bits_of_rational(const sunder_shape *shape)
+/* Is one of the corners no pair of doubles? */
+static bool has_exact(const sunder_shape *shape, const uint32_t corner[4])
 {
-    unsigned long most = 0;
-    for (size_t i = 0; i < 2 * (size_t)shape->vertices; i++) {
-        const unsigned long bits = sunder_i_big_bits(shape->num[i]);
-        if (bits > most) most = bits;
-    }
-    return (unsigned)most + 6;
+    bool any = false;
+    for (int i = 0; i < 4 && shape->rational; i++) any = any || shape->exact[corner[i]].den.size;
+    return any;
 }
 
 bool sunder_i_diagonals_find(const sunder_shape *shape, sunder_i_diagonals *out)
@@ -86,10 +84,9 @@ bool sunder_i_diagonals_find(const sunder_shape *shape, sunder_i_diagonals *out)
         const side *left = &sides[order[i]], *right = &sides[order[i + 1]];
         const uint32_t corner[4] = {left->u, right->w, left->v, left->w};
         memcpy(out->corner[out->n++], corner, sizeof corner);
-        const unsigned bits = shape->rational ? 0 : bits_of(shape->xy, corner);
+        const unsigned bits = has_exact(shape, corner) ? 0 : bits_of(shape->xy, corner);
         if (bits > out->bits) out->bits = bits;
     }
-    if (shape->rational && out->n) out->bits = bits_of_rational(shape);
     sunder_i_free(sides);
     sunder_i_free(order);
     if (!ok) sunder_i_diagonals_free(out);
@@ -104,15 +101,25 @@ void sunder_i_diagonals_free(sunder_i_diagonals *diagonals)
 
 /* ---- The quadrilaterals ---- */
 
-/* u + uv / 2 + (w - m) / 2^j for one coordinate; w - m = (2 uw - uv) / 2. */
-static int64_t towards(sunder_i_lattice *l, int64_t u, int64_t v, int64_t w, unsigned j)
+/* u + uv / 2 + (w - m) / 2^j, where w - m = (2 uw - uv) / 2: (u + v) / 2 + (2 w - u - v) / 2^(j + 1). On the lattice
+ * where its unit is fine enough. */
+static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, sunder_i_point w, unsigned j)
 {
-    sunder_i_arena *m = &l->arena;
-    const sunder_i_big from = sunder_i_lattice_get(l, u);
-    const sunder_i_big uv = sunder_i_big_sub(m, sunder_i_lattice_get(l, v), from);
-    const sunder_i_big uw = sunder_i_big_sub(m, sunder_i_lattice_get(l, w), from);
-    const sunder_i_big off = sunder_i_big_shr(m, sunder_i_big_sub(m, sunder_i_big_shl(m, uw, 1), uv), j + 1);
-    return sunder_i_lattice_big(l, sunder_i_big_add(m, sunder_i_big_add(m, from, sunder_i_big_shr(m, uv, 1)), off));
+    if (l->arena.failed) return u;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector a = sunder_i_vector_get(m, l, u);
+    const sunder_i_vector uv = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, v), a);
+    const sunder_i_vector uw = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, w), a);
+    /* From u: (uv (2^j - 1) + 2 uw) / 2^(j + 1), over the denominators of both. */
+    const sunder_i_big part = sunder_i_big_sub(m, sunder_i_big_shl(m, uw.w, j), uw.w), twice = sunder_i_big_shl(m, uv.w, 1);
+    const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, uv.x, part), sunder_i_big_mul(m, uw.x, twice));
+    const sunder_i_big y = sunder_i_big_add(m, sunder_i_big_mul(m, uv.y, part), sunder_i_big_mul(m, uw.y, twice));
+    const sunder_i_big den = sunder_i_big_shl(m, sunder_i_big_mul(m, uv.w, uw.w), j + 1);
+    const sunder_i_vector from_u = {sunder_i_big_neg(x), sunder_i_big_neg(y), den};
+    const sunder_i_point at = sunder_i_vector_put(l, sunder_i_vector_sub(m, a, from_u));
+    sunder_i_lattice_end(l, mark);
+    return at;
 }
 
 /* Is the quadrilateral strictly convex where the diagonal ends? Elsewhere it is: its other corners are beside it. */
@@ -128,11 +135,9 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
         const uint32_t *corner = diagonals->corner[i];
         const sunder_i_point u = at[corner[0]], v = at[corner[2]];
         sunder_i_point quad[4] = {u, u, v, u};
-        for (unsigned j = 1; j < diagonals->bits && !l->arena.failed; j++) {
-            for (int k = 1; k < 4; k += 2) {
-                const sunder_i_point w = at[corner[k]];
-                quad[k] = (sunder_i_point){towards(l, u.x, v.x, w.x, j), towards(l, u.y, v.y, w.y, j)};
-            }
+        /* Near enough to the diagonal it always is. */
+        for (unsigned j = 1; !l->arena.failed; j++) {
+            for (int k = 1; k < 4; k += 2) quad[k] = towards(l, u, v, at[corner[k]], j);
             if (is_convex(l, quad)) break;
         }
         for (int k = 0; k < 4; k++) sunder_i_hulls_add_corner(list, quad[k], false);

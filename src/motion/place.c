@@ -1,5 +1,7 @@
 #include "motion/place.h"
 
+#include "predicate/vector.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -46,7 +48,6 @@ static void on_lattice(const sunder_sum *sum, sunder_i_arena *arena, int axis, s
         }
         *num = sunder_i_big_sub(arena, *num, part);
     }
-    *num = sunder_i_big_mul(arena, *num, l->denominator);
     if (l->exponent < 0)
         *num = two_to(arena, *num, -l->exponent);
     else
@@ -161,9 +162,10 @@ int sunder_i_place_orient(const sunder_i_ground *g, const sunder_i_place_at *a, 
 
 static void corner_big(const sunder_i_ground *g, sunder_i_point p, sunder_i_big out[3])
 {
-    out[0] = sunder_i_lattice_get(g->lattice, p.x);
-    out[1] = sunder_i_lattice_get(g->lattice, p.y);
-    out[2] = sunder_i_big_i64(&g->lattice->arena, 1);
+    const sunder_i_vector v = sunder_i_vector_get(&g->lattice->arena, g->lattice, p);
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.w;
 }
 
 int sunder_i_side_of(const sunder_i_ground *g, sunder_i_near a, sunder_i_near b, const sunder_i_place_at *c)

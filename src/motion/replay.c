@@ -5,18 +5,19 @@
  * leg is free of the part when no t is left. */
 #include "motion/space.h"
 
+#include "predicate/vector.h"
+
 #include <math.h>
 
-/* cross(b - a, c - a) times the positive w of c. */
+/* cross(b - a, c - a) times the positive w of c and a positive number of the side's own. */
 static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c)
 {
     sunder_i_arena *m = &l->arena;
-    const sunder_i_big ax = sunder_i_lattice_get(l, a.x), ay = sunder_i_lattice_get(l, a.y);
-    const sunder_i_big ux = sunder_i_big_sub(m, sunder_i_lattice_get(l, b.x), ax);
-    const sunder_i_big uy = sunder_i_big_sub(m, sunder_i_lattice_get(l, b.y), ay);
-    const sunder_i_big vx = sunder_i_big_sub(m, c->x, sunder_i_big_mul(m, ax, c->w));
-    const sunder_i_big vy = sunder_i_big_sub(m, c->y, sunder_i_big_mul(m, ay, c->w));
-    return sunder_i_big_sub(m, sunder_i_big_mul(m, ux, vy), sunder_i_big_mul(m, uy, vx));
+    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
+    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
+    const sunder_i_big vx = sunder_i_big_sub(m, sunder_i_times(m, c->x, o.w), sunder_i_big_mul(m, o.x, c->w));
+    const sunder_i_big vy = sunder_i_big_sub(m, sunder_i_times(m, c->y, o.w), sunder_i_big_mul(m, o.y, c->w));
+    return sunder_i_big_sub(m, sunder_i_big_mul(m, u.x, vy), sunder_i_big_mul(m, u.y, vx));
 }
 
 typedef struct bound {

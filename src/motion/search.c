@@ -400,7 +400,8 @@ double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at
         sum =
             sunder_i_big_add(&arena, sum, sunder_i_place_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
     const double length =
-        arena.failed ? (double)NAN : sunder_i_big_ratio(&arena, sum, l->denominator, l->exponent - (long)bits);
+        arena.failed ? (double)NAN
+                     : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1), l->exponent - (long)bits);
     sunder_i_arena_free(&arena);
     return length;
 }

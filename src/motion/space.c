@@ -61,17 +61,7 @@ static bool clamp(sunder_i_extent *e)
     return inside;
 }
 
-static void join_denominator(sunder_i_lattice *l, const sunder_shape *shape, long *exponent)
-{
-    if (!shape || !shape->rational) return;
-    sunder_i_arena *m = &l->arena;
-    const sunder_i_big g = sunder_i_big_gcd(m, l->denominator, shape->den);
-    if (m->failed) return;
-    l->denominator = sunder_i_big_mul(m, sunder_i_big_div_floor(m, l->denominator, g), shape->den);
-    if (shape->exponent < *exponent) *exponent = shape->exponent;
-}
-
-/* Doubles taken exactly; shapes that were repaired are rational, and then the lattice has a denominator. */
+/* Doubles taken exactly; corners of repaired shapes may have denominators. */
 static void choose_lattice(maker *m)
 {
     sunder_i_extent extent[3] = {{0}, {0}, {0}};
@@ -94,17 +84,8 @@ static void choose_lattice(maker *m)
     const bool inside = clamp(&extent[1]);
     double origin[3][2];
     sunder_i_lattice *l = m->lattice;
-    sunder_i_lattice_init(l, extent, 3, inside && !rational, origin, !inside || rational);
-    if (rational) {
-        long exponent = LONG_MAX;
-        for (int i = 0; i < 3; i++)
-            if (extent[i].any && extent[i].low_bit < exponent) exponent = extent[i].low_bit;
-        for (size_t i = 0; i < m->n; i++) join_denominator(l, m->obstacle[i].shape, &exponent);
-        join_denominator(l, m->robot, &exponent);
-        if (m->robot->rational && m->robot->exponent - (long)m->diagonals.bits < exponent)
-            exponent = m->robot->exponent - (long)m->diagonals.bits;
-        l->exponent = exponent;
-    }
+    sunder_i_lattice_init(l, extent, 3, inside, origin, !inside);
+    if (rational) sunder_i_lattice_admit_ratios(l);
     memcpy(m->out->sum->origin[0], origin[0], sizeof origin[0]);
     for (int k = 0; k < 2; k++) m->out->sum->origin[1][k] = origin[1][k] == 0 ? 0 : -origin[1][k];
 }
@@ -116,15 +97,8 @@ static sunder_i_point put_double(sunder_i_lattice *l, const double xy[2], const 
 
 static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape, uint32_t v, const double origin[2])
 {
-    if (!shape->rational) return put_double(l, shape->xy + 2 * (size_t)v, origin);
-    sunder_i_arena *m = &l->arena;
-    if (m->failed) return (sunder_i_point){0, 0};
-    const sunder_i_big factor = sunder_i_big_shl(m, sunder_i_big_div_floor(m, l->denominator, shape->den),
-                                                 (unsigned long)(shape->exponent - l->exponent));
-    int64_t at[2];
-    for (size_t k = 0; k < 2; k++)
-        at[k] = sunder_i_lattice_big(l, sunder_i_big_mul(m, shape->num[2 * (size_t)v + k], factor));
-    return (sunder_i_point){at[0], at[1]};
+    if (shape->rational && shape->exact[v].den.size) return sunder_i_place_exact(l, &shape->exact[v], NULL, origin);
+    return put_double(l, shape->xy + 2 * (size_t)v, origin);
 }
 
 /* ---- Pieces ---- */
@@ -227,21 +201,11 @@ static bool make_parts(maker *m, sunder_i_point **direction, uint32_t *classes)
     return sunder_i_hulls_sum(m->lattice, &m->obstacles, &m->robots, &m->out->part);
 }
 
-/* Doubles that stand for corners, and bounds for all that stand for places; on a wide lattice they are scaled so that
- * they stay finite. False if memory is out. */
+/* Doubles that stand for corners, and bounds for all that stand for places. False if memory is out. */
 static bool measure(maker *m)
 {
     sunder_i_lattice *l = m->lattice;
     const sunder_i_hulls *part = &m->out->part;
-    if (!l->narrow) {
-        unsigned long most = 0;
-        for (uint32_t i = 0; i < part->corners; i++) {
-            const unsigned long x = sunder_i_big_bits(sunder_i_lattice_get(l, part->corner[i].x));
-            const unsigned long y = sunder_i_big_bits(sunder_i_lattice_get(l, part->corner[i].y));
-            most = x > most ? x : y > most ? y : most;
-        }
-        l->approx_shift = most > 500 ? (int)(most - 500) : 0;
-    }
     double most = 1;
     m->out->corner = sunder_i_alloc(part->corners, sizeof *m->out->corner);
     if (!m->out->corner) return false;

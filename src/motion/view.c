@@ -36,17 +36,23 @@ static void take_corners(sunder_i_view *view, const sunder_i_big origin[2])
 {
     const sunder_i_hulls *part = &view->space->part;
     sunder_i_lattice *l = view->space->ground.lattice;
-    const sunder_i_big one = sunder_i_big_i64(&l->arena, 1);
     int64_t o[2];
-    /* Native where that cannot overflow: coordinates of a narrow lattice are below 2^60. */
-    const bool native = l->narrow && sunder_i_big_fits_i64(origin[0], &o[0]) &&
+    /* Native where that cannot overflow: plain coordinates are below 2^61. */
+    const bool native = l->approx_shift == 0 && sunder_i_big_fits_i64(origin[0], &o[0]) &&
                         sunder_i_big_fits_i64(origin[1], &o[1]) && sunder_i_big_bits(origin[0]) < 62 &&
                         sunder_i_big_bits(origin[1]) < 62;
     for (uint32_t i = 0; i < part->corners; i++) {
         const int64_t at[2] = {part->corner[i].x, part->corner[i].y};
-        for (int k = 0; k < 2; k++)
-            view->corner[i][k] =
-                native ? (double)(at[k] - o[k]) : from_origin(l, sunder_i_lattice_get(l, at[k]), one, origin[k]);
+        for (int k = 0; k < 2; k++) {
+            if (native && sunder_i_is_plain(at[k])) {
+                view->corner[i][k] = (double)(at[k] - o[k]);
+                continue;
+            }
+            const sunder_i_mark mark = sunder_i_lattice_begin(l);
+            const sunder_i_ratio n = sunder_i_lattice_read(&l->scratch, l, at[k]);
+            view->corner[i][k] = from_origin(l, n.num, n.den, origin[k]);
+            sunder_i_lattice_end(l, mark);
+        }
     }
 }
 

@@ -192,6 +192,10 @@ sunder_i_big sunder_i_big_shr(sunder_i_arena *arena, sunder_i_big a, unsigned lo
 sunder_i_big sunder_i_big_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
 {
     const mp_size_t m = limbs(a), n = limbs(b);
+    if (n == 0) { /* left of a product that failed, here or in another arena */
+        *remainder = zero;
+        return zero;
+    }
     if (cmp_magnitude(a, b) < 0) {
         *remainder = (sunder_i_big){a.limb, m};
         return zero;

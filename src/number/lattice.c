@@ -67,8 +67,6 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
                            double (*origins)[2], bool force_wide)
 {
     memset(lattice, 0, sizeof *lattice);
-    static const mp_limb_t one = 1;
-    lattice->denominator = (sunder_i_big){&one, 1};
     int bit = INT_MAX;
     for (size_t i = 0; i < n; i++)
         if (extents[i].any && extents[i].low_bit < bit) bit = extents[i].low_bit;
@@ -88,31 +86,73 @@ void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *ext
         }
     }
     /* One bit for the sum of two operands. */
-    lattice->narrow = !force_wide && most + 1 <= SUNDER_I_NARROW_BITS;
-    lattice->approx_shift = lattice->narrow || most <= 500 ? 0 : most - 500;
+    lattice->small = most + 1 <= SUNDER_I_NARROW_BITS;
+    lattice->pooled = force_wide;
+    lattice->narrow = lattice->small && !force_wide;
+    lattice->approx_shift = most <= 500 ? 0 : most - 500;
 }
+
+void sunder_i_lattice_admit_ratios(sunder_i_lattice *lattice) { lattice->narrow = false; }
 
 void sunder_i_lattice_free(sunder_i_lattice *lattice)
 {
     sunder_i_arena_free(&lattice->arena);
+    sunder_i_arena_free(&lattice->scratch);
     sunder_i_free(lattice->pool);
     lattice->pool = NULL;
     lattice->pool_n = lattice->pool_capacity = 0;
 }
 
-int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v)
+sunder_i_mark sunder_i_lattice_begin(sunder_i_lattice *lattice)
 {
-    if (lattice->narrow) {
-        int64_t n = 0;
-        sunder_i_big_fits_i64(v, &n);
-        return n;
-    }
+    /* Something stays in the first chunk, so that it is not given back again and again. */
+    if (!lattice->scratch.chunk) sunder_i_arena_alloc(&lattice->scratch, 1, 1);
+    return sunder_i_arena_mark(&lattice->scratch);
+}
+
+void sunder_i_lattice_end(sunder_i_lattice *lattice, sunder_i_mark mark)
+{
+    if (lattice->scratch.failed) lattice->arena.failed = true;
+    sunder_i_arena_release(&lattice->scratch, mark);
+}
+
+static const mp_limb_t one_limb = 1;
+static const sunder_i_big one = {&one_limb, 1};
+
+/* The nearest double of num / den in the units of sunder_i_approx(). */
+static double value_of(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den)
+{
+    const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
+    const double value = sunder_i_big_ratio(&lattice->scratch, num, den, -lattice->approx_shift);
+    sunder_i_lattice_end(lattice, mark);
+    return value;
+}
+
+int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den, double value)
+{
+    if (lattice->arena.failed) return 0;
     if (!sunder_i_reserve(&lattice->pool, &lattice->pool_capacity, lattice->pool_n + 1, sizeof *lattice->pool)) {
         lattice->arena.failed = true;
         return 0;
     }
-    lattice->pool[lattice->pool_n] = v;
-    return (int64_t)lattice->pool_n++;
+    lattice->pool[lattice->pool_n] = (sunder_i_ratio){num, den, value};
+    return INT64_MIN + (int64_t)lattice->pool_n++;
+}
+
+int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v)
+{
+    int64_t n = 0;
+    if (!lattice->pooled && sunder_i_big_bits(v) <= SUNDER_I_PLAIN_BITS) {
+        sunder_i_big_fits_i64(v, &n);
+        return n;
+    }
+    return sunder_i_lattice_pool(lattice, v, one, value_of(lattice, v, one));
+}
+
+int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den)
+{
+    if (sunder_i_big_bits(den) == 1) return sunder_i_lattice_big(lattice, num);
+    return sunder_i_lattice_pool(lattice, num, den, value_of(lattice, num, den));
 }
 
 /* v / 2^unit, v a multiple of 2^unit; false if that needs more than 123 bits. */
@@ -142,51 +182,28 @@ static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
 
 int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o)
 {
-    if (lattice->narrow) return narrow_int(lattice, v, o);
+    if (lattice->small && !lattice->pooled) return narrow_int(lattice, v, o);
     sunder_i_arena *arena = &lattice->arena;
     int e, f;
     sunder_i_big a = sunder_i_big_double(arena, v, &e), b = sunder_i_big_double(arena, o, &f);
     if (a.size) a = sunder_i_big_shl(arena, a, (unsigned long)(e - lattice->exponent));
     if (b.size) b = sunder_i_big_shl(arena, b, (unsigned long)(f - lattice->exponent));
-    return sunder_i_lattice_big(lattice, sunder_i_big_mul(arena, sunder_i_big_sub(arena, a, b), lattice->denominator));
+    return sunder_i_lattice_big(lattice, sunder_i_big_sub(arena, a, b));
+}
+
+sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, int64_t n)
+{
+    if (sunder_i_is_plain(n)) return (sunder_i_ratio){sunder_i_big_i64(arena, n), one, 0};
+    return lattice->pool[n - INT64_MIN];
 }
 
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n)
 {
-    if (lattice->narrow) return sunder_i_big_i64(&lattice->arena, n);
-    if (lattice->arena.failed) return (sunder_i_big){NULL, 0};
-    return lattice->pool[n];
-}
-
-int64_t sunder_i_lattice_add(sunder_i_lattice *lattice, int64_t a, int64_t b)
-{
-    if (lattice->narrow) return a + b;
-    return sunder_i_lattice_big(lattice, sunder_i_big_add(&lattice->arena, sunder_i_lattice_get(lattice, a),
-                                                          sunder_i_lattice_get(lattice, b)));
-}
-
-int64_t sunder_i_lattice_sub(sunder_i_lattice *lattice, int64_t a, int64_t b)
-{
-    if (lattice->narrow) return a - b;
-    return sunder_i_lattice_big(lattice, sunder_i_big_sub(&lattice->arena, sunder_i_lattice_get(lattice, a),
-                                                          sunder_i_lattice_get(lattice, b)));
-}
-
-int64_t sunder_i_lattice_neg(sunder_i_lattice *lattice, int64_t a)
-{
-    if (lattice->narrow) return -a;
-    return sunder_i_lattice_big(lattice, sunder_i_big_neg(sunder_i_lattice_get(lattice, a)));
+    return sunder_i_lattice_read(&lattice->arena, lattice, n).num;
 }
 
 double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n)
 {
-    if (lattice->narrow) return (double)n;
-    if (lattice->arena.failed) return 0;
-    const sunder_i_big a = lattice->pool[n];
-    if (a.size == 0) return 0;
-    const long top = a.size < 0 ? -a.size : a.size;
-    double v = 0;
-    for (long i = top - 1; i >= 0 && i >= top - 3; i--)
-        v += ldexp((double)a.limb[i], (int)(64 * i - lattice->approx_shift));
-    return a.size < 0 ? -v : v;
+    if (!sunder_i_is_plain(n)) return lattice->pool[n - INT64_MIN].value;
+    return lattice->approx_shift ? ldexp((double)n, -lattice->approx_shift) : (double)n;
 }

@@ -1,17 +1,22 @@
-/* The lattice: all coordinates of one problem as integers, without loss.
+/* The lattice: all coordinates of one problem, without loss.
  *
- * Finite doubles are dyadic rationals, so the coordinates of a problem are integer multiples of one power of two
- * (repaired shapes add one odd common denominator). Taken from an origin near the features, map coordinates fit in 60
- * bits almost always: that is a *narrow* lattice, on which every predicate runs in native and fixed-width integers.
- * Else the lattice is *wide* and the same predicates run on big integers. Code above this folder does not see the
- * difference: it holds points as sunder_i_point and asks the functions of predicate/ about them. On a wide lattice the
- * two fields of a point are handles, so no code outside number/ and predicate/ may do arithmetic on them; equality of
- * handles means nothing either.
+ * Finite doubles are dyadic rationals, so the coordinates of a problem are integer multiples of one power of two. Taken
+ * from an origin near the features, map coordinates fit in 60 bits almost always. Two kinds of numbers stand on a
+ * lattice, and both are an int64_t: a *plain* integer, below 2^61 in magnitude, is itself; anything else (a longer
+ * integer, or a corner of a repaired shape, which is the crossing of two lattice segments and has a denominator) is a
+ * *handle* of a ratio of big integers in the lattice's pool. No denominator is common to anything.
  *
- * Value of a lattice integer n: n * 2^exponent / denominator + origin, where the origin is a double that the holder of
- * the points keeps (each operand may have its own; few significant bits, so that sums of origins are exact).
+ * On a *narrow* lattice all numbers are plain, and every predicate runs in native and fixed-width integers without
+ * asking. Elsewhere the predicates look at the numbers they are given: plain ones go the same way, and only what has
+ * handles among its operands is put to a floating-point filter, and then to big integers. Code above this folder does
+ * not see the difference: it holds points as sunder_i_point and asks the functions of predicate/ about them. Off narrow
+ * lattices no code outside number/ and predicate/ may do arithmetic on the fields of a point; equality of handles means
+ * nothing either.
  *
- * A lattice is not shared between threads: it owns the pool of big integers and the operation counters. */
+ * Value of a number n: n * 2^exponent + origin, where the origin is a double that the holder of the points keeps (each
+ * operand may have its own; few significant bits, so that sums of origins are exact).
+ *
+ * A lattice is not shared between threads: it owns the pool of ratios and the operation counters. */
 #ifndef SUNDER_I_LATTICE_H
 #define SUNDER_I_LATTICE_H
 
@@ -20,22 +25,36 @@
 #include "sunder.h"
 
 #define SUNDER_I_NARROW_BITS 60 /* |coordinate| and |sum of two operands' coordinates| < 2^60 on a narrow lattice */
+#define SUNDER_I_PLAIN_BITS 61  /* |plain number| < 2^61: differences of such coordinates are plain too */
 
 typedef struct sunder_i_point {
-    int64_t x, y; /* the integer (narrow), or a handle (wide) */
+    int64_t x, y; /* plain, or handles */
 } sunder_i_point;
 
+/* num / den, den > 0, in any terms. value is the nearest double in the units of sunder_i_approx(). */
+typedef struct sunder_i_ratio {
+    sunder_i_big num, den;
+    double value;
+} sunder_i_ratio;
+
 typedef struct sunder_i_lattice {
-    bool narrow;
+    bool narrow; /* all numbers are plain */
+    bool small;  /* all doubles that it was made for are plain, less their origins */
+    bool pooled; /* no number is made plain (for tests, which ask the longest rung of the ladder so) */
     long exponent;
-    double scale;             /* 2^-exponent where that is a normal double, else 0 */
-    sunder_i_big denominator; /* odd, > 0; 1 unless a shape was repaired */
-    int approx_shift;         /* sunder_i_approx() divides by 2^approx_shift; 0 on a narrow lattice */
-    sunder_i_arena arena;     /* pool and wide intermediates; arena.failed is the sticky error of everything on it */
-    sunder_i_big *pool;       /* wide: integers by handle */
+    double scale;           /* 2^-exponent where that is a normal double, else 0 */
+    int approx_shift;       /* sunder_i_approx() divides by 2^approx_shift; 0 on a narrow lattice */
+    sunder_i_arena arena;   /* pool and results; arena.failed is the sticky error of everything on it */
+    sunder_i_arena scratch; /* of one predicate or construction at a time */
+    sunder_i_ratio *pool;   /* by handle */
     size_t pool_n, pool_capacity;
     sunder_operations operations;
 } sunder_i_lattice;
+
+static inline bool sunder_i_is_plain(int64_t n) { return n > INT64_MIN / 2; }
+
+/* All of these numbers: a handle among them makes the least one negative beyond all plain ones. */
+static inline bool sunder_i_point_is_plain(sunder_i_point a) { return sunder_i_is_plain(a.x < a.y ? a.x : a.y); }
 
 /* What a lattice has to hold: gathered over all operands, then the lattice is chosen. */
 typedef struct sunder_i_extent {
@@ -50,22 +69,31 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n);
 int sunder_i_low_bit(double v);
 
 /* A lattice that holds the given extents, each taken from an origin of its own if relative is true: the origin is in
- * origins[i], a multiple of the unit near the middle of extent i (zeroes if relative is false). Narrow if sums of one
- * coordinate of each extent stay below 2^60; with `force_wide` always wide (for tests). */
+ * origins[i], a multiple of the unit near the middle of extent i (zeroes if relative is false). Small if sums of one
+ * coordinate of each extent stay below 2^60, and then narrow; with `force_wide` all numbers are pooled (for tests). */
 void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *extents, size_t n, bool relative,
                            double (*origins)[2], bool force_wide);
+/* From now on numbers that are not plain may come: the lattice is not narrow any more. */
+void sunder_i_lattice_admit_ratios(sunder_i_lattice *lattice);
 void sunder_i_lattice_free(sunder_i_lattice *lattice);
 
-/* The double v, a multiple of the unit, less the origin o, as a lattice integer. Denominator 1. */
+/* The double v, a multiple of the unit, less the origin o, as a number. */
 int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o);
-/* A big integer as a lattice integer. Narrow: it must fit. */
+/* A big integer as a number; it is kept, not copied. On a narrow lattice it must be plain. */
 int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v);
-/* A lattice integer as a big one. */
+/* The same of num / den, den > 0, not on narrow lattices. */
+int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den);
+/* A handle of num / den, den > 0, even where that is a plain number. */
+int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den, double value);
+/* A number as a ratio; plain ones are made on that arena. The lattice stays as it is. The value is not set. */
+sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, int64_t n);
+/* A number that is an integer, on the lattice's arena. */
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n);
-int64_t sunder_i_lattice_add(sunder_i_lattice *lattice, int64_t a, int64_t b);
-int64_t sunder_i_lattice_sub(sunder_i_lattice *lattice, int64_t a, int64_t b);
-int64_t sunder_i_lattice_neg(sunder_i_lattice *lattice, int64_t a);
 /* Close to n / 2^approx_shift: error at most half an ulp of the largest magnitude on the lattice. Always finite. */
 double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n);
+
+/* Temporaries on the scratch arena live between these two; they nest. A failure there is one of the lattice. */
+sunder_i_mark sunder_i_lattice_begin(sunder_i_lattice *lattice);
+void sunder_i_lattice_end(sunder_i_lattice *lattice, sunder_i_mark mark);
 
 #endif

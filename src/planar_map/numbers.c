@@ -13,6 +13,8 @@
  * out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
 #include "planar_map/map.h"
 
+#include "predicate/vector.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -180,11 +182,6 @@ static sunder_i_big divided(sunder_i_arena *arena, sunder_i_big a, sunder_i_big 
     return sunder_i_big_div_floor(arena, a, by); /* by divides a, so nothing is rounded */
 }
 
-static sunder_i_big lattice_big(sunder_i_planar_map *map, int64_t n)
-{
-    return map->lattice->narrow ? sunder_i_big_i64(&map->scratch, n) : sunder_i_lattice_get(map->lattice, n);
-}
-
 sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
                                         const sunder_i_point *along, sunder_i_arena *arena)
 {
@@ -193,7 +190,8 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     sunder_i_big abc[3];
     if (along) {
         /* Direction (dx, dy) through p: A = -dy w, B = dx w, C = dy x - dx y. */
-        const sunder_i_big dx = lattice_big(map, along->x), dy = lattice_big(map, along->y);
+        const sunder_i_vector d = sunder_i_vector_get(s, map->lattice, *along);
+        const sunder_i_big dx = d.x, dy = d.y;
         abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at[2]));
         abc[1] = sunder_i_big_mul(s, dx, p->at[2]);
         abc[2] = minor(map, s, dy, p->at[0], dx, p->at[1]);
@@ -205,7 +203,7 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     const int b = sunder_i_big_sign(abc[1]);
     if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
         for (int i = 0; i < 3; i++) abc[i] = sunder_i_big_neg(abc[i]);
-    if (sunder_i_big_bits(p->at[2]) > 1 || (!along && sunder_i_big_bits(q->at[2]) > 1)) {
+    if (sunder_i_big_bits(p->at[2]) > 1 || (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at[2]) > 1)) {
         const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
         if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
             for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);

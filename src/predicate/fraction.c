@@ -1,7 +1,8 @@
-/* Crossings along a line. Numerator and denominator have degree 2 (below 2^124 on a narrow lattice); comparing two
- * fractions has degree 4 (256 bits). */
+/* Crossings along a line. Numerator and denominator have degree 2 (below 2^124 on a narrow lattice, 2^126 of plain
+ * points elsewhere); comparing two fractions has degree 4 (256 bits). A fraction with handles among the points that it
+ * is made of is a ratio of the pool: den is 0 and num its handle. */
 #include "predicate/kernel.h"
-#include "predicate/wide_vector.h"
+#include "predicate/vector.h"
 
 #include <math.h>
 
@@ -14,60 +15,101 @@ static sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
     return (sunder_i_fraction){num, den, sunder_i_narrow_value(num, den)};
 }
 
-static sunder_i_fraction wide_fraction(sunder_i_lattice *l, sunder_i_big num, sunder_i_big den)
+/* num / den from the scratch arena, den not zero. */
+static sunder_i_fraction pooled_fraction(sunder_i_lattice *l, sunder_i_big num, sunder_i_big den)
 {
     if (sunder_i_big_sign(den) < 0) {
         num = sunder_i_big_neg(num);
         den = sunder_i_big_neg(den);
     }
-    sunder_i_fraction f = {0, 0, 0};
-    if (l->arena.failed) return f;
-    f.value = sunder_i_big_ratio(&l->arena, num, den, 0);
-    f.num = sunder_i_lattice_big(l, num);
-    f.den = sunder_i_lattice_big(l, den);
-    return f;
+    if (l->scratch.failed || l->arena.failed) return (sunder_i_fraction){0, 1, 0};
+    const double value = sunder_i_big_ratio(&l->scratch, num, den, 0);
+    const sunder_i_big n = sunder_i_big_copy(&l->arena, num), d = sunder_i_big_copy(&l->arena, den);
+    return (sunder_i_fraction){sunder_i_lattice_pool(l, n, d, value), 0, value};
+}
+
+static bool are_plain(const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    return l->narrow ||
+           (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && sunder_i_point_is_plain(c) && !l->pooled);
 }
 
 sunder_i_fraction sunder_i_crossing(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                     sunder_i_point d)
 {
     l->operations.segment_intersections++;
-    if (l->narrow) {
+    if (are_plain(l, a, b, c) && (l->narrow || sunder_i_point_is_plain(d))) {
         const sunder_i_point w = sunder_i_narrow_sub(d, c);
         return narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(c, a), w),
                                sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), w));
     }
-    const sunder_i_vector w = sunder_i_wide_diff(l, d, c);
-    return wide_fraction(l, sunder_i_wide_cross(l, sunder_i_wide_diff(l, c, a), w),
-                         sunder_i_wide_cross(l, sunder_i_wide_diff(l, b, a), w));
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector p = sunder_i_vector_get(m, l, a), q = sunder_i_vector_get(m, l, c);
+    const sunder_i_vector w = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, d), q);
+    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), p), v = sunder_i_vector_sub(m, q, p);
+    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_vector_cross(m, v, w), u.w),
+                                                sunder_i_times(m, sunder_i_vector_cross(m, u, w), v.w));
+    sunder_i_lattice_end(l, mark);
+    return f;
 }
 
 sunder_i_fraction sunder_i_along(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     /* Collinear: the ratio of either coordinate will do; take the longer one. */
-    if (l->narrow) {
+    if (are_plain(l, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a), v = sunder_i_narrow_sub(c, a);
         const uint64_t ux = (uint64_t)(u.x < 0 ? -u.x : u.x), uy = (uint64_t)(u.y < 0 ? -u.y : u.y);
         return ux >= uy ? narrow_fraction(v.x, u.x) : narrow_fraction(v.y, u.y);
     }
-    const sunder_i_vector u = sunder_i_wide_diff(l, b, a), v = sunder_i_wide_diff(l, c, a);
-    return sunder_i_big_sign(u.x) ? wide_fraction(l, v.x, u.x) : wide_fraction(l, v.y, u.y);
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector u = sunder_i_vector_diff(m, l, b, a), v = sunder_i_vector_diff(m, l, c, a);
+    const bool by_x = sunder_i_big_sign(u.x) != 0;
+    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, by_x ? v.x : v.y, u.w),
+                                                sunder_i_times(m, by_x ? u.x : u.y, v.w));
+    sunder_i_lattice_end(l, mark);
+    return f;
 }
 
 sunder_i_fraction sunder_i_foot(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    if (l->narrow) {
+    if (are_plain(l, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
         return narrow_fraction(sunder_i_narrow_dot(sunder_i_narrow_sub(c, a), u), sunder_i_narrow_dot(u, u));
     }
-    const sunder_i_vector u = sunder_i_wide_diff(l, b, a);
-    return wide_fraction(l, sunder_i_wide_dot(l, sunder_i_wide_diff(l, c, a), u), sunder_i_wide_dot(l, u, u));
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector u = sunder_i_vector_diff(m, l, b, a), v = sunder_i_vector_diff(m, l, c, a);
+    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_vector_dot(m, v, u), u.w),
+                                                sunder_i_times(m, sunder_i_vector_dot(m, u, u), v.w));
+    sunder_i_lattice_end(l, mark);
+    return f;
 }
 
 sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *l, int n)
 {
-    if (l->narrow) return (sunder_i_fraction){n, 1, n};
-    return wide_fraction(l, sunder_i_big_i64(&l->arena, n), sunder_i_big_i64(&l->arena, 1));
+    (void)l;
+    return (sunder_i_fraction){n, 1, n};
+}
+
+void sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_fraction *t,
+                            sunder_i_big *num, sunder_i_big *den)
+{
+    if (t->den != 0) {
+        *num = sunder_i_big_i128(arena, t->num);
+        *den = sunder_i_big_i128(arena, t->den);
+        return;
+    }
+    const sunder_i_ratio r = sunder_i_lattice_read(arena, l, (int64_t)t->num);
+    *num = r.num;
+    *den = r.den;
+}
+
+int sunder_i_fraction_sign(const sunder_i_lattice *l, const sunder_i_fraction *t)
+{
+    if (t->den != 0) return sunder_i_i128_sign(t->num);
+    return sunder_i_big_sign(l->pool[(int64_t)t->num - INT64_MIN].num);
 }
 
 int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const sunder_i_fraction *t)
@@ -78,11 +120,13 @@ int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const
     if (d > bound) return 1;
     if (d < -bound) return -1;
     l->operations.exact_fallbacks++;
-    if (l->narrow) return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    const int c = sunder_i_big_cmp(
-        sunder_i_big_mul(&l->arena, sunder_i_lattice_get(l, (int64_t)s->num), sunder_i_lattice_get(l, (int64_t)t->den)),
-        sunder_i_big_mul(&l->arena, sunder_i_lattice_get(l, (int64_t)t->num), sunder_i_lattice_get(l, (int64_t)s->den)));
-    sunder_i_wide_drop(l, mark);
+    if (s->den != 0 && t->den != 0) return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_big sn, sd, tn, td;
+    sunder_i_fraction_read(m, l, s, &sn, &sd);
+    sunder_i_fraction_read(m, l, t, &tn, &td);
+    const int c = sunder_i_big_cmp(sunder_i_big_mul(m, sn, td), sunder_i_big_mul(m, tn, sd));
+    sunder_i_lattice_end(l, mark);
     return c;
 }

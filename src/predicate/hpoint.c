@@ -1,6 +1,7 @@
-/* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. */
+/* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points define
+ * is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
 #include "predicate/kernel.h"
-#include "predicate/wide_vector.h"
+#include "predicate/vector.h"
 
 #include <assert.h>
 #include <float.h>
@@ -11,38 +12,53 @@
 /* Relative to the larger of 1 and the coordinate: three conversions, a division. */
 #define HPOINT_ERROR 0x1p-49
 
-static sunder_i_hpoint wide_hpoint(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+static double scaled(const sunder_i_lattice *l, double v) { return l->approx_shift ? ldexp(v, -l->approx_shift) : v; }
+
+static sunder_i_hpoint native(const sunder_i_lattice *l, sunder_i_i256 x, sunder_i_i256 y, sunder_i_i128 w)
+{
+    const double d = (double)w;
+    return (sunder_i_hpoint){x, y, w, scaled(l, sunder_i_i256_double(&x) / d), scaled(l, sunder_i_i256_double(&y) / d)};
+}
+
+/* From the scratch arena. */
+static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
 {
     sunder_i_hpoint p;
     memset(&p, 0, sizeof p);
-    if (l->arena.failed) return p;
-    p.ax = sunder_i_big_ratio(&l->arena, x, w, -l->approx_shift);
-    p.ay = sunder_i_big_ratio(&l->arena, y, w, -l->approx_shift);
-    p.x.limb[0] = (uint64_t)sunder_i_lattice_big(l, x);
-    p.y.limb[0] = (uint64_t)sunder_i_lattice_big(l, y);
-    p.w = sunder_i_lattice_big(l, w);
+    if (l->arena.failed || l->scratch.failed) {
+        p.w = 1;
+        return p;
+    }
+    p.ax = sunder_i_big_ratio(&l->scratch, x, w, -l->approx_shift);
+    p.ay = sunder_i_big_ratio(&l->scratch, y, w, -l->approx_shift);
+    const sunder_i_big d = sunder_i_big_copy(&l->arena, w);
+    p.x.limb[0] = (uint64_t)sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, x), d, p.ax);
+    p.y.limb[0] = (uint64_t)sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, y), d, p.ay);
     return p;
 }
 
 sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_fraction *t)
 {
-    if (l->narrow) {
+    if (l->narrow || (t->den != 0 && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && !l->pooled)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
-        sunder_i_hpoint p;
-        p.x = sunder_i_mul_add(a.x, t->den, u.x, t->num);
-        p.y = sunder_i_mul_add(a.y, t->den, u.y, t->num);
-        p.w = t->den;
-        const double w = (double)p.w;
-        p.ax = sunder_i_i256_double(&p.x) / w;
-        p.ay = sunder_i_i256_double(&p.y) / w;
-        return p;
+        return native(l, sunder_i_mul_add(a.x, t->den, u.x, t->num), sunder_i_mul_add(a.y, t->den, u.y, t->num),
+                      t->den);
     }
-    sunder_i_arena *arena = &l->arena;
-    const sunder_i_vector o = sunder_i_wide_get(l, a), u = sunder_i_wide_diff(l, b, a);
-    const sunder_i_big num = sunder_i_lattice_get(l, (int64_t)t->num), den = sunder_i_lattice_get(l, (int64_t)t->den);
-    return wide_hpoint(
-        l, sunder_i_big_add(arena, sunder_i_big_mul(arena, o.x, den), sunder_i_big_mul(arena, u.x, num)),
-        sunder_i_big_add(arena, sunder_i_big_mul(arena, o.y, den), sunder_i_big_mul(arena, u.y, num)), den);
+    /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less where w = v. */
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
+    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
+    sunder_i_big num, den;
+    sunder_i_fraction_read(m, l, t, &num, &den);
+    const bool same = sunder_i_big_cmp(o.w, u.w) == 0;
+    if (!same) num = sunder_i_times(m, num, o.w);
+    const sunder_i_big by = same ? den : sunder_i_times(m, den, u.w);
+    const sunder_i_hpoint p = pooled(
+        l, sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
+        sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)), sunder_i_times(m, by, o.w));
+    sunder_i_lattice_end(l, mark);
+    return p;
 }
 
 static sunder_i_i256 narrow_i256(int64_t v)
@@ -53,10 +69,25 @@ static sunder_i_i256 narrow_i256(int64_t v)
 
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
 {
-    if (l->narrow)
-        return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, (double)a.x, (double)a.y};
-    const sunder_i_vector v = sunder_i_wide_get(l, a);
-    return wide_hpoint(l, v.x, v.y, sunder_i_big_i64(&l->arena, 1));
+    if (l->narrow) return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, (double)a.x, (double)a.y};
+    if (sunder_i_point_is_plain(a))
+        return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, sunder_i_approx(l, a.x), sunder_i_approx(l, a.y)};
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    const sunder_i_vector v = sunder_i_vector_get(&l->scratch, l, a);
+    sunder_i_hpoint p;
+    if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) && l->pool[a.x - INT64_MIN].den.limb == v.w.limb &&
+        l->pool[a.y - INT64_MIN].den.limb == v.w.limb) {
+        /* The point's own handles will do. */
+        memset(&p, 0, sizeof p);
+        p.ax = sunder_i_approx(l, a.x);
+        p.ay = sunder_i_approx(l, a.y);
+        p.x.limb[0] = (uint64_t)a.x;
+        p.y.limb[0] = (uint64_t)a.y;
+    } else {
+        p = pooled(l, v.x, v.y, v.w);
+    }
+    sunder_i_lattice_end(l, mark);
+    return p;
 }
 
 static sunder_i_i256 big_i256(sunder_i_big a)
@@ -68,58 +99,64 @@ static sunder_i_i256 big_i256(sunder_i_big a)
     return r;
 }
 
+static bool is_native(const sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+{
+    return l->narrow || (!l->pooled && sunder_i_big_bits(x) < 256 && sunder_i_big_bits(y) < 256 &&
+                         sunder_i_big_bits(w) < 127);
+}
+
 sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
 {
-    sunder_i_arena *arena = &l->arena;
-    if (!l->narrow)
-        return wide_hpoint(l, sunder_i_big_copy(arena, x), sunder_i_big_copy(arena, y), sunder_i_big_copy(arena, w));
-    const sunder_i_i256 d = big_i256(w);
-    sunder_i_hpoint p = {.x = big_i256(x), .y = big_i256(y)};
-    p.w = (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]);
-    const double v = (double)p.w;
-    p.ax = sunder_i_i256_double(&p.x) / v;
-    p.ay = sunder_i_i256_double(&p.y) / v;
+    if (is_native(l, x, y, w)) {
+        const sunder_i_i256 d = big_i256(w);
+        return native(l, big_i256(x), big_i256(y), (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
+    }
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    const sunder_i_hpoint p = pooled(l, x, y, w);
+    sunder_i_lattice_end(l, mark);
     return p;
 }
 
 void sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_hpoint *p,
                           sunder_i_big xyw[3])
 {
-    if (l->narrow) {
+    if (p->w != 0) {
         xyw[0] = sunder_i_big_i256(arena, p->x);
         xyw[1] = sunder_i_big_i256(arena, p->y);
         xyw[2] = sunder_i_big_i128(arena, p->w);
         return;
     }
-    xyw[0] = sunder_i_big_copy(arena, l->pool[(int64_t)p->x.limb[0]]);
-    xyw[1] = sunder_i_big_copy(arena, l->pool[(int64_t)p->y.limb[0]]);
-    xyw[2] = sunder_i_big_copy(arena, l->pool[(int64_t)p->w]);
+    const sunder_i_ratio x = sunder_i_lattice_read(arena, l, (int64_t)p->x.limb[0]);
+    xyw[0] = x.num;
+    xyw[1] = sunder_i_lattice_read(arena, l, (int64_t)p->y.limb[0]).num;
+    xyw[2] = x.den;
 }
 
 void sunder_i_hpoint_big(sunder_i_lattice *l, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
                          sunder_i_big *w)
 {
-    if (l->narrow) {
-        sunder_i_big xyw[3];
-        sunder_i_hpoint_read(&l->arena, l, p, xyw);
-        *x = xyw[0], *y = xyw[1], *w = xyw[2];
-        return;
-    }
-    *x = sunder_i_lattice_get(l, (int64_t)p->x.limb[0]);
-    *y = sunder_i_lattice_get(l, (int64_t)p->y.limb[0]);
-    *w = sunder_i_lattice_get(l, (int64_t)p->w);
+    sunder_i_big xyw[3];
+    sunder_i_hpoint_read(&l->arena, l, p, xyw);
+    *x = xyw[0], *y = xyw[1], *w = xyw[2];
 }
 
-static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_i256 *a, sunder_i_i128 aw, const sunder_i_i256 *b,
-                          sunder_i_i128 bw)
+/* By the coordinate k, x or y, where the filter did not tell. */
+static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
 {
     l->operations.exact_fallbacks++;
-    if (l->narrow) return aw == bw ? sunder_i_i256_cmp(a, b) : sunder_i_cmp_products_256(a, bw, b, aw);
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    const sunder_i_big ax = sunder_i_lattice_get(l, (int64_t)a->limb[0]), bx = sunder_i_lattice_get(l, (int64_t)b->limb[0]);
-    const int c = sunder_i_big_cmp(sunder_i_big_mul(&l->arena, ax, sunder_i_lattice_get(l, (int64_t)bw)),
-                                   sunder_i_big_mul(&l->arena, bx, sunder_i_lattice_get(l, (int64_t)aw)));
-    sunder_i_wide_drop(l, mark);
+    if (a->w != 0 && b->w != 0) {
+        const sunder_i_i256 *p = k ? &a->y : &a->x, *q = k ? &b->y : &b->x;
+        return a->w == b->w ? sunder_i_i256_cmp(p, q) : sunder_i_cmp_products_256(p, b->w, q, a->w);
+    }
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_big p[3], q[3];
+    sunder_i_hpoint_read(m, l, a, p);
+    sunder_i_hpoint_read(m, l, b, q);
+    const bool same = p[2].limb == q[2].limb;
+    const int c = same ? sunder_i_big_cmp(p[k], q[k])
+                       : sunder_i_big_cmp(sunder_i_times(m, p[k], q[2]), sunder_i_times(m, q[k], p[2]));
+    sunder_i_lattice_end(l, mark);
     return c;
 }
 
@@ -135,24 +172,34 @@ int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sun
     l->operations.comparisons++;
     int c = filter(a->ax, b->ax);
     if (c) return c;
-    c = coordinate_cmp(l, &a->x, a->w, &b->x, b->w);
+    c = coordinate_cmp(l, a, b, 0);
     if (c) return c;
     c = filter(a->ay, b->ay);
-    return c ? c : coordinate_cmp(l, &a->y, a->w, &b->y, b->w);
+    return c ? c : coordinate_cmp(l, a, b, 1);
 }
 
 int sunder_i_hpoint_cmp_y(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     l->operations.comparisons++;
     const int c = filter(a->ay, b->ay);
-    return c ? c : coordinate_cmp(l, &a->y, a->w, &b->y, b->w);
+    return c ? c : coordinate_cmp(l, a, b, 1);
 }
 
 bool sunder_i_hpoint_equal(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     l->operations.comparisons++;
     if (filter(a->ax, b->ax) || filter(a->ay, b->ay)) return false;
-    return coordinate_cmp(l, &a->x, a->w, &b->x, b->w) == 0 && coordinate_cmp(l, &a->y, a->w, &b->y, b->w) == 0;
+    return coordinate_cmp(l, a, b, 0) == 0 && coordinate_cmp(l, a, b, 1) == 0;
+}
+
+/* As in orient.c, the doubles of the point being off by 2^-49 of the largest coordinate: 2^4 times the bound there. */
+static int filter_side(const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
+{
+    const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
+    const double bx = sunder_i_approx(l, b.x), by = sunder_i_approx(l, b.y);
+    const double most = fmax(fmax(fmax(fabs(ax), fabs(ay)), fmax(fabs(bx), fabs(by))), fmax(fabs(c->ax), fabs(c->ay)));
+    const double det = (bx - ax) * (c->ay - ay) - (by - ay) * (c->ax - ax), bound = 0x1p-43 * most * most;
+    return most < 0x1p-200 ? 0 : det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
 static uint64_t mix(uint64_t h, uint64_t v)
@@ -164,33 +211,35 @@ static uint64_t mix(uint64_t h, uint64_t v)
 /* Of the square of 2^-64 units that the point is in: floor(2^64 x / w) depends on the value of the fraction alone. */
 uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
 {
-    sunder_i_arena *arena = &l->arena;
-    const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    sunder_i_big at[2], w;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_big xyw[3];
     uint64_t h = 0;
-    sunder_i_hpoint_big(l, p, &at[0], &at[1], &w);
-    for (int k = 0; k < 2 && !arena->failed; k++) {
-        const sunder_i_big v = sunder_i_big_div_floor(arena, sunder_i_big_shl(arena, at[k], 64), w);
+    sunder_i_hpoint_read(m, l, p, xyw);
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_big v = sunder_i_big_div_floor(m, sunder_i_big_shl(m, xyw[k], 64), xyw[2]);
         for (long i = 0; i < labs(v.size); i++) h = mix(h, v.limb[i]);
         h = mix(h, (uint64_t)v.size);
     }
-    sunder_i_wide_drop(l, mark);
+    sunder_i_lattice_end(l, mark);
     return h;
 }
 
 int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
 {
     l->operations.orientation_tests++;
-    /* cross(b - a, c - a) * w = u.x * Y - u.y * X - cross(u, a) * w: big integers; a rarely asked question. */
-    sunder_i_arena *arena = &l->arena;
-    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    if (l->arena.failed) return 0;
+    int s = l->pooled ? 0 : filter_side(l, a, b, c);
+    if (s) return s;
+    /* cross(b - a, c - a) * w: big integers; a rarely asked question. */
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
     l->operations.exact_fallbacks++;
-    sunder_i_big x, y, w;
-    sunder_i_hpoint_big(l, c, &x, &y, &w);
-    const sunder_i_vector o = sunder_i_wide_get(l, a), u = sunder_i_wide_diff(l, b, a);
-    const sunder_i_vector v = {sunder_i_big_sub(arena, x, sunder_i_big_mul(arena, o.x, w)),
-                               sunder_i_big_sub(arena, y, sunder_i_big_mul(arena, o.y, w))};
-    const int s = sunder_i_big_sign(sunder_i_wide_cross(l, u, v));
-    sunder_i_wide_drop(l, mark);
+    sunder_i_big xyw[3];
+    sunder_i_hpoint_read(m, l, c, xyw);
+    const sunder_i_vector o = sunder_i_vector_get(m, l, a), p = {xyw[0], xyw[1], xyw[2]};
+    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o), v = sunder_i_vector_sub(m, p, o);
+    s = sunder_i_big_sign(sunder_i_vector_cross(m, u, v));
+    sunder_i_lattice_end(l, mark);
     return s;
 }

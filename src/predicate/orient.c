@@ -1,19 +1,42 @@
-/* Degree 1 and 2: order, side, cross and dot products, angle. */
+/* Degree 1 and 2: order, side, cross and dot products, angle.
+ *
+ * Off narrow lattices there are three rungs. Plain operands go the narrow way: differences of plain numbers are below
+ * 2^62, so products of two stay below 2^124 and their differences below 2^125. Where a handle is among them, doubles
+ * are believed as far as the bounds derived below reach; then big integers decide, over the operands' own
+ * denominators. */
 #include "predicate/kernel.h"
-#include "predicate/wide_vector.h"
+#include "predicate/vector.h"
 
-static int wide_sign(sunder_i_lattice *l, sunder_i_mark mark, sunder_i_big v)
+#include <math.h>
+
+/* Products of approximations must neither overflow (they are below 2^501) nor lose bits to underflow. */
+#define SMALLEST 0x1p-400
+
+/* With u = 2^-53: the doubles of both vectors are off by u of themselves, the products round once more, and so does
+ * their sum or difference: 4 u (1 + u)^3 of the products together. */
+#define PRODUCT_ERROR 0x1p-50
+
+static int sign_of(double v, double bound) { return v > bound ? 1 : v < -bound ? -1 : 0; }
+
+static int filter_products(double s, double t)
 {
-    const int s = sunder_i_big_sign(v);
-    l->operations.exact_fallbacks++;
-    sunder_i_wide_drop(l, mark);
-    return s;
+    const double size = fabs(s) + fabs(t);
+    return size > SMALLEST ? sign_of(s + t, PRODUCT_ERROR * size) : 0;
 }
 
 int sunder_i_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
 {
-    if (l->narrow) return (a > b) - (a < b);
-    return sunder_i_big_cmp(sunder_i_lattice_get(l, a), sunder_i_lattice_get(l, b));
+    if (l->narrow || (sunder_i_is_plain(a) && sunder_i_is_plain(b))) return (a > b) - (a < b);
+    if (l->arena.failed) return 0;
+    const double x = sunder_i_approx(l, a), y = sunder_i_approx(l, b);
+    const int c = sign_of(x - y, 0x1p-51 * (fabs(x) + fabs(y)) + SMALLEST);
+    if (c) return c;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_ratio p = sunder_i_lattice_read(m, l, a), q = sunder_i_lattice_read(m, l, b);
+    const int s = sunder_i_big_cmp(sunder_i_times(m, p.num, q.den), sunder_i_times(m, q.num, p.den));
+    sunder_i_lattice_end(l, mark);
+    return s;
 }
 
 int sunder_i_point_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
@@ -29,54 +52,146 @@ bool sunder_i_point_equal(sunder_i_lattice *l, sunder_i_point a, sunder_i_point 
     return sunder_i_int_cmp(l, a.x, b.x) == 0 && sunder_i_int_cmp(l, a.y, b.y) == 0;
 }
 
+static bool both_plain(sunder_i_point a, sunder_i_point b)
+{
+    return sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b);
+}
+
+static bool stays_plain(int64_t n) { return n < (int64_t)1 << SUNDER_I_PLAIN_BITS && n > -((int64_t)1 << SUNDER_I_PLAIN_BITS); }
+
+/* a + b or a - b, b's sign being given. */
+static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, int sign)
+{
+    if (!l->pooled && both_plain(a, b)) {
+        const sunder_i_point s = {a.x + sign * b.x, a.y + sign * b.y};
+        if (stays_plain(s.x) && stays_plain(s.y)) return s;
+    }
+    if (l->arena.failed) return (sunder_i_point){0, 0};
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_vector v = sunder_i_vector_get(m, l, b);
+    if (sign > 0) v = (sunder_i_vector){sunder_i_big_neg(v.x), sunder_i_big_neg(v.y), v.w};
+    const sunder_i_point r = sunder_i_vector_put(l, sunder_i_vector_sub(m, sunder_i_vector_get(m, l, a), v));
+    sunder_i_lattice_end(l, mark);
+    return r;
+}
+
 sunder_i_point sunder_i_point_add(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
 {
-    return (sunder_i_point){sunder_i_lattice_add(l, a.x, b.x), sunder_i_lattice_add(l, a.y, b.y)};
+    return l->narrow ? (sunder_i_point){a.x + b.x, a.y + b.y} : combine(l, a, b, 1);
 }
 
 sunder_i_point sunder_i_point_sub(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
 {
-    return (sunder_i_point){sunder_i_lattice_sub(l, a.x, b.x), sunder_i_lattice_sub(l, a.y, b.y)};
+    return l->narrow ? (sunder_i_point){a.x - b.x, a.y - b.y} : combine(l, a, b, -1);
+}
+
+static int64_t negated(sunder_i_lattice *l, int64_t n)
+{
+    if (sunder_i_is_plain(n)) return -n;
+    const sunder_i_ratio r = l->pool[n - INT64_MIN];
+    return sunder_i_lattice_ratio(l, sunder_i_big_neg(r.num), r.den);
 }
 
 sunder_i_point sunder_i_point_neg(sunder_i_lattice *l, sunder_i_point a)
 {
-    return (sunder_i_point){sunder_i_lattice_neg(l, a.x), sunder_i_lattice_neg(l, a.y)};
+    return (sunder_i_point){negated(l, a.x), negated(l, a.y)};
+}
+
+void sunder_i_point_difference(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, double *dx, double *dy)
+{
+    *dx = *dy = 0;
+    if (l->arena.failed) return;
+    if (l->approx_shift == 0 && (l->narrow || both_plain(a, b))) {
+        *dx = (double)(a.x - b.x);
+        *dy = (double)(a.y - b.y);
+        return;
+    }
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    const sunder_i_vector u = sunder_i_vector_diff(&l->scratch, l, a, b);
+    *dx = sunder_i_big_ratio(&l->scratch, u.x, u.w, -l->approx_shift);
+    *dy = sunder_i_big_ratio(&l->scratch, u.y, u.w, -l->approx_shift);
+    sunder_i_lattice_end(l, mark);
+}
+
+/* ---- Side ---- */
+
+/* Each double is off by at most u M, M the largest of them (half an ulp); so differences, which are below 2 M, are off
+ * by 2 u M and their own rounding, 4 u M together; each product by 2 * 2 M * 4 u M, and by the square of that error; so
+ * the determinant by 32 u M^2 and its roundings, 3 u * 8 M^2: below 64 u M^2. */
+#define SIDE_ERROR 0x1p-47
+
+static int filter_orient(const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+{
+    const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
+    const double bx = sunder_i_approx(l, b.x), by = sunder_i_approx(l, b.y);
+    const double cx = sunder_i_approx(l, c.x), cy = sunder_i_approx(l, c.y);
+    const double most = fmax(fmax(fmax(fabs(ax), fabs(ay)), fmax(fabs(bx), fabs(by))), fmax(fabs(cx), fabs(cy)));
+    if (most < 0x1p-200) return 0;
+    return sign_of((bx - ax) * (cy - ay) - (by - ay) * (cx - ax), SIDE_ERROR * most * most);
 }
 
 int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     l->operations.orientation_tests++;
-    if (l->narrow) return sunder_i_i128_sign(sunder_i_narrow_orient(a, b, c));
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    return wide_sign(l, mark, sunder_i_wide_cross(l, sunder_i_wide_diff(l, b, a), sunder_i_wide_diff(l, c, a)));
+    if (l->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
+        return sunder_i_i128_sign(sunder_i_narrow_orient(a, b, c));
+    if (l->arena.failed) return 0;
+    int s = l->pooled ? 0 : filter_orient(l, a, b, c);
+    if (s) return s;
+    l->operations.exact_fallbacks++;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
+    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
+    const sunder_i_vector v = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, c), o);
+    s = sunder_i_big_sign(sunder_i_vector_cross(m, u, v));
+    sunder_i_lattice_end(l, mark);
+    return s;
+}
+
+/* ---- Products of two vectors ---- */
+
+static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, bool cross)
+{
+    l->operations.exact_fallbacks++;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector p = sunder_i_vector_get(m, l, u), q = sunder_i_vector_get(m, l, v);
+    const int s = sunder_i_big_sign(cross ? sunder_i_vector_cross(m, p, q) : sunder_i_vector_dot(m, p, q));
+    sunder_i_lattice_end(l, mark);
+    return s;
 }
 
 int sunder_i_cross_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
     l->operations.orientation_tests++;
-    if (l->narrow) return sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    return wide_sign(l, mark, sunder_i_wide_cross(l, sunder_i_wide_get(l, u), sunder_i_wide_get(l, v)));
+    if (l->narrow || both_plain(u, v)) return sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
+    if (l->arena.failed) return 0;
+    const int s = l->pooled ? 0
+                            : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.y),
+                                              -sunder_i_approx(l, u.y) * sunder_i_approx(l, v.x));
+    return s ? s : exact_product(l, u, v, true);
 }
 
 int sunder_i_dot_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
-    if (l->narrow) return sunder_i_i128_sign(sunder_i_narrow_dot(u, v));
-    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
-    return wide_sign(l, mark, sunder_i_wide_dot(l, sunder_i_wide_get(l, u), sunder_i_wide_get(l, v)));
+    if (l->narrow || both_plain(u, v)) return sunder_i_i128_sign(sunder_i_narrow_dot(u, v));
+    if (l->arena.failed) return 0;
+    const int s = l->pooled ? 0
+                            : filter_products(sunder_i_approx(l, u.x) * sunder_i_approx(l, v.x),
+                                              sunder_i_approx(l, u.y) * sunder_i_approx(l, v.y));
+    return s ? s : exact_product(l, u, v, false);
+}
+
+static int number_sign(const sunder_i_lattice *l, int64_t n)
+{
+    return sunder_i_is_plain(n) ? (n > 0) - (n < 0) : sunder_i_big_sign(l->pool[n - INT64_MIN].num);
 }
 
 int sunder_i_half_plane(sunder_i_lattice *l, sunder_i_point u)
 {
-    int sx, sy;
-    if (l->narrow) {
-        sx = (u.x > 0) - (u.x < 0);
-        sy = (u.y > 0) - (u.y < 0);
-    } else {
-        sx = sunder_i_big_sign(sunder_i_lattice_get(l, u.x));
-        sy = sunder_i_big_sign(sunder_i_lattice_get(l, u.y));
-    }
+    const int sx = number_sign(l, u.x), sy = number_sign(l, u.y);
     return sy < 0 || (sy == 0 && sx < 0);
 }
 

@@ -2,8 +2,8 @@
  *
  * One ladder for all: on a narrow lattice the determinants are 128-bit (degree 2), their products 256-bit (degree 4),
  * comparisons of intersection points 320-bit (degree 5); a floating-point comparison with a proved error bound comes
- * first where it is cheaper. On a wide lattice the same functions run on big integers. Counters go to
- * lattice->operations.
+ * first where it is cheaper. Where a handle is among the operands the same functions run on big integers, behind
+ * filters of their own. Counters go to lattice->operations.
  *
  * Points a, b, c ... are lattice points; "line ab" is directed from a to b, a != b. */
 #ifndef SUNDER_I_PREDICATE_H
@@ -20,6 +20,8 @@ bool sunder_i_point_equal(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_
 sunder_i_point sunder_i_point_add(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
 sunder_i_point sunder_i_point_sub(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b);
 sunder_i_point sunder_i_point_neg(sunder_i_lattice *lattice, sunder_i_point a);
+/* a - b as doubles in the units of sunder_i_approx(), each to the nearest one. */
+void sunder_i_point_difference(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, double *dx, double *dy);
 
 /* Side of c to the line ab: +1 left, -1 right, 0 on it. */
 int sunder_i_orient(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c);
@@ -34,7 +36,7 @@ int sunder_i_angle_cmp(sunder_i_lattice *lattice, sunder_i_point u, sunder_i_poi
 /* ---- Crossings along a line: fractions, degree 2 over 2, compared in degree 4 ---- */
 
 /* The point a + (num / den) * (b - a) of a line ab. den > 0. value is close: |value - num/den| <= 4e-16 * max(1,
- * |num/den|). On a wide lattice num and den are handles. */
+ * |num/den|). den == 0: num is the handle of that ratio. */
 typedef struct sunder_i_fraction {
     sunder_i_i128 num, den;
     double value;
@@ -49,12 +51,16 @@ sunder_i_fraction sunder_i_along(sunder_i_lattice *lattice, sunder_i_point a, su
 sunder_i_fraction sunder_i_foot(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c);
 /* The fraction n / 1, n small. */
 sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *lattice, int n);
+int sunder_i_fraction_sign(const sunder_i_lattice *lattice, const sunder_i_fraction *t);
+/* Its integers, den > 0; those of native ones on that arena. The lattice stays as it is. */
+void sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, const sunder_i_fraction *t,
+                            sunder_i_big *num, sunder_i_big *den);
 int sunder_i_fraction_cmp(sunder_i_lattice *lattice, const sunder_i_fraction *s, const sunder_i_fraction *t);
 
 /* ---- Intersection points: homogeneous, degree 3 over 2, compared in degree 5 ---- */
 
-/* (x / w, y / w) on the lattice, w > 0. ax, ay are close to the coordinates in the units of sunder_i_approx(). On a
- * wide lattice x, y, w are handles (in limb[0] and w). */
+/* (x / w, y / w) on the lattice, w > 0. ax, ay are close to the coordinates in the units of sunder_i_approx(). w == 0:
+ * limb[0] of x and of y are handles of the two, as ratios over one denominator. */
 typedef struct sunder_i_hpoint {
     sunder_i_i256 x, y;
     sunder_i_i128 w;
@@ -64,7 +70,8 @@ typedef struct sunder_i_hpoint {
 sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b,
                                    const sunder_i_fraction *t);
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
-/* From its integers, which are copied; w > 0. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings. */
+/* From its integers, which are copied; w > 0. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings; on
+ * another one that is so stays native too. */
 sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_big x, sunder_i_big y, sunder_i_big w);
 /* Lexicographic. */
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);

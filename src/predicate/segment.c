@@ -1,12 +1,12 @@
 /* Two segments: how they meet, and how far apart they are. */
 #include "predicate/kernel.h"
-#include "predicate/wide_vector.h"
+#include "predicate/vector.h"
 
 /* Is c, known to lie on the line ab (or a == b), on the closed segment ab? */
 static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    const sunder_i_point ca = sunder_i_point_sub(l, a, c), cb = sunder_i_point_sub(l, b, c);
-    return sunder_i_dot_sign(l, ca, cb) <= 0;
+    /* On the line the lexicographic order is monotone. */
+    return sunder_i_point_cmp(l, a, c) * sunder_i_point_cmp(l, b, c) <= 0;
 }
 
 /* c against the closed segment ab, which may be a point. */
@@ -69,38 +69,47 @@ static int narrow_distance_cmp(sunder_i_point p, sunder_i_point a, sunder_i_poin
     return (square > limit) - (square < limit);
 }
 
+/* Points over denominators of their own: squares are compared over their product. */
 static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
-    sunder_i_arena *arena = &l->arena;
-    const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const sunder_i_vector u = sunder_i_wide_diff(l, b, a), ap = sunder_i_wide_diff(l, p, a);
-    const sunder_i_vector bp = sunder_i_wide_diff(l, p, b);
-    const sunder_i_big g = sunder_i_lattice_get(l, gap), limit = sunder_i_big_mul(arena, g, g);
-    int c;
-    if (sunder_i_big_sign(sunder_i_wide_dot(l, ap, u)) <= 0)
-        c = sunder_i_big_cmp(sunder_i_wide_dot(l, ap, ap), limit);
-    else if (sunder_i_big_sign(sunder_i_wide_dot(l, bp, u)) >= 0)
-        c = sunder_i_big_cmp(sunder_i_wide_dot(l, bp, bp), limit);
-    else {
-        const sunder_i_big cross = sunder_i_wide_cross(l, u, ap);
-        c = sunder_i_big_cmp(sunder_i_big_mul(arena, cross, cross),
-                             sunder_i_big_mul(arena, limit, sunder_i_wide_dot(l, u, u)));
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector at = sunder_i_vector_get(m, l, p), u = sunder_i_vector_diff(m, l, b, a);
+    const sunder_i_vector ap = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, a));
+    const sunder_i_vector bp = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, b));
+    const sunder_i_ratio g = sunder_i_lattice_read(m, l, gap);
+    sunder_i_big square, over; /* square / over is the square of the distance */
+    if (sunder_i_big_sign(sunder_i_vector_dot(m, ap, u)) <= 0) {
+        square = sunder_i_vector_dot(m, ap, ap);
+        over = sunder_i_big_mul(m, ap.w, ap.w);
+    } else if (sunder_i_big_sign(sunder_i_vector_dot(m, bp, u)) >= 0) {
+        square = sunder_i_vector_dot(m, bp, bp);
+        over = sunder_i_big_mul(m, bp.w, bp.w);
+    } else {
+        /* u's own denominator drops out. */
+        const sunder_i_big cross = sunder_i_vector_cross(m, u, ap);
+        square = sunder_i_big_mul(m, cross, cross);
+        over = sunder_i_big_mul(m, sunder_i_vector_dot(m, u, u), sunder_i_big_mul(m, ap.w, ap.w));
     }
+    const int c = sunder_i_big_cmp(sunder_i_times(m, square, sunder_i_big_mul(m, g.den, g.den)),
+                                   sunder_i_big_mul(m, sunder_i_big_mul(m, g.num, g.num), over));
     l->operations.exact_fallbacks++;
-    sunder_i_wide_drop(l, mark);
+    sunder_i_lattice_end(l, mark);
     return c;
 }
 
 static int point_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
     l->operations.comparisons++;
-    return l->narrow ? narrow_distance_cmp(p, a, b, gap) : wide_distance_cmp(l, p, a, b, gap);
+    const bool plain = sunder_i_point_is_plain(p) && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) &&
+                       sunder_i_is_plain(gap);
+    return l->narrow || plain ? narrow_distance_cmp(p, a, b, gap) : wide_distance_cmp(l, p, a, b, gap);
 }
 
 int sunder_i_segment_distance_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                   sunder_i_point d, int64_t gap)
 {
-    const bool zero_gap = l->narrow ? gap == 0 : sunder_i_big_sign(sunder_i_lattice_get(l, gap)) == 0;
+    const bool zero_gap = sunder_i_int_cmp(l, gap, 0) == 0;
     if (sunder_i_segments_meet(l, a, b, c, d) != SUNDER_I_APART) return zero_gap ? 0 : -1;
     if (zero_gap) return 1;
     /* Apart: the least distance is from an end of one to the other. */

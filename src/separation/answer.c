@@ -1,22 +1,19 @@
 #include "separation/answer.h"
 
+#include "predicate/vector.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
-static bool plain(const sunder_i_lattice *l)
-{
-    return l->narrow && l->denominator.size == 1 && l->denominator.limb[0] == 1;
-}
-
 sunder_i_vector_exact sunder_i_vector_of(sunder_i_pairing *g, const sunder_i_hpoint *p)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_vector_exact v;
     memset(&v, 0, sizeof v);
-    if (plain(l) && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0) {
+    if (p->w != 0 && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0) {
         v.small = true;
         v.x = (sunder_i_i128)p->x.sign * (int64_t)p->x.limb[0];
         v.y = (sunder_i_i128)p->y.sign * (int64_t)p->y.limb[0];
@@ -44,7 +41,6 @@ static void big_parts(sunder_i_pairing *g, const sunder_i_vector_exact *v, sunde
     *x = v->small ? sunder_i_big_i128(&l->arena, v->x) : v->bx;
     *y = v->small ? sunder_i_big_i128(&l->arena, v->y) : v->by;
     *w = v->small ? sunder_i_big_i128(&l->arena, v->w) : v->bw;
-    if (!plain(l)) *w = sunder_i_big_mul(&l->arena, *w, l->denominator);
 }
 
 /* ---- Doubles ---- */
@@ -252,12 +248,12 @@ sunder_status sunder_i_answer_texts(sunder_i_pairing *g, const sunder_i_vector_e
 
 /* ---- Are the doubles free too? ---- */
 
-/* The double v as num / 2^bits lattice units, times the denominator. */
+/* The double v as num / 2^bits lattice units. */
 static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
 {
     int e;
     *bits = 0;
-    const sunder_i_big m = sunder_i_big_mul(&l->arena, sunder_i_big_double(&l->arena, v, &e), l->denominator);
+    const sunder_i_big m = sunder_i_big_double(&l->arena, v, &e);
     const long shift = (long)e - l->exponent;
     if (m.size == 0) return m;
     if (shift >= 0) return sunder_i_big_shl(&l->arena, m, (unsigned long)shift);
@@ -295,15 +291,14 @@ bool sunder_i_answer_exact(sunder_i_pairing *g, const sunder_i_vector_exact *v, 
     for (int k = 0; k < 2; k++) {
         unsigned long bits;
         const sunder_i_big u = sunder_i_big_mul(&l->arena, in_units(l, d[k], &bits), w);
-        const sunder_i_big t = sunder_i_big_mul(&l->arena, c[k], l->denominator);
-        if (sunder_i_big_cmp(u, sunder_i_big_shl(&l->arena, t, bits))) return false;
+        if (sunder_i_big_cmp(u, sunder_i_big_shl(&l->arena, c[k], bits))) return false;
     }
     return true;
 }
 
 typedef struct dyadic {
     double ax, ay; /* in units */
-    bool narrow;   /* the native integers below hold it */
+    bool native;   /* the integers below hold it */
     sunder_i_i128 x, y;
     unsigned bits; /* x / 2^bits, y / 2^bits */
     sunder_i_big bx, by;
@@ -333,10 +328,10 @@ static dyadic dyadic_of(sunder_i_pairing *g, double dx, double dy)
     memset(&d, 0, sizeof d);
     int64_t mx, my;
     long fx, fy;
-    if (plain(l) && native_units(dx, l->exponent, &mx, &fx) && native_units(dy, l->exponent, &my, &fy)) {
+    if (l->small && l->approx_shift == 0 && native_units(dx, l->exponent, &mx, &fx) && native_units(dy, l->exponent, &my, &fy)) {
         const long low = fx < fy ? fx < 0 ? fx : 0 : fy < 0 ? fy : 0;
         if (fx - low < 70 && fy - low < 70) {
-            d.narrow = true;
+            d.native = true;
             d.bits = (unsigned)-low;
             d.x = mx * ((sunder_i_i128)1 << (fx - low));
             d.y = my * ((sunder_i_i128)1 << (fy - low));
@@ -362,18 +357,23 @@ static int dyadic_side(sunder_i_pairing *g, const dyadic *d, const sunder_i_subs
     sunder_i_lattice *l = &g->placed.lattice;
     l->operations.orientation_tests++;
     l->operations.exact_fallbacks++;
-    if (d->narrow) {
+    if (d->native && sunder_i_point_is_plain(s->corner[k]) && sunder_i_point_is_plain(s->side[k])) {
         /* |corner| < 2^61 and bits < 64, so differences stay below 2^126. */
         const sunder_i_i128 one = (sunder_i_i128)1 << d->bits;
         const sunder_i_i128 x = d->x - s->corner[k].x * one, y = d->y - s->corner[k].y * one;
         return sunder_i_cmp_products(s->side[k].x, y, s->side[k].y, x);
     }
-    sunder_i_arena *a = &l->arena;
-    const sunder_i_big cx = sunder_i_lattice_get(l, s->corner[k].x), cy = sunder_i_lattice_get(l, s->corner[k].y);
-    const sunder_i_big sx = sunder_i_lattice_get(l, s->side[k].x), sy = sunder_i_lattice_get(l, s->side[k].y);
-    const sunder_i_big x = sunder_i_big_sub(a, d->bx, sunder_i_big_shl(a, cx, d->big_bits));
-    const sunder_i_big y = sunder_i_big_sub(a, d->by, sunder_i_big_shl(a, cy, d->big_bits));
-    return sunder_i_big_cmp(sunder_i_big_mul(a, sx, y), sunder_i_big_mul(a, sy, x));
+    if (l->arena.failed) return 0;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const unsigned long bits = d->native ? d->bits : d->big_bits;
+    const sunder_i_vector at = {d->native ? sunder_i_big_i128(m, d->x) : d->bx,
+                                d->native ? sunder_i_big_i128(m, d->y) : d->by,
+                                sunder_i_big_shl(m, sunder_i_big_i64(m, 1), bits)};
+    const sunder_i_vector v = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, s->corner[k]));
+    const int sign = sunder_i_big_sign(sunder_i_vector_cross(m, sunder_i_vector_get(m, l, s->side[k]), v));
+    sunder_i_lattice_end(l, mark);
+    return sign;
 }
 
 bool sunder_i_doubles_free(sunder_i_pairing *g, double dx, double dy)

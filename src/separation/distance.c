@@ -20,8 +20,9 @@ static vector between(sunder_i_pairing *g, sunder_i_point to, sunder_i_point fro
         const sunder_i_point d = sunder_i_narrow_sub(to, from);
         return (vector){(double)d.x, (double)d.y};
     }
-    const sunder_i_point d = sunder_i_point_sub(l, to, from);
-    return (vector){sunder_i_approx(l, d.x), sunder_i_approx(l, d.y)};
+    vector d;
+    sunder_i_point_difference(l, to, from, &d.x, &d.y);
+    return d;
 }
 
 /* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact

@@ -149,7 +149,7 @@ static sunder_status set_up(sunder_i_pairing *g, sunder_i_gap_problem *problem, 
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_big zero, unit;
-    *problem = (sunder_i_gap_problem){.pairing = g};
+    *problem = (sunder_i_gap_problem){.pairing = g, .over = sunder_i_big_i64(&l->arena, 1)};
     sunder_i_vector_doubles(g, o->gap, 0, &problem->gap, &zero, &unit);
     problem->gap_bits = sunder_i_big_bits(unit) - (l->arena.failed ? 0 : 1);
     problem->gap_units = sunder_i_big_ratio(&l->arena, problem->gap, unit, -l->approx_shift);

@@ -26,6 +26,7 @@ typedef struct sunder_i_spot {
 typedef struct sunder_i_gap_problem {
     sunder_i_pairing *pairing;
     sunder_i_big gap; /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
+    sunder_i_big over; /* gap_spot.c: units are divided by this, so that the points at hand are integers */
     unsigned long gap_bits;
     double gap_units, limit;
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */

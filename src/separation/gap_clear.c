@@ -8,6 +8,8 @@
  * corners, the point is the middle between them, and no step is needed. */
 #include "separation/gap_search.h"
 
+#include "predicate/vector.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -15,6 +17,7 @@
 
 typedef struct normal {
     sunder_i_surd x, y;
+    sunder_i_big over; /* of a corner: the way from there, times the point's w and this */
 } normal;
 
 /* The contact's normal, exactly, of some length. */
@@ -24,10 +27,13 @@ static normal normal_of(sunder_i_gap_state *s, const sunder_i_spot *at, const su
     sunder_i_arena *a = &l->arena;
     const sunder_i_subsum *m = s->g->subsum + c->of;
     const sunder_i_point p = c->flat ? m->side[c->at] : m->corner[c->at];
-    const sunder_i_big x = sunder_i_lattice_get(l, p.x), y = sunder_i_lattice_get(l, p.y);
-    if (c->flat) return (normal){sunder_i_surd_big(a, y), sunder_i_surd_big(a, sunder_i_big_neg(x))};
-    return (normal){sunder_i_surd_sub(a, at->x, sunder_i_surd_big(a, sunder_i_big_mul(a, x, at->w))),
-                    sunder_i_surd_sub(a, at->y, sunder_i_surd_big(a, sunder_i_big_mul(a, y, at->w)))};
+    const sunder_i_vector v = sunder_i_vector_get(a, l, p);
+    if (c->flat) return (normal){sunder_i_surd_big(a, v.y), sunder_i_surd_big(a, sunder_i_big_neg(v.x)), v.w};
+    return (normal){sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->x, v.w),
+                                      sunder_i_surd_big(a, sunder_i_big_mul(a, v.x, at->w))),
+                    sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->y, v.w),
+                                      sunder_i_surd_big(a, sunder_i_big_mul(a, v.y, at->w))),
+                    v.w};
 }
 
 /* Sign of n_i x n_j, or of n_i . n_j. The normals of sides are good to 8 u, those of corners to the point's error over
@@ -130,7 +136,7 @@ static void unit_normal(sunder_i_gap_state *s, const sunder_i_spot *at, const su
             n[k] = sunder_i_big_div_floor(a, sunder_i_big_shl(a, part[k].part[0], 2 * bits), length);
         return;
     }
-    const sunder_i_big length = sunder_i_big_mul(a, s->p->gap, at->w);
+    const sunder_i_big length = sunder_i_times(a, sunder_i_big_mul(a, s->p->gap, at->w), exact.over);
     for (int k = 0; k < 2; k++)
         n[k] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, part[k], bits + s->p->gap_bits), length);
 }

@@ -5,6 +5,8 @@
  * nothing rational lies on a line of irrational length, since N n.x would be rational and C is not. */
 #include "separation/gap.h"
 
+#include "predicate/vector.h"
+
 #include <math.h>
 
 typedef struct vec {
@@ -13,10 +15,43 @@ typedef struct vec {
 
 static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->pairing->placed.lattice.arena; }
 
+/* The problem in units that divide the lattice's, such that these points are integers in them. */
+static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder_i_point *point, size_t n)
+{
+    sunder_i_arena *m = arena_of(p);
+    sunder_i_gap_problem q = *p;
+    for (size_t i = 0; i < n && !m->failed; i++) {
+        if (sunder_i_point_is_plain(point[i])) continue;
+        const sunder_i_big w = sunder_i_vector_get(m, &p->pairing->placed.lattice, point[i]).w;
+        const sunder_i_big g = sunder_i_big_gcd(m, q.over, w);
+        if (!m->failed) q.over = sunder_i_big_mul(m, q.over, sunder_i_big_div_floor(m, w, g));
+    }
+    q.gap = sunder_i_times(m, p->gap, q.over);
+    return q;
+}
+
 static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
 {
-    sunder_i_lattice *l = &p->pairing->placed.lattice;
-    return (vec){sunder_i_lattice_get(l, a.x), sunder_i_lattice_get(l, a.y)};
+    sunder_i_arena *m = arena_of(p);
+    if (m->failed) return (vec){{NULL, 0}, {NULL, 0}};
+    const sunder_i_vector v = sunder_i_vector_get(m, &p->pairing->placed.lattice, a);
+    if (sunder_i_is_one(p->over)) return (vec){v.x, v.y};
+    const sunder_i_big factor = sunder_i_big_div_floor(m, p->over, v.w);
+    return (vec){sunder_i_big_mul(m, v.x, factor), sunder_i_big_mul(m, v.y, factor)};
+}
+
+/* Both points of a curve; of an arc they are one. */
+static void points_of(const sunder_i_curve *curve, sunder_i_point out[2])
+{
+    out[0] = curve->a;
+    out[1] = curve->arc ? curve->a : curve->d;
+}
+
+static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sunder_i_curve *curve)
+{
+    sunder_i_point point[2];
+    points_of(curve, point);
+    return over_one(p, point, 2);
 }
 
 /* Times N. */
@@ -60,6 +95,12 @@ static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunde
     return sunder_i_surd_scale(arena_of(p), a, f);
 }
 
+/* A coordinate of the lattice's units in those of the problem. */
+static sunder_i_surd in_units(const sunder_i_gap_problem *p, sunder_i_surd a)
+{
+    return sunder_i_is_one(p->over) ? a : scale(p, a, p->over);
+}
+
 static sunder_i_surd sum(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
 {
     return sunder_i_surd_add(arena_of(p), a, b);
@@ -91,6 +132,7 @@ static line moved_line(const sunder_i_gap_problem *p, const sunder_i_curve *curv
 
 static void finish(sunder_i_spot *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y, sunder_i_big w)
 {
+    w = sunder_i_times(arena_of(p), w, p->over);
     const bool negative = sunder_i_big_sign(w) < 0;
     const sunder_i_big minus = sunder_i_big_i64(arena_of(p), -1);
     out->x = negative ? scale(p, x, minus) : x;
@@ -114,8 +156,9 @@ static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curve,
     finish(out, p, scale(p, k, c.x), scale(p, k, c.y), scaled(p, square));
 }
 
-void sunder_i_gap_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curve, sunder_i_spot *out)
+void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_spot *out)
 {
+    const sunder_i_gap_problem q = over_curve(problem, curve), *const p = &q;
     out->roots.n = 0;
     if (curve->arc) {
         arc_foot(p, curve, out);
@@ -162,9 +205,13 @@ static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_curve *c, cons
     return true;
 }
 
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *c, const sunder_i_curve *d, int sign,
-                           sunder_i_spot *out)
+bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d,
+                           int sign, sunder_i_spot *out)
 {
+    sunder_i_point point[4];
+    points_of(c, point);
+    points_of(d, point + 2);
+    const sunder_i_gap_problem q = over_one(problem, point, 4), *const p = &q;
     out->roots.n = 0;
     if (d->arc) return c->arc ? arc_arc(p, c, d, sign, out) : line_arc(p, c, d, sign, out);
     const line l = moved_line(p, c, &out->roots), m = moved_line(p, d, &out->roots);
@@ -177,9 +224,11 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *p, const sunder_i_curve *
 
 /* ---- Along a line of rational length ---- */
 
-bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *side, sunder_i_big along,
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *side, sunder_i_big along,
                         unsigned long bits, sunder_i_spot *out)
 {
+    const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
+    along = sunder_i_times(arena_of(p), along, p->over);
     out->roots.n = 0;
     const line l = moved_line(p, side, &out->roots);
     if (out->roots.n) return false;
@@ -191,9 +240,11 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *p, const sunder_i_curve *sid
     return true;
 }
 
-bool sunder_i_gap_position(const sunder_i_gap_problem *p, const sunder_i_curve *side, const sunder_i_spot *at,
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_curve *side, const sunder_i_spot *at,
                            unsigned long bits, sunder_i_big *along)
 {
+    /* The side's own units drop out: at is in those of the lattice. */
+    const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
     sunder_i_arena *a = arena_of(p);
     sunder_i_roots roots = {.n = 0};
     const line l = moved_line(p, side, &roots);
@@ -223,15 +274,17 @@ bool sunder_i_spot_is_rational(const sunder_i_spot *s) { return s->roots.n == 0;
 
 /* ---- The gap ---- */
 
-int sunder_i_gap_cmp_side(const sunder_i_gap_problem *p, const sunder_i_subsum *s, uint32_t k, const sunder_i_spot *at,
-                          bool *inward, sunder_i_reach *reach)
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *s, uint32_t k,
+                          const sunder_i_spot *at, bool *inward, sunder_i_reach *reach)
 {
-    sunder_i_arena *a = arena_of(p);
+    sunder_i_arena *a = arena_of(problem);
     const sunder_i_mark mark = sunder_i_arena_mark(a);
+    const sunder_i_point point[2] = {s->corner[k], s->side[k]};
+    const sunder_i_gap_problem q = over_one(problem, point, 2), *const p = &q;
     const sunder_i_roots *roots = &at->roots;
     const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
-    const sunder_i_surd vx = difference(p, at->x, surd(p, mul(p, c.x, at->w)));
-    const sunder_i_surd vy = difference(p, at->y, surd(p, mul(p, c.y, at->w)));
+    const sunder_i_surd vx = difference(p, in_units(p, at->x), surd(p, mul(p, c.x, at->w)));
+    const sunder_i_surd vy = difference(p, in_units(p, at->y), surd(p, mul(p, c.y, at->w)));
     const sunder_i_surd turn = difference(p, scale(p, vy, d.x), scale(p, vx, d.y));
     const sunder_i_surd along = sum(p, scale(p, vx, d.x), scale(p, vy, d.y));
     const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);

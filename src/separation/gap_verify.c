@@ -2,6 +2,8 @@
  * arithmetic with the search. Doubles say which sides and corners are near (errors as in gap_search.h). */
 #include "separation/gap.h"
 
+#include "predicate/vector.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -64,6 +66,7 @@ static bool certainly_off(const checking *c, const side *s, const convex *q, uin
 
 typedef struct exact {
     sunder_i_big turn, along, norm, square; /* of the way from the side's first corner, times w; |side|^2 */
+    sunder_i_big over;                      /* all that in units that divide the lattice's by this */
 } exact;
 
 static exact exactly(const checking *c, const side *s, const convex *q, uint32_t m)
@@ -71,13 +74,17 @@ static exact exactly(const checking *c, const side *s, const convex *q, uint32_t
     sunder_i_lattice *l = &c->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
     const sunder_i_point sum = sunder_i_pairing_add(c->g, s->a, c->g->at[q->side][q->corner[m]]);
-    const sunder_i_big x = sunder_i_big_sub(a, c->x, sunder_i_big_mul(a, sunder_i_lattice_get(l, sum.x), c->w));
-    const sunder_i_big y = sunder_i_big_sub(a, c->y, sunder_i_big_mul(a, sunder_i_lattice_get(l, sum.y), c->w));
-    const sunder_i_big dx = sunder_i_lattice_get(l, s->d.x), dy = sunder_i_lattice_get(l, s->d.y);
+    const sunder_i_vector at = sunder_i_vector_get(a, l, sum), d = sunder_i_vector_get(a, l, s->d);
+    const sunder_i_big over = sunder_i_times(a, at.w, d.w);
+    const sunder_i_big x =
+        sunder_i_big_sub(a, sunder_i_times(a, c->x, over), sunder_i_times(a, sunder_i_big_mul(a, at.x, c->w), d.w));
+    const sunder_i_big y =
+        sunder_i_big_sub(a, sunder_i_times(a, c->y, over), sunder_i_times(a, sunder_i_big_mul(a, at.y, c->w), d.w));
+    const sunder_i_big dx = sunder_i_times(a, d.x, at.w), dy = sunder_i_times(a, d.y, at.w);
     return (exact){sunder_i_big_sub(a, sunder_i_big_mul(a, dx, y), sunder_i_big_mul(a, dy, x)),
                    sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y)),
                    sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y)),
-                   sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy))};
+                   sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy)), over};
 }
 
 /* Is the corner no nearer than the gap to the side, its second end aside (that is the next side's first)? */
@@ -87,7 +94,8 @@ static bool keeps_off(const checking *c, const side *s, const convex *q, uint32_
     sunder_i_arena *a = &c->g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     const exact e = exactly(c, s, q, m);
-    const sunder_i_big gw = sunder_i_big_mul(a, c->p->gap, c->w), limit = sunder_i_big_mul(a, gw, gw);
+    const sunder_i_big gw = sunder_i_times(a, sunder_i_big_mul(a, c->p->gap, c->w), e.over);
+    const sunder_i_big limit = sunder_i_big_mul(a, gw, gw);
     bool off = true;
     if (sunder_i_big_sign(e.along) <= 0)
         off = sunder_i_big_cmp(sunder_i_big_shl(a, e.norm, 2 * c->p->gap_bits), limit) >= 0;

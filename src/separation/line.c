@@ -37,8 +37,7 @@ sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *l
         if (num >= den) return (sunder_i_fraction){1, 1, 1};
         return narrow_fraction(num, den);
     }
-    const sunder_i_point origin = {sunder_i_lattice_big(l, (sunder_i_big){NULL, 0}),
-                                   sunder_i_lattice_big(l, (sunder_i_big){NULL, 0})};
+    const sunder_i_point origin = {0, 0};
     const sunder_i_fraction zero = sunder_i_fraction_int(l, 0), one = sunder_i_fraction_int(l, 1);
     const sunder_i_fraction foot = sunder_i_foot(l, line->a, line->b, origin);
     if (sunder_i_fraction_cmp(l, &foot, &zero) <= 0) return zero;

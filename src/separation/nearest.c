@@ -25,14 +25,17 @@ static sunder_i_big square_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big 
 /* Order of the distances of two points from the origin. Degree 10 over 8. */
 static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    sunder_i_big x, y, w, u, v, z;
-    sunder_i_arena *m = &l->arena;
-    sunder_i_hpoint_big(l, a, &x, &y, &w);
-    sunder_i_hpoint_big(l, b, &u, &v, &z);
+    sunder_i_big p[3], q[3];
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_hpoint_read(m, l, a, p);
+    sunder_i_hpoint_read(m, l, b, q);
     l->operations.exact_fallbacks++;
-    const sunder_i_big left = sunder_i_big_mul(m, square_norm(m, x, y), sunder_i_big_mul(m, z, z));
-    const sunder_i_big right = sunder_i_big_mul(m, square_norm(m, u, v), sunder_i_big_mul(m, w, w));
-    return sunder_i_big_cmp(left, right);
+    const sunder_i_big left = sunder_i_big_mul(m, square_norm(m, p[0], p[1]), sunder_i_big_mul(m, q[2], q[2]));
+    const sunder_i_big right = sunder_i_big_mul(m, square_norm(m, q[0], q[1]), sunder_i_big_mul(m, p[2], p[2]));
+    const int c = sunder_i_big_cmp(left, right);
+    sunder_i_lattice_end(l, mark);
+    return c;
 }
 
 static bool better(search *s, const sunder_i_line *line, const sunder_i_fraction *t, double distance,
@@ -115,10 +118,7 @@ static double way_out(const sunder_i_pairing *g)
 /* Does a subsum cover the origin? The overlap test, asked of the subsums at hand. */
 static bool origin_covered(sunder_i_pairing *g, const sunder_i_fraction *zero)
 {
-    sunder_i_lattice *l = &g->placed.lattice;
-    const int64_t o = l->narrow ? 0 : sunder_i_lattice_big(l, (sunder_i_big){NULL, 0});
-    const int64_t e = l->narrow ? 1 : sunder_i_lattice_big(l, sunder_i_big_i64(&l->arena, 1));
-    const sunder_i_line axis = sunder_i_line_make(g, (sunder_i_point){o, o}, (sunder_i_point){e, o});
+    const sunder_i_line axis = sunder_i_line_make(g, (sunder_i_point){0, 0}, (sunder_i_point){1, 0});
     return sunder_i_line_cover(g, &axis, zero, 0, 0, NULL) >= 0;
 }
 

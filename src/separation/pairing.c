@@ -121,11 +121,9 @@ static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool re
 
 static bool place_plain(sunder_i_pairing *g, bool reflect, const plain *u)
 {
-    static const mp_limb_t one = 1;
     sunder_i_lattice *l = &g->placed.lattice;
-    l->narrow = true;
+    l->narrow = l->small = true;
     l->exponent = u->bit;
-    l->denominator = (sunder_i_big){&one, 1};
     sunder_i_point *points;
     if (!make_room(g, &points)) return false;
     for (int k = 0; k < 2; k++) {
@@ -205,10 +203,7 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     g->error = COORDINATE_ERROR * g->magnitude;
     g->rough = l->narrow ? 0 : g->error;
     g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
-    const bool whole = l->denominator.size == 1 && l->denominator.limb[0] == 1;
-    g->unit = whole ? ldexp(1, (int)(l->exponent + l->approx_shift))
-                    : sunder_i_big_ratio(&l->arena, sunder_i_big_i64(&l->arena, 1), l->denominator,
-                                         l->exponent + l->approx_shift);
+    g->unit = ldexp(1, (int)(l->exponent + l->approx_shift));
     return SUNDER_OK;
 }
 

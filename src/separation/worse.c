@@ -3,6 +3,7 @@
  * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the least
  * translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where they
  * differ by more than they can be off; else the rationals are compared. */
+#include "predicate/vector.h"
 #include "separation/least.h"
 #include "separation/pairing.h"
 
@@ -35,45 +36,27 @@ static double end_distance(const double *c, const double *a, const double *b)
     return hypot(v[0] - s * e[0], v[1] - s * e[1]);
 }
 
-typedef struct corner {
-    sunder_i_big x, y;
-} corner;
-
-static corner corner_of(sunder_i_pairing *g, int side, uint32_t v)
-{
-    sunder_i_lattice *l = &g->placed.lattice;
-    return (corner){sunder_i_lattice_get(l, g->at[side][v].x), sunder_i_lattice_get(l, g->at[side][v].y)};
-}
-
-static corner minus(sunder_i_arena *a, corner p, corner q)
-{
-    return (corner){sunder_i_big_sub(a, p.x, q.x), sunder_i_big_sub(a, p.y, q.y)};
-}
-
-static sunder_i_big dot(sunder_i_arena *a, corner p, corner q)
-{
-    return sunder_i_big_add(a, sunder_i_big_mul(a, p.x, q.x), sunder_i_big_mul(a, p.y, q.y));
-}
-
 /* The squared distance of vertex v of one operand from an edge of the other, exactly. */
 static square end_square(sunder_i_pairing *g, int side, uint32_t v, uint32_t edge)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_arena *m = &l->arena;
-    const corner c = corner_of(g, side, v), a = corner_of(g, 1 - side, edge),
-                 b = corner_of(g, 1 - side, g->shape[1 - side]->next[edge]);
-    const corner e = minus(m, b, a), u = minus(m, c, a), w = minus(m, c, b);
-    square out = {dot(m, u, u), sunder_i_big_i64(m, 1), 2 * l->exponent};
-    if (sunder_i_big_sign(dot(m, u, e)) > 0 && sunder_i_big_sign(dot(m, w, e)) >= 0) {
-        out.num = dot(m, w, w);
-    } else if (sunder_i_big_sign(dot(m, u, e)) > 0) {
-        const sunder_i_big cross =
-            sunder_i_big_sub(m, sunder_i_big_mul(m, e.x, u.y), sunder_i_big_mul(m, e.y, u.x));
-        out.num = sunder_i_big_mul(m, cross, cross);
-        out.den = dot(m, e, e);
+    if (m->failed) return (square){{NULL, 0}, {NULL, 0}, 0};
+    const sunder_i_vector c = sunder_i_vector_get(m, l, g->at[side][v]);
+    const sunder_i_vector a = sunder_i_vector_get(m, l, g->at[1 - side][edge]);
+    const sunder_i_vector b = sunder_i_vector_get(m, l, g->at[1 - side][g->shape[1 - side]->next[edge]]);
+    const sunder_i_vector e = sunder_i_vector_sub(m, b, a), u = sunder_i_vector_sub(m, c, a);
+    const sunder_i_vector w = sunder_i_vector_sub(m, c, b);
+    const bool beyond_a = sunder_i_big_sign(sunder_i_vector_dot(m, u, e)) > 0;
+    const bool beyond_b = beyond_a && sunder_i_big_sign(sunder_i_vector_dot(m, w, e)) >= 0;
+    if (beyond_a && !beyond_b) {
+        /* e's own denominator drops out. */
+        const sunder_i_big cross = sunder_i_vector_cross(m, e, u);
+        const sunder_i_big den = sunder_i_big_mul(m, sunder_i_vector_dot(m, e, e), sunder_i_big_mul(m, u.w, u.w));
+        return (square){sunder_i_big_mul(m, cross, cross), den, 2 * l->exponent};
     }
-    out.den = sunder_i_big_mul(m, out.den, sunder_i_big_mul(m, l->denominator, l->denominator));
-    return out;
+    const sunder_i_vector *d = beyond_b ? &w : &u;
+    return (square){sunder_i_vector_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w), 2 * l->exponent};
 }
 
 /* All ends against all edges: the least in doubles first, then exactly the least of those that it may be. A coordinate

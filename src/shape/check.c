@@ -3,6 +3,7 @@
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
+#include "predicate/vector.h"
 
 #include <math.h>
 #include <string.h>
@@ -108,20 +109,32 @@ static const char *check_shared(const checker *c)
     return NULL;
 }
 
-/* Twice the signed area of a cycle of vertices. */
-static sunder_i_big twice_area(checker *c, const uint32_t *list, uint32_t first, uint32_t n)
+/* Sums of cross products, each over a denominator of its own. */
+typedef struct sum {
+    sunder_i_big num, den;
+} sum;
+
+static void add_term(sunder_i_arena *arena, sum *s, sunder_i_big num, sunder_i_big den)
 {
-    sunder_i_big sum = {NULL, 0};
+    const sunder_i_big g = sunder_i_big_gcd(arena, s->den, den);
+    if (arena->failed) return;
+    const sunder_i_big more = sunder_i_big_div_floor(arena, den, g);
+    s->num = sunder_i_big_add(arena, sunder_i_big_mul(arena, s->num, more),
+                              sunder_i_big_mul(arena, num, sunder_i_big_div_floor(arena, s->den, g)));
+    s->den = sunder_i_big_mul(arena, s->den, more);
+}
+
+/* Twice the signed area of a cycle of vertices, times a factor, added to s. */
+static void add_area(checker *c, const uint32_t *list, uint32_t first, uint32_t n, int factor, sum *s)
+{
+    sunder_i_arena *arena = &c->arena;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t j = i + 1 < n ? i + 1 : 0;
-        const sunder_i_point p = c->at[list ? list[i] : first + i], q = c->at[list ? list[j] : first + j];
-        const sunder_i_big s =
-            sunder_i_big_mul(&c->arena, sunder_i_lattice_get(c->l, p.x), sunder_i_lattice_get(c->l, q.y));
-        const sunder_i_big t =
-            sunder_i_big_mul(&c->arena, sunder_i_lattice_get(c->l, p.y), sunder_i_lattice_get(c->l, q.x));
-        sum = sunder_i_big_add(&c->arena, sum, sunder_i_big_sub(&c->arena, s, t));
+        const sunder_i_vector p = sunder_i_vector_get(arena, c->l, c->at[list ? list[i] : first + i]);
+        const sunder_i_vector q = sunder_i_vector_get(arena, c->l, c->at[list ? list[j] : first + j]);
+        const sunder_i_big cross = sunder_i_vector_cross(arena, p, q);
+        add_term(arena, s, factor < 0 ? sunder_i_big_neg(cross) : cross, sunder_i_big_mul(arena, p.w, q.w));
     }
-    return sum;
 }
 
 /* Convex, going round once. */
@@ -193,18 +206,19 @@ static const char *check_areas(checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t p = 0; p < s->polygons; p++) {
-        sunder_i_big sum = {NULL, 0};
+        sum all = {{NULL, 0}, sunder_i_big_i64(&c->arena, 1)};
         const uint32_t first = p ? s->poly_end[p - 1] : 0;
         for (uint32_t ring = first; ring < s->poly_end[p]; ring++) {
             const uint32_t lo = ring_begin(s, ring);
-            const sunder_i_big area = twice_area(c, NULL, lo, s->ring_end[ring] - lo);
-            if (sunder_i_big_sign(area) != (ring == first ? 1 : -1)) return "a ring is turned the wrong way";
-            sum = sunder_i_big_add(&c->arena, sum, area);
+            sum own = {{NULL, 0}, sunder_i_big_i64(&c->arena, 1)};
+            add_area(c, NULL, lo, s->ring_end[ring] - lo, 1, &own);
+            if (sunder_i_big_sign(own.num) != (ring == first ? 1 : -1)) return "a ring is turned the wrong way";
+            add_term(&c->arena, &all, own.num, own.den);
         }
         for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++])
             if (c->polygon[s->piece_vertex[lo]] == p)
-                sum = sunder_i_big_sub(&c->arena, sum, twice_area(c, s->piece_vertex + lo, 0, s->piece_end[i] - lo));
-        if (sunder_i_big_sign(sum) != 0) return "the pieces do not make up the polygon's area";
+                add_area(c, s->piece_vertex + lo, 0, s->piece_end[i] - lo, -1, &all);
+        if (sunder_i_big_sign(all.num) != 0) return "the pieces do not make up the polygon's area";
     }
     return NULL;
 }
@@ -212,10 +226,10 @@ static const char *check_areas(checker *c)
 static const char *check_numbers(checker *c)
 {
     const sunder_shape *s = c->s;
-    if (s->rational && (sunder_i_big_sign(s->den) <= 0 || sunder_i_big_twos(s->den) != 0))
-        return "the denominator is not odd";
     for (size_t i = 0; i < 2 * (size_t)s->vertices; i++) {
-        if (s->rational && sunder_i_big_ratio(&c->arena, s->num[i], s->den, s->exponent) != s->xy[i])
+        const sunder_i_exact *v = s->rational && s->exact[i / 2].den.size ? &s->exact[i / 2] : NULL;
+        if (v && (sunder_i_big_sign(v->den) <= 0 || sunder_i_big_twos(v->den) != 0)) return "a denominator is not odd";
+        if (v && sunder_i_big_ratio(&c->arena, v->num[i & 1], v->den, v->exponent) != s->xy[i])
             return "a coordinate is not the nearest double";
         if (s->xy[i] < s->box[i & 1] || s->xy[i] > s->box[2 + (i & 1)]) return "the box is too small";
     }

@@ -74,8 +74,10 @@ static bool same_place(const sunder_shape *s, uint32_t i, uint32_t j)
     if (s->xy[2 * (size_t)i] != s->xy[2 * (size_t)j] || s->xy[2 * (size_t)i + 1] != s->xy[2 * (size_t)j + 1])
         return false;
     if (!s->rational) return true;
-    return sunder_i_big_cmp(s->num[2 * (size_t)i], s->num[2 * (size_t)j]) == 0 &&
-           sunder_i_big_cmp(s->num[2 * (size_t)i + 1], s->num[2 * (size_t)j + 1]) == 0;
+    /* In lowest terms one place has one set of numbers. */
+    const sunder_i_exact *a = &s->exact[i], *b = &s->exact[j];
+    return a->exponent == b->exponent && sunder_i_big_cmp(a->den, b->den) == 0 &&
+           sunder_i_big_cmp(a->num[0], b->num[0]) == 0 && sunder_i_big_cmp(a->num[1], b->num[1]) == 0;
 }
 
 /* Equal for equal places; both zeros are one place. */

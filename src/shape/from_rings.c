@@ -150,12 +150,11 @@ typedef struct builder {
     const sunder_i_input *in;
     sunder_validity validity;
     sunder_i_arena arena;
-    sunder_i_lattice lattice, second; /* the second one for shapes with made points */
+    sunder_i_lattice lattice;
     double origin[1][2];
     sunder_i_point *at; /* of the raw vertices */
     sunder_i_rings r;
     sunder_i_made_points made;
-    sunder_i_rationals rationals;
     bool repaired, touches;
 } builder;
 
@@ -199,15 +198,28 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     return SUNDER_OK;
 }
 
+/* Corners that are no doubles keep their numbers. */
+static bool set_exact(builder *b, sunder_shape *s)
+{
+    sunder_i_exact *exact = sunder_i_arena_alloc(&b->arena, s->vertices, sizeof *exact);
+    if (!exact) return false;
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const uint32_t source = b->r.source[v];
+        exact[v] = (sunder_i_exact){.exponent = 0};
+        if (!(source & SUNDER_I_MADE)) continue;
+        const sunder_i_exact *made = &b->made.point[source & ~SUNDER_I_MADE];
+        if (!sunder_i_exact_is_double(&b->arena, made)) exact[v] = *made;
+    }
+    return sunder_i_shape_set_rational(s, exact);
+}
+
 /* Coordinates, box and marks of the assembled shape. False if memory is out. */
 static bool complete(builder *b, sunder_shape *s)
 {
     s->repaired = b->repaired;
     s->touches = b->touches;
     if (b->made.rational) {
-        const sunder_i_rationals *q = &b->rationals;
-        if (!sunder_i_shape_set_rational(s, q->num, q->den, q->exponent) || !sunder_i_shape_measure_rational(s))
-            return false;
+        if (!set_exact(b, s) || !sunder_i_shape_measure_rational(s)) return false;
     } else {
         sunder_i_shape_measure(s);
     }
@@ -222,7 +234,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
         const sunder_status status = add_polygon(b, p, err);
         if (status) return status;
     }
-    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, &b->second, &b->rationals, &b->arena))
+    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena))
         return sunder_i_no_memory(err);
     sunder_i_pieces pieces;
     if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
@@ -245,7 +257,6 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     builder b = {.in = &in, .validity = validity};
     status = build(&b, out, err);
     sunder_i_lattice_free(&b.lattice);
-    sunder_i_lattice_free(&b.second);
     sunder_i_free(b.made.point);
     sunder_i_arena_free(&b.arena);
     return status;

@@ -2,11 +2,11 @@
  *
  * Area and anchor have no way to fail, so nothing is allocated for them: where coordinates are doubles the area is a sum
  * of products of doubles in fixed memory, and the anchor is worked out on the stack, in numbers whose size the range of
- * doubles bounds. Those of a rational shape, whose numbers nothing bounds, are worked out when it is made. */
+ * doubles bounds. Those of a rational shape, whose numbers nothing bounds, are worked out when it is made
+ * (measure_rational.c). */
 #include "shape/shape.h"
 
 #include "number/total.h"
-#include "predicate/predicate.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,33 +18,6 @@ bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; 
 
 bool sunder_shape_touches(const sunder_shape *shape) { return shape->touches; }
 void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, shape->box, sizeof shape->box); }
-
-/* Twice the area of a closed walk on the lattice, exactly: sum of cross products taken from its first corner. */
-static sunder_i_big twice_area(sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at,
-                               const uint32_t *corner, uint32_t n)
-{
-    sunder_i_big sum = {NULL, 0};
-    for (uint32_t i = 1; i + 1 < n; i++) {
-        const sunder_i_point u = sunder_i_point_sub(l, at[corner[i]], at[corner[0]]);
-        const sunder_i_point v = sunder_i_point_sub(l, at[corner[i + 1]], at[corner[0]]);
-        const sunder_i_big s = sunder_i_big_mul(arena, sunder_i_lattice_get(l, u.x), sunder_i_lattice_get(l, v.y));
-        const sunder_i_big t = sunder_i_big_mul(arena, sunder_i_lattice_get(l, u.y), sunder_i_lattice_get(l, v.x));
-        sum = sunder_i_big_add(arena, sum, sunder_i_big_sub(arena, s, t));
-    }
-    return sum;
-}
-
-/* The sum over convex pieces, which is the sum over members. */
-static double area_of_rationals(const sunder_shape *shape, sunder_i_placed *placed, sunder_i_arena *arena)
-{
-    sunder_i_lattice *l = &placed->lattice;
-    sunder_i_big sum = {NULL, 0};
-    for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++])
-        sum = sunder_i_big_add(arena, sum,
-                               twice_area(l, arena, placed->p, shape->piece_vertex + at, shape->piece_end[i] - at));
-    const sunder_i_big den = sunder_i_big_mul(arena, l->denominator, l->denominator);
-    return sunder_i_big_ratio(arena, sum, den, 2 * l->exponent - 1);
-}
 
 /* Rings run with the interior on their left, so their signed areas add up to that of the members. */
 double sunder_shape_area(const sunder_shape *shape)
@@ -71,46 +44,7 @@ static double rough_area(const sunder_shape *shape, const uint32_t *corner, uint
     return sum;
 }
 
-/* (num / den) * 2^exponent + origin, to the nearest double. */
-static double near_value(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, double origin)
-{
-    int e;
-    const sunder_i_big o = sunder_i_big_double(arena, origin, &e);
-    if (o.size == 0) return sunder_i_big_ratio(arena, num, den, exponent);
-    const long unit = exponent < e ? exponent : e;
-    num = sunder_i_big_shl(arena, num, (unsigned long)(exponent - unit));
-    const sunder_i_big shift = sunder_i_big_mul(arena, sunder_i_big_shl(arena, o, (unsigned long)(e - unit)), den);
-    return sunder_i_big_ratio(arena, sunder_i_big_add(arena, num, shift), den, unit);
-}
-
-/* The centroid of a piece: over the fan of triangles o, a, b with u = a - o, v = b - o it is
- * o + sum (u + v) cross(u, v) / (3 sum cross(u, v)). */
-static void centroid(sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at, const uint32_t *corner,
-                     uint32_t n, const double origin[2], double xy[2])
-{
-    sunder_i_big weight = {NULL, 0}, moment[2] = {{NULL, 0}, {NULL, 0}};
-    for (uint32_t i = 1; i + 1 < n; i++) {
-        const sunder_i_point u = sunder_i_point_sub(l, at[corner[i]], at[corner[0]]);
-        const sunder_i_point v = sunder_i_point_sub(l, at[corner[i + 1]], at[corner[0]]);
-        const sunder_i_big ux = sunder_i_lattice_get(l, u.x), uy = sunder_i_lattice_get(l, u.y);
-        const sunder_i_big vx = sunder_i_lattice_get(l, v.x), vy = sunder_i_lattice_get(l, v.y);
-        const sunder_i_big cross =
-            sunder_i_big_sub(arena, sunder_i_big_mul(arena, ux, vy), sunder_i_big_mul(arena, uy, vx));
-        weight = sunder_i_big_add(arena, weight, cross);
-        moment[0] = sunder_i_big_add(arena, moment[0], sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, ux, vx)));
-        moment[1] = sunder_i_big_add(arena, moment[1], sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, uy, vy)));
-    }
-    weight = sunder_i_big_mul(arena, weight, sunder_i_big_i64(arena, 3));
-    const sunder_i_big den = sunder_i_big_mul(arena, weight, l->denominator);
-    const int64_t first[2] = {at[corner[0]].x, at[corner[0]].y};
-    for (int k = 0; k < 2; k++) {
-        const sunder_i_big start = sunder_i_big_mul(arena, weight, sunder_i_lattice_get(l, first[k]));
-        xy[k] = near_value(arena, sunder_i_big_add(arena, start, moment[k]), den, l->exponent, origin[k]);
-    }
-}
-
-/* The largest piece by rough_area(), first of equals; *from is its first corner. */
-static uint32_t largest_piece(const sunder_shape *shape, uint32_t *from)
+uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from)
 {
     double most = -1;
     uint32_t largest = 0;
@@ -123,24 +57,6 @@ static uint32_t largest_piece(const sunder_shape *shape, uint32_t *from)
         *from = at;
     }
     return largest;
-}
-
-bool sunder_i_shape_measure_pieces(sunder_shape *shape)
-{
-    sunder_i_placed placed;
-    if (shape->pieces == 0) return true;
-    if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return false;
-    sunder_i_arena arena;
-    sunder_i_arena_init(&arena);
-    uint32_t from;
-    const uint32_t largest = largest_piece(shape, &from);
-    centroid(&placed.lattice, &arena, placed.p, shape->piece_vertex + from, shape->piece_end[largest] - from,
-             placed.origin_p, shape->anchor);
-    shape->area = area_of_rationals(shape, &placed, &arena);
-    const bool good = !arena.failed && !placed.lattice.arena.failed;
-    sunder_i_arena_free(&arena);
-    sunder_i_placed_free(&placed);
-    return good;
 }
 
 /* ---- The anchor on the stack ---- */
@@ -177,7 +93,8 @@ static void keep(kept *k, sunder_i_big value)
     k->value = (sunder_i_big){k->limb, value.size};
 }
 
-/* As centroid(): o + moment / (3 weight), of doubles. */
+/* The centroid of a piece: over the fan of triangles o, a, b with u = a - o, v = b - o it is
+ * o + sum (u + v) cross(u, v) / (3 sum cross(u, v)). */
 static void centroid_of_doubles(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2])
 {
     _Alignas(16) mp_limb_t memory[SCRATCH_LIMBS];
@@ -225,6 +142,6 @@ void sunder_shape_anchor(const sunder_shape *shape, double xy[2])
         return;
     }
     uint32_t from;
-    const uint32_t largest = largest_piece(shape, &from);
+    const uint32_t largest = sunder_i_largest_piece(shape, &from);
     centroid_of_doubles(shape, shape->piece_vertex + from, shape->piece_end[largest] - from, xy);
 }

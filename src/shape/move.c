@@ -36,12 +36,13 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     /* Half a turn: orientations stay. 0 - v has no negative zero. */
     for (size_t i = 0; i < 2 * raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
+    for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
     if (shape->rational) {
-        good = sunder_i_shape_set_rational(c, shape->num, shape->den, shape->exponent);
-        for (size_t i = 0; good && i < 2 * (size_t)c->vertices; i++) c->num[i] = sunder_i_big_neg(c->num[i]);
+        good = sunder_i_shape_set_rational(c, shape->exact);
+        for (uint32_t v = 0; good && v < c->vertices; v++)
+            for (int k = 0; k < 2; k++) c->exact[v].num[k] = sunder_i_big_neg(c->exact[v].num[k]);
         good = good && sunder_i_shape_measure_rational(c);
     } else {
-        for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
         sunder_i_shape_measure(c);
     }
     if (!good) {
@@ -59,29 +60,32 @@ static bool sum_is_exact(double x, double d)
     return isfinite(s) && (x - (s - back)) + (d - back) == 0;
 }
 
-/* A rational shape's numbers moved by d into the copy c. */
+/* A corner that is a pair of doubles, moved to where there is none. */
+static sunder_i_exact exact_of_doubles(sunder_i_arena *arena, const double xy[2], const double d[2])
+{
+    const sunder_i_big zero[2] = {{NULL, 0}, {NULL, 0}};
+    const sunder_i_exact at = sunder_i_exact_make(arena, zero, sunder_i_big_i64(arena, 1), 0, xy);
+    return sunder_i_exact_make(arena, at.num, at.den, at.exponent, d);
+}
+
+/* A rational shape's numbers moved by d into the copy c. Corners as given stay doubles, crossings need not. */
 static bool move_rational(const sunder_shape *shape, const double d[2], sunder_shape *c)
 {
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    const size_t n = 2 * (size_t)shape->vertices;
-    long unit = shape->exponent;
-    for (int k = 0; k < 2; k++)
-        if (d[k] != 0 && sunder_i_low_bit(d[k]) < unit) unit = sunder_i_low_bit(d[k]);
-    sunder_i_big add[2], *num = sunder_i_arena_alloc(&arena, n, sizeof *num);
-    for (int k = 0; k < 2; k++) {
-        int e;
-        add[k] = sunder_i_big_double(&arena, d[k], &e);
-        if (add[k].size == 0) continue;
-        add[k] = sunder_i_big_mul(&arena, sunder_i_big_shl(&arena, add[k], (unsigned long)(e - unit)), shape->den);
+    sunder_i_exact *exact = sunder_i_arena_alloc(&arena, shape->vertices, sizeof *exact);
+    for (uint32_t v = 0; exact && v < shape->vertices; v++) {
+        const sunder_i_exact *from = &shape->exact[v];
+        exact[v] = *from;
+        double *xy = c->xy + 2 * (size_t)v;
+        if (from->den.size)
+            exact[v] = sunder_i_exact_make(&arena, from->num, from->den, from->exponent, d);
+        else if (!sum_is_exact(xy[0], d[0]) || !sum_is_exact(xy[1], d[1]))
+            exact[v] = exact_of_doubles(&arena, xy, d);
+        else
+            for (int k = 0; k < 2; k++) xy[k] += d[k];
     }
-    for (size_t i = 0; num && i < n; i++) {
-        num[i] = shape->num[i];
-        if (num[i].size) num[i] = sunder_i_big_shl(&arena, num[i], (unsigned long)(shape->exponent - unit));
-        num[i] = sunder_i_big_add(&arena, num[i], add[i & 1]);
-    }
-    const bool good = !arena.failed && sunder_i_shape_set_rational(c, num, shape->den, unit) &&
-                      sunder_i_shape_measure_rational(c);
+    const bool good = !arena.failed && sunder_i_shape_set_rational(c, exact) && sunder_i_shape_measure_rational(c);
     sunder_i_arena_free(&arena);
     return good;
 }

@@ -6,6 +6,7 @@
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
+#include "predicate/vector.h"
 
 #include <float.h>
 #include <limits.h>
@@ -74,16 +75,57 @@ static int64_t common_part(sunder_i_lattice *l, double s, double o, double *from
 {
     if (s == 0) {
         *from = o;
-        return l->narrow ? 0 : sunder_i_lattice_int(l, 0, 0);
+        return 0;
     }
-    if (!l->narrow) {
+    if (!l->small || l->pooled) {
         *from = 0;
-        return sunder_i_lattice_sub(l, sunder_i_lattice_int(l, s, 0), sunder_i_lattice_int(l, o, 0));
+        return sunder_i_lattice_int(l, s, o);
     }
     const double c = o - s, bb = c - o, rest = (o - (c - bb)) + (-s - bb); /* Knuth's two-sum */
     *from = c;
     return sunder_i_lattice_int(l, -rest, 0);
 }
+
+/* ---- Corners that are no doubles ---- */
+
+/* v as an integer times 2^unit, unit not above its lowest bit. */
+static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
+{
+    int e;
+    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
+    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
+}
+
+sunder_i_point sunder_i_place_exact(sunder_i_lattice *l, const sunder_i_exact *corner, const double *shift,
+                                    const double origin[2])
+{
+    if (l->arena.failed) return (sunder_i_point){0, 0};
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    /* Origin and shift are multiples of the lattice's unit, and a crossing of its lines has no lower bits but in its
+     * denominator: if it has (from another lattice), that takes them. */
+    const long unit = corner->exponent < l->exponent ? corner->exponent : l->exponent;
+    const sunder_i_big den = sunder_i_big_shl(m, corner->den, (unsigned long)(l->exponent - unit));
+    sunder_i_big at[2];
+    for (int k = 0; k < 2; k++) {
+        sunder_i_big add = sunder_i_big_neg(units_of(m, origin[k], unit));
+        if (shift) add = sunder_i_big_add(m, add, units_of(m, shift[k], unit));
+        at[k] = sunder_i_big_shl(m, corner->num[k], (unsigned long)(corner->exponent - unit));
+        at[k] = sunder_i_big_add(m, at[k], sunder_i_big_mul(m, add, corner->den));
+    }
+    const sunder_i_point p = sunder_i_vector_put(l, (sunder_i_vector){at[0], at[1], den});
+    sunder_i_lattice_end(l, mark);
+    return p;
+}
+
+static void place_corners(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, const double origin[2],
+                          sunder_i_point *out)
+{
+    for (uint32_t i = 0; i < shape->vertices; i++)
+        if (shape->exact[i].den.size) out[i] = sunder_i_place_exact(l, &shape->exact[i], shift, origin);
+}
+
+/* ---- Shapes ---- */
 
 static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, const double origin[2],
                           sunder_i_point *out)
@@ -91,85 +133,15 @@ static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const 
     static const double none[2] = {0, 0};
     const double *s = shift ? shift : none;
     double from[2];
-    const int64_t add[2] = {common_part(l, s[0], origin[0], &from[0]), common_part(l, s[1], origin[1], &from[1])};
+    const sunder_i_point add = {common_part(l, s[0], origin[0], &from[0]), common_part(l, s[1], origin[1], &from[1])};
     const bool adds = !is_zero(shift);
     for (uint32_t i = 0; i < shape->vertices; i++) {
+        if (shape->rational && shape->exact[i].den.size) continue;
         out[i].x = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i], from[0]);
         out[i].y = sunder_i_lattice_int(l, shape->xy[2 * (size_t)i + 1], from[1]);
-        if (!adds) continue;
-        out[i].x = sunder_i_lattice_add(l, out[i].x, add[0]);
-        out[i].y = sunder_i_lattice_add(l, out[i].y, add[1]);
+        if (adds) out[i] = sunder_i_point_add(l, out[i], add);
     }
-}
-
-/* ---- Rational shapes: a wide lattice over the common denominator, origin zero ---- */
-
-/* A dyadic value in units of 2^exponent / denominator. */
-static sunder_i_big units_of(sunder_i_lattice *l, double v)
-{
-    int e;
-    const sunder_i_big m = sunder_i_big_double(&l->arena, v, &e);
-    if (m.size == 0) return m;
-    return sunder_i_big_mul(&l->arena, sunder_i_big_shl(&l->arena, m, (unsigned long)(e - l->exponent)),
-                            l->denominator);
-}
-
-static void place_rational(sunder_i_lattice *l, const sunder_shape *shape, const double *shift, sunder_i_point *out)
-{
-    sunder_i_arena *arena = &l->arena;
-    sunder_i_big add[2] = {{NULL, 0}, {NULL, 0}}, factor = {NULL, 0};
-    for (int k = 0; k < 2 && shift; k++) add[k] = units_of(l, shift[k]);
-    if (shape->rational) {
-        factor = sunder_i_big_div_floor(arena, l->denominator, shape->den);
-        factor = sunder_i_big_shl(arena, factor, (unsigned long)(shape->exponent - l->exponent));
-    }
-    for (uint32_t i = 0; i < shape->vertices; i++) {
-        int64_t at[2];
-        for (size_t k = 0; k < 2; k++) {
-            const size_t c = 2 * (size_t)i + k;
-            const sunder_i_big v = shape->rational ? sunder_i_big_mul(arena, shape->num[c], factor)
-                                                   : units_of(l, shape->xy[c]);
-            at[k] = sunder_i_lattice_big(l, sunder_i_big_add(arena, v, add[k]));
-        }
-        out[i] = (sunder_i_point){at[0], at[1]};
-    }
-}
-
-static sunder_i_big lcm(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
-{
-    return sunder_i_big_mul(arena, sunder_i_big_div_floor(arena, a, sunder_i_big_gcd(arena, a, b)), b);
-}
-
-/* The unit and the denominator that hold both operands and everything else asked for. */
-static void choose_rational(sunder_i_lattice *l, const sunder_shape *const shape[2], const double *const shift[2],
-                            const sunder_i_place_options *options)
-{
-    long exponent = LONG_MAX;
-    sunder_i_big den = sunder_i_big_i64(&l->arena, 1);
-    for (int i = 0; i < 2; i++) {
-        if (!shape[i] || shape[i]->polygons == 0) continue;
-        const long e = shape[i]->rational ? shape[i]->exponent : shape[i]->extent.low_bit;
-        if (e < exponent) exponent = e;
-        if (shape[i]->rational) den = lcm(&l->arena, den, shape[i]->den);
-        for (int k = 0; k < 2 && shift[i]; k++)
-            if (sunder_i_low_bit(shift[i][k]) < exponent) exponent = sunder_i_low_bit(shift[i][k]);
-    }
-    for (size_t i = 0; i < options->extra_n; i++)
-        if (sunder_i_low_bit(options->extra[i]) < exponent) exponent = sunder_i_low_bit(options->extra[i]);
-    l->exponent = exponent == LONG_MAX ? 0 : exponent;
-    l->denominator = den;
-}
-
-/* sunder_i_approx() must stay finite: the largest coordinate sets the shift. */
-static void choose_approx_shift(sunder_i_lattice *l, const sunder_i_point *p, uint32_t n, unsigned long *most)
-{
-    for (uint32_t i = 0; i < n && !l->arena.failed; i++) {
-        const unsigned long x = sunder_i_big_bits(sunder_i_lattice_get(l, p[i].x));
-        const unsigned long y = sunder_i_big_bits(sunder_i_lattice_get(l, p[i].y));
-        if (x > *most) *most = x;
-        if (y > *most) *most = y;
-    }
-    l->approx_shift = *most > 500 ? (int)(*most - 500) : 0;
+    if (shape->rational) place_corners(l, shape, shift, origin, out);
 }
 
 static sunder_status finish(sunder_i_placed *out, sunder_error *err)
@@ -221,21 +193,12 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
     double origin[4][2];
     bool overflow = false;
     for (int i = 0; i < 3; i++) overflow |= !clamp_extent(&extent[i]);
-    sunder_i_lattice_init(&out->lattice, extent, 4, !overflow && !rational, origin,
-                          o->force_wide || overflow || rational);
-    if (rational) {
-        choose_rational(&out->lattice, shape, shift, o);
-        place_rational(&out->lattice, p, shift[0], out->p);
-        if (q) place_rational(&out->lattice, q, shift[1], out->q);
-        unsigned long most = 0;
-        choose_approx_shift(&out->lattice, out->p, p->vertices, &most);
-        if (q) choose_approx_shift(&out->lattice, out->q, q->vertices, &most);
-    } else {
-        memcpy(out->origin_p, origin[0], sizeof origin[0]);
-        memcpy(out->origin_q, origin[1], sizeof origin[1]);
-        place_doubles(&out->lattice, p, shift[0], out->origin_p, out->p);
-        if (q) place_doubles(&out->lattice, q, shift[1], out->origin_q, out->q);
-    }
+    sunder_i_lattice_init(&out->lattice, extent, 4, !overflow, origin, o->force_wide || overflow);
+    if (rational) sunder_i_lattice_admit_ratios(&out->lattice);
+    memcpy(out->origin_p, origin[0], sizeof origin[0]);
+    memcpy(out->origin_q, origin[1], sizeof origin[1]);
+    place_doubles(&out->lattice, p, shift[0], out->origin_p, out->p);
+    if (q) place_doubles(&out->lattice, q, shift[1], out->origin_q, out->q);
     if (q && o->reflect_q) reflect(out, q->vertices);
     status = finish(out, err);
     if (status) return status;

@@ -1,12 +1,17 @@
-/* Shapes with rational coordinates. */
+/* Corners that are no pairs of doubles. */
 #ifndef SUNDER_I_RATIONAL_H
 #define SUNDER_I_RATIONAL_H
 
 #include "shape/shape.h"
 
-/* Copies the 2 * vertices numerators and the rest into the shape. False if memory is out. */
-bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_big *num, sunder_i_big den, long exponent);
-/* xy as the nearest doubles, the box outward, the extent, area and anchor. False if memory is out. */
+/* (num[0], num[1]) / den * 2^exponent + (add[0], add[1]), den > 0, in lowest terms. */
+sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, const sunder_i_big num[2], sunder_i_big den, long exponent,
+                                   const double add[2]);
+/* Is it a pair of doubles after all? */
+bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *corner);
+/* Copies the numbers of all vertices into the shape. False if memory is out. */
+bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact);
+/* xy of corners that are no doubles as the nearest ones, the box outward, the extent, area and anchor. False if memory is out. */
 bool sunder_i_shape_measure_rational(sunder_shape *s);
 
 #endif

@@ -4,6 +4,7 @@
 #include "shape/repair.h"
 
 #include "shape/even_odd.h"
+#include "shape/rational.h"
 
 #include <string.h>
 
@@ -72,49 +73,18 @@ static bool raw_rings(const sunder_i_input *in, const sunder_i_point *at, size_t
     return true;
 }
 
-/* num / den * 2^exponent + origin in lowest terms, the denominator odd. */
-static void reduce(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, double origin,
-                   sunder_i_made *out, int k)
-{
-    int e;
-    const sunder_i_big o = sunder_i_big_double(arena, origin, &e);
-    if (o.size) {
-        const long unit = exponent < e ? exponent : e;
-        const sunder_i_big shift = sunder_i_big_mul(arena, sunder_i_big_shl(arena, o, (unsigned long)(e - unit)), den);
-        num = sunder_i_big_add(arena, sunder_i_big_shl(arena, num, (unsigned long)(exponent - unit)), shift);
-        exponent = unit;
-    }
-    if (num.size == 0 || arena->failed) {
-        out->num[k] = (sunder_i_big){NULL, 0};
-        out->den[k] = sunder_i_big_i64(arena, 1);
-        out->exponent[k] = 0;
-        return;
-    }
-    const sunder_i_big g = sunder_i_big_gcd(arena, num, den);
-    num = sunder_i_big_div_floor(arena, num, g);
-    den = sunder_i_big_div_floor(arena, den, g);
-    if (arena->failed) return;
-    const unsigned long up = sunder_i_big_twos(num), down = sunder_i_big_twos(den);
-    out->num[k] = sunder_i_big_shr(arena, num, up);
-    out->den[k] = sunder_i_big_shr(arena, den, down);
-    out->exponent[k] = exponent + (long)up - (long)down;
-}
-
 /* A crossing point of the arrangement as a made point; its nearest doubles into xy. */
 static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const double origin[2],
                        sunder_i_made_points *made, double xy[2], sunder_i_arena *arena)
 {
     if (!sunder_i_reserve(&made->point, &made->capacity, made->n + 1, sizeof *made->point)) return false;
-    sunder_i_made *m = &made->point[made->n++];
-    sunder_i_big x[2], w;
-    sunder_i_hpoint_big(l, h, &x[0], &x[1], &w);
-    for (int k = 0; k < 2; k++) {
-        reduce(arena, x[k], w, l->exponent, origin[k], m, k);
-        if (arena->failed || l->arena.failed) return false;
-        xy[k] = sunder_i_big_ratio(arena, m->num[k], m->den[k], m->exponent[k]);
-        made->rational |= sunder_i_big_ratio_down(arena, m->num[k], m->den[k], m->exponent[k]) !=
-                          sunder_i_big_ratio_up(arena, m->num[k], m->den[k], m->exponent[k]);
-    }
+    sunder_i_big xyw[3];
+    sunder_i_hpoint_read(arena, l, h, xyw);
+    const sunder_i_exact m = sunder_i_exact_make(arena, xyw, xyw[2], l->exponent, origin);
+    if (arena->failed) return false;
+    for (int k = 0; k < 2; k++) xy[k] = sunder_i_big_ratio(arena, m.num[k], m.den, m.exponent);
+    made->rational |= !sunder_i_exact_is_double(arena, &m);
+    made->point[made->n++] = m;
     return !arena->failed;
 }
 
@@ -144,8 +114,8 @@ bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const 
             number[k] = (uint32_t)made->n;
             if (!make_point(r->lattice, &set.made[k], origin, made, xy, arena)) return false;
         } else {
-            const sunder_i_made *m = &made->point[number[k]];
-            for (int c = 0; c < 2; c++) xy[c] = sunder_i_big_ratio(arena, m->num[c], m->den[c], m->exponent[c]);
+            const sunder_i_exact *m = &made->point[number[k]];
+            for (int c = 0; c < 2; c++) xy[c] = sunder_i_big_ratio(arena, m->num[c], m->den, m->exponent);
         }
         r->source[v] = SUNDER_I_MADE | number[k];
         r->at[v] = (sunder_i_point){0, 0};
@@ -163,85 +133,16 @@ bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const 
     return !arena->failed;
 }
 
-/* ---- A lattice for made points ---- */
-
-static sunder_i_big lcm(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
+bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, const double origin[2],
+                           sunder_i_arena *arena)
 {
-    return sunder_i_big_mul(arena, sunder_i_big_div_floor(arena, a, sunder_i_big_gcd(arena, a, b)), b);
-}
-
-static void choose_unit(const sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_rationals *out,
-                        sunder_i_arena *arena)
-{
-    out->den = sunder_i_big_i64(arena, 1);
-    bool any = false;
-    for (size_t i = 0; i < 2 * (size_t)r->vertices; i++) {
-        const uint32_t source = r->source[i / 2];
-        long e;
-        if (source & SUNDER_I_MADE) {
-            const sunder_i_made *m = &made->point[source & ~SUNDER_I_MADE];
-            if (m->num[i & 1].size == 0) continue;
-            e = m->exponent[i & 1];
-            out->den = lcm(arena, out->den, m->den[i & 1]);
-            if (arena->failed) return;
-        } else {
-            if (r->xy[i] == 0) continue;
-            e = sunder_i_low_bit(r->xy[i]);
-        }
-        if (!any || e < out->exponent) out->exponent = e;
-        any = true;
-    }
-}
-
-static void over_one_denominator(const sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_rationals *out,
-                                 sunder_i_arena *arena)
-{
-    for (size_t i = 0; i < 2 * (size_t)r->vertices && !arena->failed; i++) {
-        const uint32_t source = r->source[i / 2];
-        sunder_i_big v, factor = out->den;
-        long e;
-        if (source & SUNDER_I_MADE) {
-            const sunder_i_made *m = &made->point[source & ~SUNDER_I_MADE];
-            v = m->num[i & 1];
-            factor = sunder_i_big_div_floor(arena, out->den, m->den[i & 1]);
-            e = m->exponent[i & 1];
-        } else {
-            int low;
-            v = sunder_i_big_double(arena, r->xy[i], &low);
-            e = low;
-        }
-        if (v.size) v = sunder_i_big_mul(arena, sunder_i_big_shl(arena, v, (unsigned long)(e - out->exponent)), factor);
-        out->num[i] = v;
-    }
-}
-
-bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_lattice *lattice,
-                           sunder_i_rationals *rationals, sunder_i_arena *arena)
-{
-    sunder_i_extent extent = {0};
-    double origin[1][2];
-    sunder_i_extent_add(&extent, r->xy, r->vertices);
-    sunder_i_lattice_init(lattice, &extent, 1, !made->rational, origin, made->rational);
-    r->lattice = lattice;
+    /* Sectors at one place share its number. */
+    sunder_i_point *at = sunder_i_arena_alloc(arena, made->n, sizeof *at);
+    if (!at) return false;
+    sunder_i_lattice_admit_ratios(r->lattice);
+    for (size_t i = 0; i < made->n; i++) at[i] = sunder_i_place_exact(r->lattice, &made->point[i], NULL, origin);
+    for (uint32_t v = 0; v < r->vertices; v++)
+        if (r->source[v] & SUNDER_I_MADE) r->at[v] = at[r->source[v] & ~SUNDER_I_MADE];
     r->rounded = made->rational;
-    if (made->rational) {
-        *rationals =
-            (sunder_i_rationals){.num = sunder_i_arena_alloc(arena, 2 * (size_t)r->vertices, sizeof(sunder_i_big))};
-        if (!rationals->num) return false;
-        choose_unit(r, made, rationals, arena);
-        over_one_denominator(r, made, rationals, arena);
-        lattice->exponent = rationals->exponent;
-        lattice->denominator = rationals->den;
-        lattice->approx_shift = 0; /* doubles are in r->xy */
-    }
-    for (uint32_t i = 0; i < r->vertices && !arena->failed; i++) {
-        const size_t k = 2 * (size_t)i;
-        if (made->rational)
-            r->at[i] = (sunder_i_point){sunder_i_lattice_big(lattice, rationals->num[k]),
-                                        sunder_i_lattice_big(lattice, rationals->num[k + 1])};
-        else
-            r->at[i] = (sunder_i_point){sunder_i_lattice_int(lattice, r->xy[k], origin[0][0]),
-                                        sunder_i_lattice_int(lattice, r->xy[k + 1], origin[0][1])};
-    }
-    return !arena->failed && !lattice->arena.failed;
+    return !r->lattice->arena.failed;
 }

@@ -4,14 +4,9 @@
 
 #include "shape/from_rings.h"
 
-/* A crossing point: coordinate k is num[k] / den[k] * 2^exponent[k], den odd, in lowest terms. */
-typedef struct sunder_i_made {
-    sunder_i_big num[2], den[2];
-    long exponent[2];
-} sunder_i_made;
-
+/* The crossing points. */
 typedef struct sunder_i_made_points {
-    sunder_i_made *point;
+    sunder_i_exact *point;
     size_t n, capacity; /* freed with sunder_i_free(); the numbers are in the arena */
     bool rational;      /* some coordinate is not a double */
 } sunder_i_made_points;
@@ -21,15 +16,9 @@ typedef struct sunder_i_made_points {
 bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at,
                              const double origin[2], size_t p, sunder_i_made_points *made, sunder_i_arena *arena);
 
-/* All coordinates of r over one denominator, in the arena: coordinate i is num[i] * 2^exponent / den, den odd. */
-typedef struct sunder_i_rationals {
-    sunder_i_big *num, den;
-    long exponent;
-} sunder_i_rationals;
-
-/* Places r, which has vertices at made points, on a new lattice (the caller frees it); rationals are filled if
- * made->rational. */
-bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, sunder_i_lattice *lattice,
-                           sunder_i_rationals *rationals, sunder_i_arena *arena);
+/* Places those vertices of r that are made points on its lattice, which was taken from origin. False if memory is
+ * out. */
+bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, const double origin[2],
+                           sunder_i_arena *arena);
 
 #endif

@@ -2,8 +2,8 @@
  *
  * A shape keeps its input as given (translations need it) and a cleaned form: outer rings counter-clockwise, holes
  * clockwise, so that the interior is on the left of every edge; no repeated vertices, no collinear ones, no spikes.
- * Coordinates are doubles, taken exactly, or, for a shape repaired by the even-odd rule, integers over one common
- * denominator, which is odd.
+ * Coordinates are doubles, taken exactly, but for those corners of a shape repaired by the even-odd rule that are
+ * crossings of two edges as given: each of them has a denominator of its own.
  *
  * Rings may touch at points, themselves too, in one way only: each vertex stands for one sector of the interior, from
  * the edge that leaves it counter-clockwise to the edge that comes in, and sectors of one polygon at one place are
@@ -20,6 +20,12 @@
 #include "number/lattice.h"
 #include "sunder.h"
 
+/* A corner that is no pair of doubles: (num[0], num[1]) / den * 2^exponent, den > 0 and odd. den.size == 0: it is one. */
+typedef struct sunder_i_exact {
+    sunder_i_big num[2], den;
+    long exponent;
+} sunder_i_exact;
+
 struct sunder_shape {
     /* as given */
     double *raw_xy;
@@ -33,17 +39,14 @@ struct sunder_shape {
     uint32_t *next, *prev; /* [vertices] along the ring */
     bool *shared;          /* [vertices] another vertex stands at the same place */
     bool touches;          /* as given, rings of one polygon meet somewhere, or a ring meets itself */
-    double *xy;            /* [2 * vertices] the coordinates; of a rational shape the nearest doubles */
-    sunder_i_extent extent;
+    double *xy;            /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones */
+    sunder_i_extent extent; /* of a rational shape: the box, and the low bit of what was given */
     double box[4];         /* rounded outward if rational */
 
-    /* rational shapes only: coordinate i is num[i] * 2^exponent / den */
-    bool rational, repaired;
-    sunder_i_arena arena;  /* of the numbers */
-    sunder_i_big *num;     /* [2 * vertices] */
-    sunder_i_big den;
-    long exponent;
-    double area, anchor[2]; /* worked out when made, while failing was possible (measure.c) */
+    bool repaired, rational; /* rational: some corner is no pair of doubles */
+    sunder_i_arena arena;    /* of the numbers of those */
+    sunder_i_exact *exact;   /* [vertices] of rational shapes, else NULL */
+    double area, anchor[2];  /* worked out when made, while failing was possible (measure_rational.c) */
 
     /* convex pieces */
     uint32_t pieces;
@@ -71,6 +74,10 @@ typedef struct sunder_i_place_options {
 sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const sunder_i_place_options *options,
                              sunder_i_placed *out, sunder_error *err);
 void sunder_i_placed_free(sunder_i_placed *placed);
+/* A corner that is no pair of doubles, moved by shift (if not NULL) and taken from an origin. The lattice admits
+ * ratios. */
+sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_exact *corner, const double *shift,
+                                    const double origin[2]);
 
 /* The edges of the shape are (v, next[v]), each a side of exactly one piece. A side (u, v) of a piece is one of them
  * exactly when next[u] == v; else it is a diagonal, and (v, u) is a side of another piece. */
@@ -81,6 +88,9 @@ static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, u
 
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */
 bool sunder_i_shape_measure_pieces(sunder_shape *shape);
+
+/* The largest convex piece in doubles, first of equals; *from is its first corner. */
+uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from);
 
 /* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence. */
 const char *sunder_i_shape_check(const sunder_shape *shape);

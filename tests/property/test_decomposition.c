@@ -222,9 +222,6 @@ static void to_units(const subject *s, double v, double origin, mpq_t out)
     const long e = s->placed.lattice.exponent;
     if (e > 0) mpq_div_2exp(out, out, (mp_bitcnt_t)e);
     if (e < 0) mpq_mul_2exp(out, out, (mp_bitcnt_t)-e);
-    mpz_from_big(mpq_numref(o), s->placed.lattice.denominator);
-    mpz_set_ui(mpq_denref(o), 1);
-    mpq_mul(out, out, o);
     mpq_clear(o);
 }
 
@@ -363,12 +360,14 @@ static const char *examine(subject *s, sunder_i_decomposition_kind kind, rng *r,
 static void subject_load(subject *s)
 {
     mpq_inits(s->a, s->b, s->c, s->side, s->e[0], s->e[1], s->e[2], s->e[3], NULL);
-    const sunder_i_big one = sunder_i_big_i64(&s->placed.lattice.arena, 1);
+    sunder_i_lattice *l = &s->placed.lattice;
     s->vertex = test_alloc(s->shape->vertices, sizeof *s->vertex);
     for (uint32_t v = 0; v < s->shape->vertices; v++) {
         qpoint_init(&s->vertex[v]);
-        set_ratio(s->vertex[v].x, sunder_i_lattice_get(&s->placed.lattice, s->placed.p[v].x), one);
-        set_ratio(s->vertex[v].y, sunder_i_lattice_get(&s->placed.lattice, s->placed.p[v].y), one);
+        const sunder_i_ratio x = sunder_i_lattice_read(&l->arena, l, s->placed.p[v].x);
+        const sunder_i_ratio y = sunder_i_lattice_read(&l->arena, l, s->placed.p[v].y);
+        set_ratio(s->vertex[v].x, x.num, x.den);
+        set_ratio(s->vertex[v].y, y.num, y.den);
     }
 }
 

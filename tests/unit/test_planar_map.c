@@ -2,6 +2,7 @@
  * them; numbers of every size; and every allocation failing once. */
 #include "failing.h"
 #include "planar_map/planar_map.h"
+#include "predicate/predicate.h"
 #include "random.h"
 
 #include <setjmp.h>
@@ -406,16 +407,15 @@ static void test_wide_lattice(void **state)
             const double s = size[i], t = size[j], x[4] = {0, s, s, 0}, y[4] = {0, 0, t, t};
             sunder_i_xyw at[4];
             sunder_i_point along[4];
-            int64_t n[4][2];
+            sunder_i_point n[4];
             for (int k = 0; k < 4; k++) {
-                n[k][0] = sunder_i_lattice_int(&b.lattice, x[k], 0);
-                n[k][1] = sunder_i_lattice_int(&b.lattice, y[k], 0);
-                for (int c = 0; c < 2; c++) at[k][c] = sunder_i_lattice_get(&b.lattice, n[k][c]);
+                n[k].x = sunder_i_lattice_int(&b.lattice, x[k], 0);
+                n[k].y = sunder_i_lattice_int(&b.lattice, y[k], 0);
+                at[k][0] = sunder_i_lattice_get(&b.lattice, n[k].x);
+                at[k][1] = sunder_i_lattice_get(&b.lattice, n[k].y);
                 at[k][2] = sunder_i_big_i64(&b.arena, 1);
             }
-            for (int k = 0; k < 4; k++)
-                along[k] = (sunder_i_point){sunder_i_lattice_sub(&b.lattice, n[(k + 1) % 4][0], n[k][0]),
-                                            sunder_i_lattice_sub(&b.lattice, n[(k + 1) % 4][1], n[k][1])};
+            for (int k = 0; k < 4; k++) along[k] = sunder_i_point_sub(&b.lattice, n[(k + 1) % 4], n[k]);
             assert_int_equal(
                 sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)at, i & 1 ? along : NULL, 4, NULL),
                 SUNDER_OK);

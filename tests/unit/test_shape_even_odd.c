@@ -145,17 +145,18 @@ static int in_set(const polyset *set, int64_t x, int64_t y)
 /* Coordinate i of the cleaned form, exactly. */
 static void coordinate(mpq_t r, const sunder_shape *s, size_t i)
 {
-    if (!s->rational) {
+    const sunder_i_exact *v = s->rational ? &s->exact[i / 2] : NULL;
+    if (!v || v->den.size == 0) {
         mpq_set_d(r, s->xy[i]);
         return;
     }
-    mpz_from_big(mpq_numref(r), s->num[i]);
-    mpz_from_big(mpq_denref(r), s->den);
+    mpz_from_big(mpq_numref(r), v->num[i & 1]);
+    mpz_from_big(mpq_denref(r), v->den);
     mpq_canonicalize(r);
-    if (s->exponent >= 0)
-        mpq_mul_2exp(r, r, (mp_bitcnt_t)s->exponent);
+    if (v->exponent >= 0)
+        mpq_mul_2exp(r, r, (mp_bitcnt_t)v->exponent);
     else
-        mpq_div_2exp(r, r, (mp_bitcnt_t)-s->exponent);
+        mpq_div_2exp(r, r, (mp_bitcnt_t)-v->exponent);
 }
 
 /* All corners as rationals, so that each is converted once. */

@@ -103,13 +103,14 @@ static void test_gears(void **state)
 
 /* ---- Placing ---- */
 
-/* Lattice integer n as a rational: n * 2^exponent / denominator + origin. */
+/* A number n of the lattice as a rational: n * 2^exponent + origin. */
 static void value_of(mpq_t r, sunder_i_lattice *l, int64_t n, double origin)
 {
     mpq_t o;
     mpq_init(o);
-    mpz_from_big(mpq_numref(r), sunder_i_lattice_get(l, n));
-    mpz_from_big(mpq_denref(r), l->denominator);
+    const sunder_i_ratio v = sunder_i_lattice_read(&l->arena, l, n);
+    mpz_from_big(mpq_numref(r), v.num);
+    mpz_from_big(mpq_denref(r), v.den);
     mpq_canonicalize(r);
     if (l->exponent >= 0)
         mpq_mul_2exp(r, r, (mp_bitcnt_t)l->exponent);
@@ -125,14 +126,15 @@ static void truth(mpq_t r, const sunder_shape *s, size_t i, const double *shift,
 {
     mpq_t d;
     mpq_init(d);
-    if (s->rational) {
-        mpz_from_big(mpq_numref(r), s->num[i]);
-        mpz_from_big(mpq_denref(r), s->den);
+    const sunder_i_exact *v = s->rational ? &s->exact[i / 2] : NULL;
+    if (v && v->den.size) {
+        mpz_from_big(mpq_numref(r), v->num[i & 1]);
+        mpz_from_big(mpq_denref(r), v->den);
         mpq_canonicalize(r);
-        if (s->exponent >= 0)
-            mpq_mul_2exp(r, r, (mp_bitcnt_t)s->exponent);
+        if (v->exponent >= 0)
+            mpq_mul_2exp(r, r, (mp_bitcnt_t)v->exponent);
         else
-            mpq_div_2exp(r, r, (mp_bitcnt_t)-s->exponent);
+            mpq_div_2exp(r, r, (mp_bitcnt_t)-v->exponent);
     } else {
         mpq_set_d(r, s->xy[i]);
     }

@@ -1,0 +1,168 @@
+/* Area and anchor of a shape with corners that are no doubles. */
+#include "predicate/vector.h"
+#include "shape/shape.h"
+
+/* ---- Area ---- */
+
+/* Twice the area of a convex piece, counter-clockwise, in units of 2^-bits: the sum of cross products taken from its
+ * first corner, each rounded down; *lost counts those. */
+static sunder_i_big twice_area(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_point *at,
+                               const uint32_t *corner, uint32_t n, unsigned long bits, int64_t *lost)
+{
+    sunder_i_big sum = {NULL, 0};
+    const sunder_i_vector o = sunder_i_vector_get(arena, l, at[corner[0]]);
+    sunder_i_vector v = sunder_i_vector_sub(arena, sunder_i_vector_get(arena, l, at[corner[1]]), o);
+    for (uint32_t i = 1; i + 1 < n; i++) {
+        const sunder_i_vector u = v;
+        v = sunder_i_vector_sub(arena, sunder_i_vector_get(arena, l, at[corner[i + 1]]), o);
+        const sunder_i_big den = sunder_i_times(arena, u.w, v.w);
+        sunder_i_big term = sunder_i_big_shl(arena, sunder_i_vector_cross(arena, u, v), bits);
+        if (!sunder_i_is_one(den)) {
+            term = sunder_i_big_div_floor(arena, term, den);
+            ++*lost;
+        }
+        sum = sunder_i_big_add(arena, sum, term);
+    }
+    return sum;
+}
+
+/* The sum over convex pieces, which is the sum over members, with so many bits behind the point; it is true, or too
+ * small by less than *lost in the last of them. */
+static sunder_i_big sum_pieces(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
+                               unsigned long bits, int64_t *lost)
+{
+    sunder_i_big sum = {NULL, 0};
+    sunder_i_arena scratch;
+    *lost = 0;
+    sunder_i_arena_init(&scratch);
+    for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++]) {
+        const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
+        const uint32_t *corner = shape->piece_vertex + at, n = shape->piece_end[i] - at;
+        sum = sunder_i_big_add(arena, sum,
+                               sunder_i_big_copy(arena, twice_area(&scratch, &placed->lattice, placed->p, corner, n,
+                                                                   bits, lost)));
+        arena->failed |= scratch.failed;
+        if (!scratch.failed) sunder_i_arena_release(&scratch, mark);
+    }
+    sunder_i_arena_free(&scratch);
+    return sum;
+}
+
+/* Numerators of points over one denominator. */
+typedef struct common {
+    sunder_i_big (*xy)[2], den;
+} common;
+
+static common over_one(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_point *at,
+                       const uint32_t *corner, uint32_t n)
+{
+    common c = {sunder_i_arena_alloc(arena, n, sizeof *c.xy), sunder_i_big_i64(arena, 1)};
+    for (uint32_t i = 0; i < n && !arena->failed; i++) {
+        const sunder_i_big w = sunder_i_vector_get(arena, l, at[corner[i]]).w;
+        const sunder_i_big g = sunder_i_big_gcd(arena, c.den, w);
+        if (!arena->failed) c.den = sunder_i_big_mul(arena, c.den, sunder_i_big_div_floor(arena, w, g));
+    }
+    for (uint32_t i = 0; i < n && !arena->failed; i++) {
+        const sunder_i_vector v = sunder_i_vector_get(arena, l, at[corner[i]]);
+        const sunder_i_big factor = sunder_i_big_div_floor(arena, c.den, v.w);
+        c.xy[i][0] = sunder_i_big_mul(arena, v.x, factor);
+        c.xy[i][1] = sunder_i_big_mul(arena, v.y, factor);
+    }
+    return c;
+}
+
+/* Twice the area, exactly; over the square of *den. */
+static sunder_i_big whole_area(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
+                               sunder_i_big *den)
+{
+    const uint32_t n = shape->piece_end[shape->pieces - 1];
+    const common c = over_one(arena, &placed->lattice, placed->p, shape->piece_vertex, n);
+    sunder_i_big sum = {NULL, 0};
+    *den = c.den;
+    for (uint32_t i = 0, first = 0; i < shape->pieces && !arena->failed; first = shape->piece_end[i++])
+        for (uint32_t k = first; k < shape->piece_end[i]; k++) {
+            const uint32_t next = k + 1 < shape->piece_end[i] ? k + 1 : first;
+            sum = sunder_i_big_add(arena, sum,
+                                   sunder_i_big_sub(arena, sunder_i_big_mul(arena, c.xy[k][0], c.xy[next][1]),
+                                                    sunder_i_big_mul(arena, c.xy[k][1], c.xy[next][0])));
+        }
+    return sum;
+}
+
+/* To the nearest double. Corners with denominators of their own would need one of all of them: a sum that is rounded
+ * below settles it unless the area is the very middle of two doubles, or too near to that. */
+static double area_of(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed)
+{
+    const long e = 2 * placed->lattice.exponent - 1;
+    const sunder_i_big one = sunder_i_big_i64(arena, 1);
+    for (unsigned long bits = 128; bits <= 2048; bits *= 4) {
+        int64_t lost;
+        const sunder_i_big low = sum_pieces(arena, shape, placed, bits, &lost);
+        const double area = sunder_i_big_ratio(arena, low, one, e - (long)bits);
+        const sunder_i_big high = sunder_i_big_add(arena, low, sunder_i_big_i64(arena, lost));
+        if (lost == 0 || sunder_i_big_ratio(arena, high, one, e - (long)bits) == area) return area;
+    }
+    sunder_i_big den;
+    const sunder_i_big sum = whole_area(arena, shape, placed, &den);
+    return arena->failed ? 0 : sunder_i_big_ratio(arena, sum, sunder_i_big_mul(arena, den, den), e);
+}
+
+/* ---- Anchor ---- */
+
+/* (num / den) * 2^exponent + origin, to the nearest double. */
+static double near_value(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, double origin)
+{
+    int e;
+    const sunder_i_big o = sunder_i_big_double(arena, origin, &e);
+    if (o.size == 0) return sunder_i_big_ratio(arena, num, den, exponent);
+    const long unit = exponent < e ? exponent : e;
+    num = sunder_i_big_shl(arena, num, (unsigned long)(exponent - unit));
+    const sunder_i_big shift = sunder_i_big_mul(arena, sunder_i_big_shl(arena, o, (unsigned long)(e - unit)), den);
+    return sunder_i_big_ratio(arena, sunder_i_big_add(arena, num, shift), den, unit);
+}
+
+/* The centroid of a piece: over the fan of triangles o, a, b with u = a - o, v = b - o it is
+ * o + sum (u + v) cross(u, v) / (3 sum cross(u, v)). */
+static void centroid(const sunder_i_lattice *l, sunder_i_arena *arena, const sunder_i_point *at, const uint32_t *corner,
+                     uint32_t n, const double origin[2], double xy[2])
+{
+    const common c = over_one(arena, l, at, corner, n);
+    sunder_i_big weight = {NULL, 0}, moment[2] = {{NULL, 0}, {NULL, 0}};
+    for (uint32_t i = 1; i + 1 < n && !arena->failed; i++) {
+        sunder_i_big u[2], v[2];
+        for (int k = 0; k < 2; k++) {
+            u[k] = sunder_i_big_sub(arena, c.xy[i][k], c.xy[0][k]);
+            v[k] = sunder_i_big_sub(arena, c.xy[i + 1][k], c.xy[0][k]);
+        }
+        const sunder_i_big cross =
+            sunder_i_big_sub(arena, sunder_i_big_mul(arena, u[0], v[1]), sunder_i_big_mul(arena, u[1], v[0]));
+        weight = sunder_i_big_add(arena, weight, cross);
+        for (int k = 0; k < 2; k++)
+            moment[k] = sunder_i_big_add(arena, moment[k],
+                                         sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, u[k], v[k])));
+    }
+    weight = sunder_i_big_mul(arena, weight, sunder_i_big_i64(arena, 3));
+    const sunder_i_big den = sunder_i_big_mul(arena, weight, c.den);
+    for (int k = 0; k < 2 && !arena->failed; k++) {
+        const sunder_i_big start = sunder_i_big_mul(arena, weight, c.xy[0][k]);
+        xy[k] = near_value(arena, sunder_i_big_add(arena, start, moment[k]), den, l->exponent, origin[k]);
+    }
+}
+
+bool sunder_i_shape_measure_pieces(sunder_shape *shape)
+{
+    sunder_i_placed placed;
+    if (shape->pieces == 0) return true;
+    if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return false;
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    uint32_t from;
+    const uint32_t largest = sunder_i_largest_piece(shape, &from);
+    centroid(&placed.lattice, &arena, placed.p, shape->piece_vertex + from, shape->piece_end[largest] - from,
+             placed.origin_p, shape->anchor);
+    shape->area = area_of(&arena, shape, &placed);
+    const bool good = !arena.failed && !placed.lattice.arena.failed;
+    sunder_i_arena_free(&arena);
+    sunder_i_placed_free(&placed);
+    return good;
+}
