@@ -22,6 +22,7 @@ void sunder_i_job_free(sunder_i_job *w)
     sunder_i_town_free(&w->town);
     sunder_i_free(w->start.pair);
     sunder_i_free(w->now.pair);
+    sunder_i_free(w->entry);
     sunder_i_free(w->edge);
     sunder_i_free(w->parent);
     sunder_i_free(w->dirty);

@@ -143,6 +143,9 @@ typedef struct sunder_i_piece {
     double box[4]; /* relative to the body's origin */
 } sunder_i_piece;
 
+/* How far the body may go. */
+static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
+
 /* Two features that may overlap; sorted. */
 typedef struct sunder_i_couple {
     uint32_t a, b;
@@ -197,6 +200,7 @@ typedef struct sunder_i_town {
     size_t walls;
     sunder_i_couple *kept;  /* pairs that may overlap, because one lies in the other; sorted */
     bool *a_in_b;           /* [kept_n] which of the two lies in the other */
+    bool *enters;           /* [kept_n] it did not at the start, but is to get there (enter.c) */
     unsigned char *keeping; /* [kept_n] a sunder_i_keeping */
     sunder_i_couple *held;  /* bodies: a holds b, which therefore goes where a goes; sorted */
     size_t held_n;
@@ -274,6 +278,8 @@ typedef enum sunder_i_keeping {
 } sunder_i_keeping;
 
 sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
+/* One more: a, or else b, is to get inside the other. Before the walls are made. */
+sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, bool a_in_b, sunder_error *err);
 /* The walls, for the search; after the pieces are cut. */
 sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err);
 /* Where the pair is in town->kept; kept_n if it never was. */

@@ -25,9 +25,8 @@ typedef struct judging {
     const sunder_i_town *town;
     const sunder_i_relations *start;
     sunder_i_truce *truce; /* [start->n] hopeless ones are filled */
+    sunder_i_peace *peace; /* [start->n] */
 } judging;
-
-static double limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 
 /* Is there surely a move of no more than `reach` that takes b's box the gap off a's? Then the exact question is spared. */
 static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
@@ -44,31 +43,43 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
     for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
-        const double reach = limit_of(&town->body[i]) + limit_of(&town->body[j]);
-        sunder_i_peace peace;
+        const double reach = sunder_i_limit_of(&town->body[i]) + sunder_i_limit_of(&town->body[j]);
         if (!sunder_i_job_is_between(town, r) || reach == INFINITY ||
             boxes_can_part(town->box + 4 * (size_t)r->a, town->box + 4 * (size_t)r->b, town->rules.gap, reach))
             continue;
         status = sunder_i_make_peace(&town->rules, town->layer->feature[r->a].shape, town->layer->feature[r->b].shape,
-                                     nextafter(reach, INFINITY), &peace, err);
-        if (status || !peace.beyond) continue;
+                                     nextafter(reach, INFINITY), &g->peace[k], err);
+        if (status || !g->peace[k].beyond) continue;
         status = sunder_i_truce_of(town, r->a, r->b, &g->truce[k], err);
         g->truce[k].hopeless = true;
     }
     return status;
 }
 
-sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err)
+/* Takes over what was found of pair r. */
+static sunder_status note(sunder_i_job *w, const sunder_i_relation *r, const sunder_i_truce *truce,
+                          const sunder_i_peace *peace, sunder_error *err)
 {
     sunder_i_town *town = &w->town;
-    sunder_i_truce *truce = sunder_i_calloc(w->start.n, sizeof *truce);
-    if (!truce) return sunder_i_no_memory(err);
-    judging g = {town, &w->start, truce};
-    sunder_status status = sunder_i_parallel(town->rules.threads, w->start.n, 8, judge, &g, err);
-    for (size_t k = 0; !status && k < w->start.n; k++)
-        if (truce[k].hopeless && !sunder_i_truces_add(&town->truces, &truce[k])) status = sunder_i_no_memory(err);
-    sunder_i_free(truce);
-    if (!status && !sunder_i_truces_index(&town->truces, town)) status = sunder_i_no_memory(err);
+    if (truce->hopeless) return sunder_i_truces_add(&town->truces, truce) ? SUNDER_OK : sunder_i_no_memory(err);
+    const double reach = sunder_i_limit_of(&town->body[town->body_of[r->a]]) + sunder_i_limit_of(&town->body[town->body_of[r->b]]);
+    if (!peace->apart_beyond || !peace->inside || hypot(peace->place[0], peace->place[1]) > reach) return SUNDER_OK;
+    if (!sunder_i_reserve(&w->entry, &w->entry_capacity, w->entries + 1, sizeof *w->entry))
+        return sunder_i_no_memory(err);
+    w->entry[w->entries++] = (sunder_i_entry){r->a, r->b, peace->a_inside, {peace->place[0], peace->place[1]}};
+    return sunder_i_keep_add(town, r->a, r->b, peace->a_inside, err);
+}
+
+sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err)
+{
+    const size_t n = w->start.n;
+    judging g = {&w->town, &w->start, sunder_i_calloc(n, sizeof *g.truce), sunder_i_calloc(n, sizeof *g.peace)};
+    sunder_status status = g.truce && g.peace ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_parallel(w->town.rules.threads, n, 8, judge, &g, err);
+    for (size_t k = 0; !status && k < n; k++) status = note(w, &w->start.pair[k], &g.truce[k], &g.peace[k], err);
+    if (!status && !sunder_i_truces_index(&w->town.truces, &w->town)) status = sunder_i_no_memory(err);
+    sunder_i_free(g.truce);
+    sunder_i_free(g.peace);
     return status;
 }
 
@@ -159,7 +170,7 @@ static bool join_torn(sunder_i_job *w)
     const sunder_i_town *town = &w->town;
     for (size_t k = 0; k < town->truces.torn_n; k++) {
         const sunder_i_torn *t = &town->truces.torn[k];
-        if (t->reach > 0 && t->reach <= limit_of(&town->body[t->i]) + limit_of(&town->body[t->j]) &&
+        if (t->reach > 0 && t->reach <= sunder_i_limit_of(&town->body[t->i]) + sunder_i_limit_of(&town->body[t->j]) &&
             !sunder_i_job_add_edge(w, t->i, t->j))
             return false;
     }

@@ -15,10 +15,19 @@ typedef enum sunder_i_standing {
     SUNDER_I_NO_SOLUTION
 } sunder_i_standing;
 
+/* Features a and b, of which the one is to get inside the other: a move of b that brings them there. */
+typedef struct sunder_i_entry {
+    uint32_t a, b;
+    bool a_inside;
+    double place[2];
+} sunder_i_entry;
+
 typedef struct sunder_i_job {
     sunder_i_town town;
     sunder_i_scene scene;
     sunder_i_relations start, now;
+    sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
+    size_t entries, entry_capacity;
     sunder_i_couple *edge;
     size_t edges, edge_capacity;
     uint32_t *parent;        /* [bodies] union-find over edges */
@@ -79,12 +88,18 @@ sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err);
 
 /* What lies in two that are in conflict is kept in one of them. */
 sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err);
-/* Finds the pairs that cannot be brought to peace within their limits, exactly, and puts them under a truce. */
-sunder_status sunder_i_job_find_hopeless(sunder_i_job *w, sunder_error *err);
+/* Finds, exactly, the pairs that cannot be brought to peace within their limits, and puts them under a truce; and those
+ * that cannot be parted, but may go inside, which are kept there from then on. Before the town is cut. */
+sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err);
 /* Takes over the truces that clusters made, and ended. */
 sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err);
 /* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
 sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err);
+
+/* ---- enter.c ---- */
+
+/* Sends those there that cannot be parted, but go inside. */
+sunder_status sunder_i_job_enter(sunder_i_job *w, sunder_error *err);
 
 /* ---- uphold.c ---- */
 

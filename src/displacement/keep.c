@@ -44,14 +44,43 @@ sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *
     for (size_t k = 0; k < relations->n; k++) kept += relations->pair[k].kept;
     town->kept = sunder_i_alloc(kept, sizeof *town->kept);
     town->a_in_b = sunder_i_alloc(kept, sizeof *town->a_in_b);
+    town->enters = sunder_i_calloc(kept, sizeof *town->enters);
     town->keeping = sunder_i_calloc(kept, sizeof *town->keeping);
-    if (!town->kept || !town->a_in_b || !town->keeping) return sunder_i_no_memory(err);
+    if (!town->kept || !town->a_in_b || !town->enters || !town->keeping) return sunder_i_no_memory(err);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
         if (!r->kept) continue;
         town->kept[town->kept_n] = (sunder_i_couple){r->a, r->b};
         town->a_in_b[town->kept_n++] = r->a_in_b;
     }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, bool a_in_b, sunder_error *err)
+{
+    const size_t n = town->kept_n, more = n + 1;
+    sunder_i_couple *kept = sunder_i_realloc(town->kept, more, sizeof *kept);
+    if (kept) town->kept = kept;
+    bool *which = sunder_i_realloc(town->a_in_b, more, sizeof *which);
+    if (which) town->a_in_b = which;
+    bool *enters = sunder_i_realloc(town->enters, more, sizeof *enters);
+    if (enters) town->enters = enters;
+    unsigned char *keeping = sunder_i_realloc(town->keeping, more, sizeof *keeping);
+    if (keeping) town->keeping = keeping;
+    if (!kept || !which || !enters || !keeping) return sunder_i_no_memory(err);
+    const sunder_i_couple pair = {a, b};
+    size_t at = n;
+    for (; at > 0 && sunder_i_by_couple(&kept[at - 1], &pair) > 0; at--) {
+        kept[at] = kept[at - 1];
+        which[at] = which[at - 1];
+        enters[at] = enters[at - 1];
+        keeping[at] = keeping[at - 1];
+    }
+    kept[at] = pair;
+    which[at] = a_in_b;
+    enters[at] = true;
+    keeping[at] = SUNDER_I_STRICT;
+    town->kept_n = more;
     return SUNDER_OK;
 }
 

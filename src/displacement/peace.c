@@ -137,7 +137,7 @@ sunder_status sunder_i_make_peace(const sunder_i_rules *rules, const sunder_shap
     sunder_status status = sunder_i_separate(a, none, b, none, rules->gap, upper, &apart, &out->beyond, err);
     if (status) return status;
     out->least = fmax(0, apart.lower_bound);
-    out->beyond = out->beyond || out->least > upper;
+    out->apart_beyond = out->beyond = out->beyond || out->least > upper;
     sunder_separation_clear(&apart);
     if (!sunder_i_may_be_inside(rules)) return SUNDER_OK;
     double box[2][4];
@@ -156,6 +156,7 @@ sunder_status sunder_i_make_peace(const sunder_i_rules *rules, const sunder_shap
         if (!(n.distance < nearest_place)) continue;
         nearest_place = n.distance;
         out->inside = true;
+        out->a_inside = k == 0;
         /* Moves of b: where a goes into b, b comes the other way. */
         for (int c = 0; c < 2; c++) out->place[c] = k ? n.place[c] : -n.place[c];
     }

@@ -20,9 +20,11 @@ static inline bool sunder_i_is_at_peace(const sunder_i_relation *r) { return !r-
 
 /* What it takes to make peace between a pair, in lengths of relative moves of b. */
 typedef struct sunder_i_peace {
-    double least;  /* proved: no shorter one does it, in any way */
-    bool beyond;   /* proved: none up to the length that was asked about does */
-    bool inside;   /* `place` is one that brings one of them inside the other, up to the rounding of doubles */
+    double least;      /* proved: no shorter one does it, in any way */
+    bool beyond;       /* proved: none up to the length that was asked about does */
+    bool apart_beyond; /* proved: none up to that length takes them apart */
+    bool inside;       /* `place` is one that brings one of them inside the other, up to the rounding of doubles */
+    bool a_inside;     /* ... which: a inside b */
     double place[2];
 } sunder_i_peace;
 

@@ -82,6 +82,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     const double began = seconds();
     bool again = true;
     sunder_status status = start(w, layer, options, err);
+    if (!status) status = sunder_i_job_judge(w, err);
     if (!status) status = sunder_i_town_cut(&w->town, err);
     if (!status) status = sunder_i_job_init(w, err);
     if (status) return status;
@@ -90,8 +91,8 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
     w->now.n = w->start.n;
     if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_no_memory(err);
-    status = sunder_i_job_find_hopeless(w, err);
-    if (!status) status = sunder_i_job_choose_holders(w, err);
+    status = sunder_i_job_choose_holders(w, err);
+    if (!status) status = sunder_i_job_enter(w, err);
     if (!status) status = sunder_i_job_settle(w, 0.1, 0.4, err);
     for (int round = 0; round < RECONSIDERED && again && !status; round++) {
         status = sunder_i_job_reconsider(w, &again, err);

@@ -19,6 +19,7 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->present);
     sunder_i_free(town->kept);
     sunder_i_free(town->a_in_b);
+    sunder_i_free(town->enters);
     sunder_i_free(town->keeping);
     sunder_i_free(town->held);
     sunder_i_free(town->wall);

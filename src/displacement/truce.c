@@ -103,7 +103,7 @@ sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t 
     *out = (sunder_i_truce){.a = f < g ? f : g, .b = f < g ? g : f};
     const sunder_shape *a = town->layer->feature[out->a].shape, *b = town->layer->feature[out->b].shape;
     const size_t kept = sunder_i_kept_at(town, f, g);
-    out->inside = kept < town->kept_n;
+    out->inside = kept < town->kept_n && !town->enters[kept];
     if (out->inside) return SUNDER_OK;
     bool overlap;
     sunder_status status = sunder_i_overlap(a, none, b, none, &overlap, err);

@@ -341,8 +341,81 @@ static void check_planted(void **state)
     assert_true(open * 5 <= before);
 }
 
+/* ---- Corridors -----------------------------------------------------------------------------------------------------
+ */
+
+/* A quadrangle with two sides along (ex, ey), from (x, y). */
+static plot *add_slanted(layer *l, const double o[2], const double e[2], double along, double across, double from,
+                         double off)
+{
+    plot *p = add_plot(l);
+    const double n[2] = {-e[1], e[0]};
+    double xy[8];
+    for (int k = 0; k < 4; k++) {
+        const double s = from + (k == 1 || k == 2 ? along : 0), t = off + (k > 1 ? across : 0);
+        for (int c = 0; c < 2; c++) xy[2 * k + c] = o[c] + s * e[c] + t * n[c];
+    }
+    polyset_polygon(&p->solved, xy, 4);
+    return p;
+}
+
+/* A slanted corridor between fixed walls: what stands in it, too near to both or between them exactly, is pressed along
+ * it by others, and doubles hold no such move. The rest, beside it, has room. */
+static void check_corridors(void **state)
+{
+    (void)state;
+    size_t open = 0, before = 0, moved = 0;
+    const size_t trials = test_count(200);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        layer l;
+        memset(&l, 0, sizeof l);
+        sunder_layer_options_init(&l.options);
+        l.options.gap = rng_once_in(&r, 3) ? 0 : eighths(&r, 8, 24);
+        l.options.touch_tolerance = 0;
+        l.options.no_blocks = true;
+        l.options.contained = SUNDER_CONTAINED_SEPARATE;
+        const double angle = 6.28 * rng_unit(&r), e[2] = {cos(angle), sin(angle)};
+        const double o[2] = {rng_once_in(&r, 2) ? 451234.567 : 0.1, rng_once_in(&r, 2) ? 5411234.321 : 0.3};
+        const double wide = 3 + 3 * rng_unit(&r), gap = l.options.gap;
+        const double slack = gap * (rng_once_in(&r, 2) ? 0.5 * rng_unit(&r) : rng_unit(&r) < 0.5 ? 1 : 0);
+        add_slanted(&l, o, e, 60, 4, 0, -4)->feature.fixed = true;
+        add_slanted(&l, o, e, 60, 4, 0, wide + 2 * slack)->feature.fixed = true;
+        const int houses = (int)rng_int(&r, 2, 4);
+        const double limit = rng_once_in(&r, 3) ? 20 : 0.5 + 3 * rng_unit(&r);
+        double at = 15;
+        for (int k = 0; k < houses; k++) {
+            const double along = 2 + 4 * rng_unit(&r);
+            add_slanted(&l, o, e, along, wide, at, slack)->feature.max_shift = limit;
+            at += along + (rng_once_in(&r, 2) ? -0.5 : 0.3) * rng_unit(&r) * fmax(gap, 1);
+        }
+        add_slanted(&l, o, e, 5, 5, 10, wide + 2 * slack + 4 + gap / 2)->feature.max_shift = 20;
+        sunder_feature feature[MOST];
+        for (size_t k = 0; k < l.n; k++) {
+            polyset_copy(&l.plot[k].start, &l.plot[k].solved);
+            l.plot[k].feature.shape = polyset_shape(&l.plot[k].start);
+            feature[k] = l.plot[k].feature;
+        }
+        sunder_report *report = ask(&l, feature, &l.options, false);
+        sunder_layer_summary s;
+        sunder_report_summary(report, &s);
+        assert_true(s.verified);
+        demand_rule(&l, report, trial);
+        before += count(&s.before);
+        open += count(&s.after);
+        moved += s.moved;
+        double d[2];
+        sunder_report_move(report, l.n - 1, &d[0], &d[1]);
+        if (gap > 0 && hypot(d[0], d[1]) < gap / 4) fail_msg("trial %zu: the house beside the corridor stays", trial);
+        sunder_report_free(report);
+        clear(&l);
+    }
+    print_message("%zu conflicts in corridors, %zu are left; %zu moved\n", before, open, moved);
+    assert_true(open > 0 && moved > trials);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_planted)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_planted), cmocka_unit_test(check_corridors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -432,6 +432,71 @@ static void check_duplicates(void **state)
     end(&s);
 }
 
+/* A house that sticks out of its outline and is too near a block beside it: into the outline is a way out of both. */
+static void check_way_inside(void **state)
+{
+    scene s;
+    begin(&s, 3);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 100, 100)->fixed = true;
+    add_box(&s, 94, 40, 10, 10)->max_shift = 7;
+    add_box(&s, 105, 20, 15, 50)->fixed = true;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    assert_near(length(&s, 1), 4, HAIR);
+    assert_true(s.summary.lower_bound <= s.summary.cost);
+    /* 3.5 is too short for either way. Off the block it would only go deeper into the outline: it stays. */
+    s.feature[1].max_shift = 3.5;
+    run(&s, false);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 2);
+    assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+    assert_true(length(&s, 1) == 0);
+    end(&s);
+    /* Neither fits in the other: then the gap is the only way. */
+    begin(&s, 3);
+    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    add_box(&s, 0, 0, 8, 100)->fixed = true;
+    add_box(&s, 4, 40, 10, 10)->max_shift = 6;
+    run(&s, false);
+    c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+    end(&s);
+}
+
+/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: nobody moves for the hut. */
+static void check_nothing_worse(void **state)
+{
+    scene s;
+    begin(&s, 3);
+    add_box(&s, 0, 0, 10, 40)->fixed = true;
+    add_box(&s, 14.9, 0, 10, 40)->fixed = true;
+    add_box(&s, 10.9, 10, 3, 3)->max_shift = 10;
+    for (int k = 0; k < 4; k++) add_box(&s, 10.5, 50 + 12.0 * k, 4, 9)->max_shift = 10;
+    run(&s, false);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 2);
+    for (size_t k = 0; k < n; k++) assert_true(c[k].distance >= c[k].before);
+    assert_int_equal(s.summary.moved, 0);
+    assert_true(s.summary.verified);
+    end(&s);
+    /* What overlaps stays no deeper, though a neighbour presses. */
+    begin(&s, 0);
+    add_box(&s, 0, 0, 10, 10)->fixed = true;
+    add_box(&s, 6, 0, 10, 10)->max_shift = 1;
+    add_box(&s, 15, 0, 10, 10)->max_shift = 9;
+    run(&s, false);
+    c = sunder_report_conflicts(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
+    assert_near(c->depth, 4, HAIR);
+    assert_true(c->depth <= 4);
+    end(&s);
+}
+
 static void check_ignored(void **state)
 {
     scene s;
@@ -561,6 +626,7 @@ int main(void)
         cmocka_unit_test(check_blocks),
         cmocka_unit_test(check_inside_blocks), cmocka_unit_test(check_contained),
         cmocka_unit_test(check_kept_inside),
+        cmocka_unit_test(check_way_inside),    cmocka_unit_test(check_nothing_worse),
         cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
         cmocka_unit_test(check_cancel_anywhere), cmocka_unit_test(check_within),
