@@ -25,6 +25,7 @@ static bool fail_with(gis_error *error, int exit_status, const char *format, va_
 {
     if (error) {
         error->exit_status = exit_status;
+        error->no_memory = false;
         vsnprintf(error->message, sizeof error->message, format, arguments);
         flatten(error->message);
     }
@@ -51,7 +52,10 @@ bool gis_fail_usage(gis_error *error, const char *format, ...)
 
 bool gis_no_memory(gis_error *error)
 {
-    return gis_fail(error, "out of memory");
+    gis_fail(error, "out of memory");
+    if (error)
+        error->no_memory = true;
+    return false;
 }
 
 static bool list_add_text(gis_list *list, const char *text)

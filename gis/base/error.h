@@ -14,6 +14,7 @@ enum {
 
 typedef struct gis_error {
     int exit_status; /* GIS_FAILED or GIS_USAGE */
+    bool no_memory;  /* that is all that failed: neither the call nor the data is at fault */
     char message[1024];
 } gis_error;
 

@@ -225,6 +225,16 @@ static bool hint_at_order(const gis_options *options, gis_error *error)
     return false;
 }
 
+/* Points are taken where a symbol is given, which is easily forgotten. */
+static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
+{
+    if (input->points || !(gis_option_table[OPT_SYMBOL].commands & input->options->command->bit) || !strstr(error->message, "Point"))
+        return false;
+    size_t n = strlen(error->message);
+    snprintf(error->message + n, sizeof error->message - n, "; for points give their --symbol, as in --symbol disc:4");
+    return false;
+}
+
 static bool open_source(gis_layer_input *input, gis_error *error)
 {
     const gis_options *options = input->options;
@@ -232,7 +242,7 @@ static bool open_source(gis_layer_input *input, gis_error *error)
     gis_source_request request =
         gis_options_source(options, options->operand[0], input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS);
     if (!gis_source_open(&request, &input->source, error))
-        return hint_at_order(options, error);
+        return hint_at_order(options, error) || hint_at_symbol(input, error);
     gis_say_warnings(gis_source_warnings(input->source));
     input->n = gis_source_count(input->source);
     return gis_layer_field(input, OPT_ID_FIELD, &input->id_field, error);

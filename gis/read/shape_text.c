@@ -145,6 +145,13 @@ bool gis_shape_read_file(const char *name, const char *who, char **text, gis_err
     return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
 }
 
+static bool shape_failed(const char *who, sunder_status status, const sunder_error *why, gis_error *error)
+{
+    gis_fail(error, "%s: %s", who, why->message);
+    error->no_memory = status == SUNDER_ENOMEM;
+    return false;
+}
+
 bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
                            bool *invalid, gis_error *reason, gis_error *error)
 {
@@ -154,14 +161,15 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
     if (status == SUNDER_OK)
         return true;
     if (status != SUNDER_EINVALID)
-        return gis_fail(error, "%s: %s", who, why.message);
+        return shape_failed(who, status, &why, error);
     *invalid = true;
     gis_fail(reason, "%s", why.message);
-    if (policy != GIS_INVALID_REPAIR)
-        return gis_fail(error, "%s: %s", who, why.message);
-    if (gis_polygons_shape(set, SUNDER_EVEN_ODD, out, &why) != SUNDER_OK)
-        return gis_fail(error, "%s: %s", who, why.message);
-    return true;
+    if (policy == GIS_INVALID_REPAIR) {
+        status = gis_polygons_shape(set, SUNDER_EVEN_ODD, out, &why);
+        if (status == SUNDER_OK)
+            return true;
+    }
+    return shape_failed(who, status, &why, error);
 }
 
 bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
@@ -203,7 +211,8 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
     }
     if (gis_shape_of_wkt(text, who, policy, out, building, error))
         return true;
-    error->exit_status = GIS_USAGE; /* a literal is part of the command line */
+    if (!error->no_memory)
+        error->exit_status = GIS_USAGE; /* a literal is part of the command line */
     return false;
 }
 

@@ -164,8 +164,11 @@ static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, b
     char *at = CPLStrdup(wkt), *rest = at;
     OGRGeometryH geometry = NULL;
     gis_rings rings = {0};
-    bool ok = OGR_G_CreateFromWkt(&rest, NULL, &geometry) == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\r\n")];
-    if (!ok || !gis_geometry_is_finite(geometry))
+    OGRErr status = OGR_G_CreateFromWkt(&rest, NULL, &geometry);
+    bool ok = status == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\r\n")];
+    if (status == OGRERR_NOT_ENOUGH_MEMORY)
+        ok = gis_no_memory(error);
+    else if (!ok || !gis_geometry_is_finite(geometry))
         ok = literal ? gis_fail_usage(error, "OBSTACLES: this WKT cannot be read: %.60s", wkt)
                      : gis_fail(error, "%s: this WKT cannot be read: %.60s", who, wkt);
     ok = ok && read_feature(input, 0, geometry, &rings, error);
@@ -207,9 +210,7 @@ static bool read_coordinate(const char *text, size_t n, double *value, char **fr
     if (strspn(text + start, "0123456789") != m - start || m == start || n == m + 1 ||
         strspn(slash + 1, "0123456789") < n - m - 1 || strspn(slash + 1, "0") >= n - m - 1)
         return false;
-    *fraction = malloc(n + 1);
-    if (!*fraction)
-        return false;
+    *fraction = CPLMalloc(n + 1);
     memcpy(*fraction, text, n);
     (*fraction)[n] = '\0';
     *exact = *fraction;
@@ -293,7 +294,7 @@ void gis_route_input_clear(gis_route_input *input)
     free(input->lines);
     free(input->obstacle);
     for (int k = 0; k < 4; k++)
-        free(input->text[k]);
+        CPLFree(input->text[k]);
     sunder_shape_free(input->robot);
     gis_source_close(input->robot_source);
     gis_source_close(input->source);
