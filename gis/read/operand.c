@@ -3,11 +3,11 @@
 
 #include "base/message.h"
 #include "options/progress.h"
+#include "read/source_files.h"
 
 #include <cpl_conv.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 gis_invalid gis_options_invalid(const gis_options *options)
@@ -216,9 +216,7 @@ const gis_source *gis_operands_source(const gis_operands *operands)
 
 bool gis_source_spare(const gis_source *source, const gis_options *options, const char *output, gis_error *error)
 {
-    struct stat out, in;
-    if (source && !options->given[OPT_UPDATE] && stat(output, &out) == 0 &&
-        stat(gis_source_path(source), &in) == 0 && out.st_dev == in.st_dev && out.st_ino == in.st_ino)
+    if (!options->given[OPT_UPDATE] && gis_source_lies_in(source, output))
         return gis_fail(error, "%s is an input; give another output, or --update with new layer names", output);
     return true;
 }

@@ -3,6 +3,7 @@
 
 #include "base/message.h"
 #include "base/text_file.h"
+#include "read/source_files.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,30 +16,42 @@ const char *gis_stats_path(const gis_options *options)
     return options->given[OPT_STATS] ? options->text[OPT_STATS] : NULL;
 }
 
-/* Would both be the same file? Of what does not exist yet the names are compared. */
-static bool same_file(const char *a, const char *b)
+/* A file that an operand or an option is read from, or that holds it: the file of @FILE, the archive of a member. */
+static bool reads(const char *operand, const char *file)
 {
-    struct stat of_a, of_b;
-    if (stat(a, &of_a) == 0 && stat(b, &of_b) == 0)
-        return of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
-    while (strncmp(a, "./", 2) == 0)
-        a += 2;
-    while (strncmp(b, "./", 2) == 0)
-        b += 2;
-    return strcmp(a, b) == 0;
+    return operand && gis_path_lies_in(operand + (operand[0] == '@'), file);
+}
+
+/* Texts in files are no datasets, which the sink looks after. */
+static bool check_texts(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
+    size_t output = options->command->most - 1;
+    const char *path = options->n_operands > output ? options->operand[output] : NULL;
+    bool read = false;
+    for (size_t i = 0; path && i < output; i++)
+        read = read || (options->operand[i][0] == '@' && reads(options->operand[i], path));
+    for (size_t i = 0; path && i < sizeof shapes / sizeof *shapes; i++)
+        read = read || (options->given[shapes[i]] && options->text[shapes[i]][0] == '@' &&
+                        reads(options->text[shapes[i]], path));
+    return !read || gis_fail(error, "%s is an input; give another output", path);
 }
 
 bool gis_stats_check(const gis_options *options, gis_error *error)
 {
     const char *path = gis_stats_path(options);
     struct stat info;
+    if (!check_texts(options, error))
+        return false;
     if (!path || strcmp(path, "-") == 0)
         return true;
     for (size_t i = 0; i < options->n_operands; i++)
-        if (same_file(path, options->operand[i] + (options->operand[i][0] == '@')))
+        if (reads(options->operand[i], path))
             return gis_fail_usage(error, "--stats %s: that is %s; give another file", path,
                                   i + 1 == options->command->most ? "the output" : "an input");
     bool there = stat(path, &info) == 0;
+    if (!there && lstat(path, &info) == 0)
+        return gis_fail(error, "--stats: %s is a link that leads nowhere", path);
     if (there && S_ISDIR(info.st_mode))
         return gis_fail(error, "--stats: %s is a directory", path);
     if (there && access(path, W_OK) != 0)

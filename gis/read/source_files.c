@@ -1,0 +1,84 @@
+/* source_files.c: see source_files.h. */
+#include "read/source_files.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <string.h>
+#include <sys/stat.h>
+
+static bool same_file(const char *a, const char *b)
+{
+    struct stat of_a, of_b;
+    if (strcmp(a, b) == 0)
+        return true;
+    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
+}
+
+static bool is_file(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/* The path in the ordinary file system that a virtual path leads to, as far as that is a file: prefixes (/vsizip/,
+ * /vsigzip/ within it, /vsisubfile/0_100,) and the braces that may enclose an archive's name are taken off, then the
+ * shortest beginning that is a file is the archive. NULL: it leads to none (/vsimem/, a network). CPLFree(). */
+static char *real_file(const char *path)
+{
+    bool virtual = false;
+    while (strncmp(path, "/vsi", 4) == 0) {
+        bool part = strncmp(path, "/vsisubfile/", 12) == 0;
+        path = strchr(path + 1, part ? ',' : '/');
+        if (!path)
+            return NULL;
+        path++;
+        virtual = true;
+    }
+    if (!virtual)
+        return CPLStrdup(path);
+    if (*path == '{')
+        path++;
+    char *found = CPLStrdup(path);
+    for (char *end = strpbrk(found + 1, "/}"); end; end = strpbrk(end + 1, "/}")) {
+        char kept = *end;
+        *end = '\0';
+        if (is_file(found))
+            return found;
+        *end = kept;
+    }
+    if (is_file(found))
+        return found;
+    CPLFree(found);
+    return NULL;
+}
+
+static const char *without_dot(const char *path)
+{
+    while (strncmp(path, "./", 2) == 0)
+        path += 2;
+    return path;
+}
+
+bool gis_path_lies_in(const char *path, const char *file)
+{
+    char *of_path = real_file(path), *of_file = real_file(file);
+    bool same = strcmp(path, file) == 0 ||
+                (of_path && of_file && same_file(without_dot(of_path), without_dot(of_file)));
+    CPLFree(of_path);
+    CPLFree(of_file);
+    return same;
+}
+
+bool gis_source_lies_in(const gis_source *source, const char *file)
+{
+    if (!source)
+        return false;
+    if (gis_path_lies_in(gis_source_path(source), file))
+        return true;
+    char **files = GDALGetFileList(gis_source_dataset(source));
+    bool found = false;
+    for (char **each = files; each && *each; each++)
+        found = found || gis_path_lies_in(*each, file);
+    CSLDestroy(files);
+    return found;
+}

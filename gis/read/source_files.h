@@ -1,0 +1,15 @@
+/* source_files.h: which files a path reads. */
+#ifndef GIS_SOURCE_FILES_H
+#define GIS_SOURCE_FILES_H
+
+#include "read/source.h"
+
+/* Would writing the file at `file` change what is read under `path`? It would if both are the same file, by whatever
+ * name, or if an archive or a compressed file is read through GDAL's virtual paths and it is that (/vsizip/a.zip/b.gpkg
+ * lies in a.zip), also the other way round. Of what does not exist yet the names are compared. */
+bool gis_path_lies_in(const char *path, const char *file);
+
+/* The same of all files of an open source. NULL: false. */
+bool gis_source_lies_in(const gis_source *source, const char *file);
+
+#endif
