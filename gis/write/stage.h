@@ -1,8 +1,9 @@
 /* stage.h: files that appear in a directory together, or not at all.
  *
  * New files are made under their final names in a new hidden directory beside their place (so that renaming does not
- * copy, and formats that write their own name into themselves write the right one). Publishing renames them, the main
- * one last, and puts everything back if a rename fails. Freeing without publishing leaves nothing behind. */
+ * copy, and formats that write their own name into themselves write the right one). Publishing syncs and renames them,
+ * the main one last, and puts everything back if a rename fails. Freeing without publishing leaves nothing behind. A run
+ * that is killed between two renames leaves a record, from which the next one puts everything back. */
 #ifndef GIS_STAGE_H
 #define GIS_STAGE_H
 
@@ -26,10 +27,18 @@ const char *gis_stage_main(const gis_stage *stage);
 /* Copies an existing file or directory, which lies in the final directory, into the stage, under its name. */
 bool gis_stage_copy_in(gis_stage *stage, const char *path, gis_error *error);
 
+/* Makes a file of these bytes, or a directory, in the stage; the name may be a path below it. */
+bool gis_stage_put(gis_stage *stage, const char *name, const void *bytes, size_t n, gis_error *error);
+bool gis_stage_put_directory(gis_stage *stage, const char *name, gis_error *error);
+
 /* This file of the final directory belongs to what is replaced: publishing takes it away. */
 void gis_stage_supersede(gis_stage *stage, const char *path);
 
 /* Puts all that was made in its place. A file in the way that is not superseded makes it fail, unless `replace`. */
 bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
+
+/* Looks beside an output for what a run has left that was killed while it put its files there. The old files are brought
+ * back; what was done, and what is to be done by hand, is said, a sentence each. Fails if they cannot be brought back. */
+bool gis_stage_recover(const char *final_path, gis_list *said, gis_error *error);
 
 #endif

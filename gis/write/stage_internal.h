@@ -1,0 +1,38 @@
+/* stage_internal.h: what the files of the stage share.
+ *
+ *   stage.c          the hidden directory and what is put in it
+ *   stage_publish.c  renames, and their undoing
+ *   stage_remains.c  what a run left that was killed among its renames */
+#ifndef GIS_STAGE_INTERNAL_H
+#define GIS_STAGE_INTERNAL_H
+
+#include "write/stage.h"
+
+/* All stages are called so, with six signs at the end. */
+#define GIS_STAGE_PREFIX ".sunder-"
+/* Inside the stage: where superseded files wait until all is in place, and the record of what publishing will do, which
+ * is there while the renames are under way. */
+#define GIS_STAGE_OLD "superseded~"
+#define GIS_STAGE_RECORD "record~"
+
+struct gis_stage {
+    char *directory;   /* the final one */
+    char *inside;      /* the stage; NULL: not made yet */
+    int lock;          /* the stage held open and locked; -1: it cannot be */
+    char *main;        /* base name of the main file */
+    char **superseded; /* base names */
+};
+
+/* One line of the record. Names are escaped. A staged file that takes no other's place is known by its inode: so that
+ * what is taken away again is that file, and no other's of this name. */
+#define GIS_RECORD_MAIN "main "
+#define GIS_RECORD_OLD "old "
+#define GIS_RECORD_NEW "new "
+
+char *gis_join(const char *directory, const char *name);
+/* A link counts, wherever it leads. */
+bool gis_there(const char *path);
+/* The directory and the base name of where an output really lies; both freed with CPLFree(). */
+void gis_stage_place_of(const char *final_path, char **directory, char **name);
+
+#endif
