@@ -32,6 +32,16 @@ static void keep_warnings(gis_source *source, const gis_listener *listener)
         gis_list_add(&source->warnings, "%s", listener->warnings.items[i]);
 }
 
+/* The journal of a transaction that was interrupted: a program that may not write cannot read past it. */
+static bool has_journal(const char *path)
+{
+    VSIStatBufL status;
+    char *journal = CPLStrdup(CPLSPrintf("%s-journal", path));
+    bool has = VSIStatL(journal, &status) == 0 && status.st_size > 0;
+    CPLFree(journal);
+    return has;
+}
+
 static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
@@ -46,6 +56,10 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
         VSIStatBufL status;
         if (VSIStatExL(request->path, &status, VSI_STAT_EXISTS_FLAG) != 0 && !strchr(request->path, ':'))
             gis_fail(error, "%s: no such file", request->path);
+        else if (has_journal(request->path))
+            gis_fail(error, "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls it "
+                     "back once a program opens the database that may write, such as sqlite3", request->path,
+                     request->path);
         else
             gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,
                      gis_listener_reason(&listener, "no driver knows it"));

@@ -9,29 +9,29 @@
  * coordinates are read back. */
 typedef struct facts {
     const char *name;
-    bool keeps_fids, keeps_doubles, keeps_order, reprojects, one_layer;
+    bool keeps_fids, keeps_doubles, keeps_values, keeps_order, reprojects, one_layer;
 } facts;
 
 static const facts known[] = {
-    /*                  FIDs   doubles order reprojects one layer */
-    {"GPKG",            true,  true,  true,  false, false},
-    {"SQLite",          true,  true,  true,  false, false},
-    {"PostgreSQL",      true,  true,  false, false, false},
-    {"OpenFileGDB",     false, false, true,  false, false}, /* puts coordinates on a grid */
-    {"FlatGeobuf",      false, true,  false, false, true}, /* its index sorts the features */
-    {"ESRI Shapefile",  false, false, true,  false, true}, /* binary doubles, but rings are regrouped */
-    {"GeoJSON",         true,  false, true,  false, true},
-    {"GeoJSONSeq",      true,  false, true,  true,  true},
-    {"KML",             false, false, true,  true,  false},
-    {"LIBKML",          false, false, true,  true,  false},
-    {"GPX",             false, false, true,  true,  false},
-    {"MapML",           false, false, true,  true,  false},
-    {"MVT",             false, false, false, true,  false},
-    {"MBTiles",         false, false, false, true,  false},
-    {"CSV",             false, false, true,  false, true},
-    {"MapInfo File",    false, false, true,  false, true},
-    {"DXF",             false, false, true,  false, true},
-    {"GML",             false, false, true,  false, false},
+    /*                  FIDs   doubles values order reprojects one layer */
+    {"GPKG",            true,  true,  true,  true,  false, false},
+    {"SQLite",          true,  true,  true,  true,  false, false},
+    {"PostgreSQL",      true,  true,  false, false, false, false}, /* texts have widths */
+    {"OpenFileGDB",     false, false, false, true,  false, false}, /* puts coordinates on a grid */
+    {"FlatGeobuf",      false, true,  true,  false, false, true}, /* its index sorts the features */
+    {"ESRI Shapefile",  false, false, false, true,  false, true}, /* binary doubles, but rings are regrouped */
+    {"GeoJSON",         true,  false, false, true,  false, true},
+    {"GeoJSONSeq",      true,  false, false, true,  true,  true},
+    {"KML",             false, false, false, true,  true,  false},
+    {"LIBKML",          false, false, false, true,  true,  false},
+    {"GPX",             false, false, false, true,  true,  false},
+    {"MapML",           false, false, false, true,  true,  false},
+    {"MVT",             false, false, false, false, true,  false},
+    {"MBTiles",         false, false, false, false, true,  false},
+    {"CSV",             false, false, false, true,  false, true},
+    {"MapInfo File",    false, false, false, true,  false, true},
+    {"DXF",             false, false, false, true,  false, true},
+    {"GML",             false, false, false, true,  false, false},
 };
 
 static bool can_create(GDALDriverH driver)
@@ -96,14 +96,19 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
     format.database = has_prefix(format.driver, path);
     format.shapefile = EQUAL(format.name, "ESRI Shapefile");
     format.geopackage = EQUAL(format.name, "GPKG");
+    format.sqlite = format.geopackage || EQUAL(format.name, "SQLite");
+    format.only_written = !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) ||
+                          EQUAL(format.name, "MVT"); /* tiles are opened one by one */
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (EQUAL(format.name, known[i].name)) {
             format.keeps_fids = known[i].keeps_fids;
             format.keeps_doubles = known[i].keeps_doubles;
+            format.keeps_values = known[i].keeps_values;
             format.keeps_order = known[i].keeps_order;
             format.reprojects = known[i].reprojects;
             format.one_layer = known[i].one_layer;
         }
+    format.keeps_vertices = format.keeps_doubles || format.shapefile;
     if (EQUAL(format.name, "GeoJSON") && CPLFetchBool((CSLConstList)layer_options, "RFC7946", false))
         format.reprojects = true;
     /* These take a directory too, which then holds a file for each layer. */

@@ -12,10 +12,14 @@ typedef struct gis_format {
     bool database;       /* the path is a connection, not a file */
     bool one_layer;      /* one layer a file: further layers become files of their own */
     bool keeps_fids;     /* any 64-bit FID comes back as it was */
-    bool keeps_doubles;  /* coordinates are stored in binary as they are, no need to look */
+    bool keeps_doubles;  /* coordinates are stored in binary as they are, and so are rings and members */
+    bool keeps_values;   /* so are integers, reals and texts */
+    bool keeps_vertices; /* a vertex that reads back elsewhere is damage, not rounding */
+    bool only_written;   /* GDAL cannot read it */
     bool keeps_order;    /* features come back in the order written */
     bool reprojects;     /* turns coordinates to WGS 84 */
     bool shapefile, geopackage;
+    bool sqlite; /* a file that is a SQLite database, GeoPackages among them */
 } gis_format;
 
 /* The format called `name`, or with name NULL the one that the path's ending or prefix tells. */

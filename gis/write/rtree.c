@@ -27,23 +27,6 @@ static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
     return gis_sql_run(dataset, sql, "the spatial index", error);
 }
 
-/* The text in the first column of the first row, or NULL; CPLFree(). */
-static char *ask(GDALDatasetH dataset, const char *sql)
-{
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
-    OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
-    char *text = row && OGR_F_IsFieldSetAndNotNull(row, 0) ? CPLStrdup(OGR_F_GetFieldAsString(row, 0)) : NULL;
-    if (row)
-        OGR_F_Destroy(row);
-    if (result)
-        GDALDatasetReleaseResultSet(dataset, result);
-    gis_listen_end();
-    gis_listener_clear(&listener);
-    return text;
-}
-
 /* "rtree_TABLE_COLUMN" and a suffix, with quotes doubled and around; CPLFree(). */
 static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
 {
@@ -122,8 +105,8 @@ void gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes)
         return;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
-    CPLFree(ask(dataset, "SELECT 1")); /* any SQL makes GDAL create tables and indexes that it had put off */
-    boxes->trigger = ask(dataset, find);
+    CPLFree(gis_sql_ask(dataset, "SELECT 1")); /* any SQL makes GDAL create tables and indexes that it had put off */
+    boxes->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
     if (!boxes->trigger)
@@ -335,7 +318,7 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
 {
     char *name = tree_name(layer, "_node", '"');
     char *sql = CPLStrdup(CPLSPrintf("SELECT length(data) FROM %s WHERE nodeno = 1", name));
-    char *length = ask(dataset, sql);
+    char *length = gis_sql_ask(dataset, sql);
     long bytes = length ? atol(length) : 0;
     CPLFree(length);
     CPLFree(sql);

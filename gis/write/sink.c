@@ -1,6 +1,9 @@
 /* sink.c: the life of a sink, and all that can be refused before any work is done. */
 #define _GNU_SOURCE
 #include "write/sink_internal.h"
+#include "base/message.h"
+#include "read/source_files.h"
+#include "write/sqlite_lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -17,7 +20,7 @@ char *gis_sink_inside(const gis_sink *sink, const char *file)
 {
     if (sink->place == GIS_PLACE_DATABASE)
         return CPLStrdup(sink->request.path);
-    return sink->stage ? gis_stage_inside(sink->stage, file) : CPLStrdup(CPLSPrintf("%s/%s", sink->memory, file));
+    return sink->memory ? CPLStrdup(CPLSPrintf("%s/%s", sink->memory, file)) : gis_stage_inside(sink->stage, file);
 }
 
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix)
@@ -42,30 +45,6 @@ char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
     if (!suffix[0])
         return CPLStrdup(name);
     return CPLStrdup(CPLSPrintf("%.*s_%s%s", (int)(ending - name), name, suffix, ending));
-}
-
-/* ---- Is it the input? ------------------------------------------------------------------------------------- */
-
-static bool same_file(const char *a, const char *b)
-{
-    struct stat of_a, of_b;
-    if (strcmp(a, b) == 0)
-        return true;
-    return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
-}
-
-static bool belongs_to_source(const gis_sink *sink, const char *path)
-{
-    if (!sink->source)
-        return false;
-    if (same_file(gis_source_path(sink->source), path))
-        return true;
-    char **files = GDALGetFileList(gis_source_dataset(sink->source));
-    bool found = false;
-    for (char **file = files; file && *file; file++)
-        found = found || same_file(*file, path);
-    CSLDestroy(files);
-    return found;
 }
 
 /* ---- What exists ------------------------------------------------------------------------------------------ */
@@ -124,7 +103,7 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
     GDALDatasetH dataset = open_quietly(sink->request.path, GDAL_OF_READONLY, NULL);
     if (!dataset)
         return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
-    bool is_source = belongs_to_source(sink, sink->request.path);
+    bool is_source = gis_source_lies_in(sink->source, sink->request.path);
     bool done = check_layer_name(sink, dataset, "", is_source, error);
     for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix; suffix++)
         done = check_layer_name(sink, dataset, *suffix, is_source, error);
@@ -132,10 +111,13 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* What is renamed over is gone: a device or a pipe would be taken from the whole system. */
+/* What is renamed over is gone: a device or a pipe would be taken from the whole system. A link that leads nowhere would
+ * show when all is done. */
 static bool check_is_file(const char *path, gis_error *error)
 {
     struct stat status;
+    if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode) && stat(path, &status) != 0)
+        return gis_fail(error, "%s is a link that leads nowhere; remove it, or make what it leads to", path);
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
         return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
     return true;
@@ -147,16 +129,14 @@ static bool check_file(const gis_sink *sink, const char *suffix, gis_error *erro
     char *name = gis_sink_file_for(sink, suffix);
     char *path = CPLStrdup(CPLFormFilename(CPLGetPath(sink->request.path), name, NULL));
     bool replace = sink->request.overwrite || sink->request.overwrite_layer;
-    bool done = true;
-    if (gis_sink_exists(path)) {
-        if (belongs_to_source(sink, path))
+    bool done = check_is_file(path, error);
+    if (done && gis_sink_exists(path)) {
+        if (gis_source_lies_in(sink->source, path))
             done = gis_fail(error, "%s: input and output are the same", path);
         else if (!replace)
             done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
         else if (gis_sink_is_directory(path))
             done = gis_fail(error, "%s is a directory; it is not replaced by a file", path);
-        else
-            done = check_is_file(path, error);
     }
     CPLFree(name);
     CPLFree(path);
@@ -171,19 +151,50 @@ static bool check_files(const gis_sink *sink, gis_error *error)
     return done;
 }
 
+/* A transaction of another program was interrupted: SQLite takes back what is half done of it when a program opens the
+ * database that may write. What is there before the work is what was there before that transaction. */
+static void settle_journal(const gis_sink *sink)
+{
+    gis_say_warning("%s-journal is left of a transaction that was interrupted; SQLite rolls it back", sink->request.path);
+    GDALDatasetH dataset = sink->request.update ? open_quietly(sink->request.path, GDAL_OF_UPDATE, &sink->format) : NULL;
+    if (dataset)
+        GDALClose(dataset);
+}
+
+/* A SQLite database has companions that belong to its content, and others may have it open. */
+static bool check_database_file(const gis_sink *sink, gis_error *error)
+{
+    static const char *const companions[] = {"-journal", "-wal"};
+    const char *path = sink->request.path;
+    bool there = gis_sink_exists(path);
+    for (size_t i = 0; !there && i < sizeof companions / sizeof *companions; i++)
+        if (gis_sqlite_has(path, companions[i]))
+            return gis_fail(error, "%s%s is left of another database and would be taken for part of the new one; move it "
+                            "away", path, companions[i]);
+    if (there && gis_sqlite_has(path, "-journal") && !gis_sqlite_being_written(path))
+        settle_journal(sink);
+    if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && gis_sqlite_in_use(path))
+        return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
+    return true;
+}
+
 static bool check_whole(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
-    if (!gis_sink_exists(path))
-        return true;
-    if (!check_is_file(path, error))
+    if (!check_is_file(path, error) || (sink->format.sqlite && !check_database_file(sink, error)))
         return false;
-    if (sink->request.update) {
+    bool there = gis_sink_exists(path);
+    if (there && sink->request.update) {
         sink->updating = true;
+        if (sink->format.sqlite && sink->place == GIS_PLACE_FILE)
+            sink->place = GIS_PLACE_DATABASE;
         return check_layer_names(sink, error);
     }
-    if (belongs_to_source(sink, path))
+    /* A new member of the archive that is read counts, too: its directory is written anew. */
+    if ((there || sink->place == GIS_PLACE_MEMORY) && gis_source_lies_in(sink->source, path))
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
+    if (!there)
+        return true;
     if (!sink->request.overwrite)
         return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
     if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
@@ -263,22 +274,41 @@ static void choose_place(gis_sink *sink)
         sink->place = GIS_PLACE_FILE;
 }
 
+static void make_memory(gis_sink *sink)
+{
+    sink->memory = CPLStrdup(CPLSPrintf("/vsimem/sunder-%p", (void *)sink));
+    VSIMkdir(sink->memory, 0700);
+}
+
 static bool prepare_place(gis_sink *sink, gis_error *error)
 {
     if (sink->place == GIS_PLACE_FILE) {
         if (!gis_stage_new(sink->request.path, &sink->stage, error))
             return false;
         sink->main_file = CPLStrdup(gis_stage_main(sink->stage));
+        /* Nobody will read it back, and drivers do not hear of every write that fails: so it is made in memory, and
+         * goes to the disk by writes of our own. */
+        if (sink->format.only_written && !sink->updating)
+            make_memory(sink);
     } else if (sink->place == GIS_PLACE_MEMORY) {
         if (sink->updating)
             return gis_fail(error, "%s: --update works on plain files and databases only", sink->request.path);
-        sink->memory = CPLStrdup(CPLSPrintf("/vsimem/sunder-%p", (void *)sink));
+        make_memory(sink);
         const char *ending = GDALGetMetadataItem(sink->format.driver, GDAL_DMD_EXTENSION, NULL);
         sink->main_file = CPLStrdup(sink->to_stdout ? CPLResetExtension("output", ending ? ending : "")
                                                     : CPLGetFilename(sink->request.path));
-        VSIMkdir(sink->memory, 0700);
     }
     return true;
+}
+
+/* What is there is seen after what an earlier run left undone is settled. */
+static bool recover(gis_sink *sink, gis_error *error)
+{
+    gis_list said = {0};
+    bool done = sink->place != GIS_PLACE_FILE || gis_stage_recover(sink->request.path, &said, error);
+    gis_say_warnings(&said);
+    gis_list_clear(&said);
+    return done;
 }
 
 static bool check_request(const gis_sink_request *request, gis_error *error)
@@ -305,7 +335,7 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->fids_kept = format.keeps_fids && (!source || gis_source_fids_unique(source));
     choose_place(sink);
     fix_date(sink);
-    if (!check_reprojection(sink, error) || !check_existing(sink, error) || !prepare_place(sink, error)) {
+    if (!check_reprojection(sink, error) || !recover(sink, error) || !check_existing(sink, error) || !prepare_place(sink, error)) {
         gis_sink_free(sink);
         return false;
     }
@@ -321,6 +351,7 @@ bool gis_sink_takes_more(const gis_sink *sink)
 static void free_layer(gis_sink_layer *layer)
 {
     gis_sink_forget_sent(layer);
+    gis_digests_clear(&layer->digests);
     gis_boxes_clear(&layer->boxes);
     CPLFree(layer->name);
     CPLFree(layer->file);
@@ -378,6 +409,10 @@ void gis_sink_free(gis_sink *sink)
     if (!sink)
         return;
     gis_sink_drop(sink);
+    if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
+        gis_sqlite_has(sink->request.path, "-journal") && !gis_sqlite_being_written(sink->request.path))
+        gis_say_warning("%s-journal holds what the database was; SQLite brings it back when a program opens it that may "
+                        "write", sink->request.path);
     for (size_t i = 0; i < sink->n_layers; i++)
         free_layer(sink->layers[i]);
     free(sink->layers);

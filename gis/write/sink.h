@@ -99,6 +99,7 @@ typedef struct gis_sink_result {
     bool exact;       /* what reads back are the very doubles that were written: `verified` may stand */
     double deviation; /* else: the largest distance of a vertex from where it was sent; INFINITY: shapes changed,
                          or the geometries are not there */
+    bool unread;      /* nothing can read them back */
 } gis_sink_result;
 
 /* Closes everything (errors of closing count), compares with what was sent where the format needs it, applies strict:

@@ -1,6 +1,7 @@
 /* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink_internal.h"
+#include "write/sqlite_lock.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
@@ -10,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- Looking at what was written -------------------------------------------------------------------------- */
 
@@ -36,23 +38,54 @@ bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_erro
                     some_empty ? "; the format may have no place for features without geometry" : "");
 }
 
-static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_result *result, gis_error *error)
+bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char *reason, gis_error *error)
+{
+    return gis_fail(error, "%s, layer %s: reading back what was written failed after %zu features: %s; is the disk full?",
+                    layer->sink->request.path, layer->name, after, reason);
+}
+
+/* A format that is only written, and the user knows that nothing is verified: what was asked of it is judged by the
+ * results of its writes and of its close. */
+static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     gis_sink *sink = layer->sink;
+    if (layer->written == 0 && !sink->format.keeps_doubles)
+        return true; /* some formats have nothing to say of a layer without features */
+    if (!sink->format.only_written)
+        return gis_fail(error, "%s: layer %s cannot be read back after writing; is the disk full?",
+                        sink->request.path, layer->name);
+    if (!sink->request.allow_inexact)
+        return gis_fail(error, "%s: %s is only written, so that nothing could be said of the written features; write "
+                        "another format, or give --allow-inexact-output", sink->request.path, sink->format.name);
+    result->exact = false;
+    result->deviation = INFINITY;
+    result->unread = true;
+    return true;
+}
+
+/* Reads the layer, unless it has to be written again. What is promised of the features is not promised of arrows and
+ * links: they may be rounded, but must be there. */
+static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_result *result, bool *again,
+                          gis_error *error)
+{
+    gis_sink_result seen = {.exact = true};
     OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
-    if (!as_written) {
-        if (sink->format.keeps_doubles || !sink->request.allow_inexact)
-            return gis_fail(error, "%s: layer %s cannot be read back after writing; the disk may be full",
-                            sink->request.path, layer->name);
-        result->exact = false; /* a format that is only written, and the user knows */
-        result->deviation = INFINITY;
-        return true;
-    }
-    GIntBig count = layer->keep_sent ? 0 : OGR_L_GetFeatureCount(as_written, TRUE);
-    if (!layer->keep_sent && count != (GIntBig)layer->written)
-        return gis_sink_fail_count(layer, (size_t)count, error);
-    if (layer->keep_sent && !gis_sink_compare(layer, as_written, result, error))
+    *again = false;
+    if (!as_written)
+        return leave_unread(layer, result, error);
+    if (!(layer->digests.wanted ? gis_digests_agree(layer, as_written, error)
+                                : gis_sink_compare(layer, as_written, &seen, error)))
         return false;
+    *again = gis_sink_may_rewrite(layer, &seen);
+    if (*again)
+        return true;
+    if (layer->promised) {
+        result->exact = result->exact && seen.exact;
+        result->deviation = fmax(result->deviation, seen.deviation);
+    } else if (!isfinite(seen.deviation)) {
+        gis_list_add(&layer->sink->losses, "layer %s: its geometries do not read back as they were written",
+                     layer->name);
+    }
     gis_sink_find_losses(layer, as_written);
     return true;
 }
@@ -66,9 +99,22 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
     return dataset;
 }
 
+/* A layer with a file of its own. */
+static bool inspect_file(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
+{
+    bool again, done;
+    do {
+        GDALDatasetH dataset = reopen(layer->sink, layer->file);
+        done = inspect_layer(layer, dataset, result, &again, error);
+        if (dataset)
+            GDALClose(dataset);
+    } while (done && again && (done = gis_sink_rewrite(layer, error)));
+    return done;
+}
+
 static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
-    bool done = true;
+    bool done = true, again;
     gis_listener listener = {0}; /* what a reader grumbles about is not our user's business */
     gis_listen_begin(&listener);
     GDALDatasetH common = sink->format.one_layer && sink->n_layers && sink->layers[0]->file
@@ -76,11 +122,9 @@ static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
                               : reopen(sink, sink->main_file);
     for (size_t i = 0; done && i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        GDALDatasetH dataset = layer->file ? reopen(sink, layer->file) : common;
-        done = inspect_layer(layer, dataset, result, error);
+        done = layer->file ? inspect_file(layer, result, error) : inspect_layer(layer, common, result, &again, error);
         gis_sink_forget_sent(layer);
-        if (layer->file && dataset)
-            GDALClose(dataset);
+        gis_digests_clear(&layer->digests);
     }
     if (common)
         GDALClose(common);
@@ -89,15 +133,19 @@ static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
     return done;
 }
 
-/* In a database the layers are looked at before the transaction ends: afterwards it would be too late to refuse. */
-static void inspect_database(gis_sink *sink, gis_sink_result *result)
+/* In a database the layers are read before the transaction ends: afterwards it would be too late to refuse. */
+static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
-    for (size_t i = 0; i < sink->n_layers; i++)
+    for (size_t i = 0; i < sink->n_layers; i++) {
+        if (!gis_digests_agree(sink->layers[i], sink->layers[i]->layer, error))
+            return false;
         gis_sink_find_losses(sink->layers[i], sink->layers[i]->layer);
+    }
     if (!sink->format.keeps_doubles) {
         result->exact = false;
         result->deviation = INFINITY;
     }
+    return true;
 }
 
 static bool apply_strict(const gis_sink *sink, gis_error *error)
@@ -142,6 +190,30 @@ static bool copy_out(gis_sink *sink, const char *file, const char *target, gis_e
                             reason ? strerror(reason) : "");
 }
 
+/* From memory to the stage, with directories in it (tiles have them, a few levels deep). */
+static bool stage_memory(const gis_sink *sink, const char *memory, const char *inside, gis_error *error)
+{
+    char **files = VSIReadDir(memory);
+    bool done = true;
+    for (char **file = files; done && file && *file; file++) {
+        if (strcmp(*file, ".") == 0 || strcmp(*file, "..") == 0)
+            continue;
+        char *from = CPLStrdup(CPLSPrintf("%s/%s", memory, *file));
+        char *to = inside[0] ? CPLStrdup(CPLSPrintf("%s/%s", inside, *file)) : CPLStrdup(*file);
+        vsi_l_offset length = 0;
+        if (gis_sink_is_directory(from)) {
+            done = gis_stage_put_directory(sink->stage, to, error) && stage_memory(sink, from, to, error);
+        } else {
+            const GByte *bytes = VSIGetMemFileBuffer(from, &length, FALSE);
+            done = gis_stage_put(sink->stage, to, bytes, (size_t)length, error);
+        }
+        CPLFree(from);
+        CPLFree(to);
+    }
+    CSLDestroy(files);
+    return done;
+}
+
 static bool publish_memory(gis_sink *sink, gis_error *error)
 {
     char **files = VSIReadDir(sink->memory);
@@ -174,10 +246,6 @@ static bool write_styles(gis_sink *sink, gis_error *error)
 {
     if (!sink->format.geopackage || sink->request.no_styles)
         return true;
-    /* Any SQL makes GDAL build the spatial indexes first, for which it attaches a database, and that does not work
-     * within a transaction. */
-    if (!gis_sink_end_transaction(sink, error))
-        return false;
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
         if (!gis_styles_write(layer->dataset, layer->layer, layer->request.style,
@@ -208,7 +276,9 @@ static bool close_all(gis_sink *sink, gis_error *error)
 /* A format that rounds or changes geometries loses something, too. */
 static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
 {
-    if (seen->exact)
+    if (seen->unread)
+        gis_list_add(&sink->losses, "what was written was not read back: %s is only written", sink->format.name);
+    if (seen->exact || seen->unread)
         return;
     if (isfinite(seen->deviation))
         gis_list_add(&sink->losses, "the format rounds coordinates: they are off by up to %.9g", seen->deviation);
@@ -216,27 +286,49 @@ static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
         gis_list_add(&sink->losses, "the format changes geometries: they do not read back as written");
 }
 
+/* No loss that the format forces: --strict lets it pass. */
+static void note_stream(gis_sink *sink)
+{
+    if (sink->to_stdout)
+        gis_list_add(&sink->losses, "what goes to the standard output is read back in memory, not from there");
+}
+
 bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
-    gis_sink_result seen = {true, 0};
+    gis_sink_result seen = {.exact = true};
     if (sink->place == GIS_PLACE_DATABASE) {
-        if (!gis_sink_flush(sink, error))
+        if (!write_indexes(sink, error) || !write_styles(sink, error) || !gis_sink_flush(sink, error) ||
+            !inspect_database(sink, &seen, error))
             return false;
-        inspect_database(sink, &seen);
     } else if (!write_indexes(sink, error) || !write_styles(sink, error) || !close_all(sink, error) ||
-               !inspect(sink, &seen, error)) {
+               !inspect(sink, &seen, error) ||
+               (sink->stage && sink->memory && !stage_memory(sink, sink->memory, "", error))) {
         return false;
     }
     note_inexact(sink, &seen);
     if (!apply_strict(sink, error))
         return false;
+    note_stream(sink);
     *result = seen;
     return true;
 }
 
+/* A SQLite database is replaced while nobody else can open it: a log that is kept beside it would be applied to the new
+ * one, and what is written into a file without a name is lost. */
+static bool publish_files(gis_sink *sink, gis_error *error)
+{
+    const char *path = sink->request.path;
+    int lock = sink->request.overwrite && gis_sqlite_is(path) ? gis_sqlite_lock(path, error) : -2;
+    bool done = lock != -1 && gis_stage_publish(sink->stage, sink->request.overwrite, error);
+    if (lock >= 0)
+        close(lock);
+    return done;
+}
+
 bool gis_sink_publish(gis_sink *sink, gis_error *error)
 {
-    return sink->place == GIS_PLACE_DATABASE ? close_all(sink, error)
-           : sink->place == GIS_PLACE_FILE   ? gis_stage_publish(sink->stage, sink->request.overwrite, error)
-                                             : publish_memory(sink, error);
+    sink->published = sink->place == GIS_PLACE_DATABASE ? close_all(sink, error)
+                      : sink->place == GIS_PLACE_FILE   ? publish_files(sink, error)
+                                                        : publish_memory(sink, error);
+    return sink->published;
 }

@@ -153,6 +153,11 @@ static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
     return largest;
 }
 
+static bool any_elsewhere(const gis_polygons *a, const gis_polygons *b)
+{
+    return vertex_distance(a, b) > 0 || vertex_distance(b, a) > 0;
+}
+
 static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
 {
     if (a->polygons != b->polygons || a->rings != b->rings || a->vertices != b->vertices)
@@ -164,6 +169,8 @@ static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
 
 typedef struct workspace {
     gis_rings sent, kept;
+    bool keeps_vertices; /* the format does: that a vertex is elsewhere is damage */
+    bool damaged;
 } workspace;
 
 static void differ(gis_sink_result *result, double deviation)
@@ -173,7 +180,8 @@ static void differ(gis_sink_result *result, double deviation)
 }
 
 /* Points and lines keep their order everywhere. */
-static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, gis_sink_result *result, gis_error *error)
+static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, workspace *work, gis_sink_result *result,
+                             gis_error *error)
 {
     double *a = NULL, *b = NULL;
     size_t n_a = 0, n_b = 0;
@@ -183,6 +191,7 @@ static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, gis_sink_resu
     for (size_t i = 0; done && n_a == n_b && i < n_a; i++)
         if (compare_points(a + 2 * i, b + 2 * i) != 0)
             differ(result, hypot(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]));
+    work->damaged = work->damaged || (work->keeps_vertices && !result->exact);
     CPLFree(a);
     CPLFree(b);
     return done;
@@ -193,17 +202,20 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
 {
     gis_content content = gis_geometry_content(sent);
     if (content != gis_geometry_content(kept)) {
+        work->damaged = work->damaged || work->keeps_vertices;
         differ(result, INFINITY);
         return true;
     }
     if (content == GIS_NOTHING)
         return true;
     if (content != GIS_POLYGONS)
-        return compare_vertices(sent, kept, result, error);
+        return compare_vertices(sent, kept, work, result, error);
     bool same;
     if (!gis_geometry_rings(sent, &work->sent, error) || !gis_geometry_rings(kept, &work->kept, error) ||
         !same_polygons(&work->sent.set, &work->kept.set, &same, error))
         return false;
+    if (!same) /* rings that came into other members have their vertices still */
+        work->damaged = work->damaged || (work->keeps_vertices && any_elsewhere(&work->sent.set, &work->kept.set));
     if (!same)
         differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
     return true;
@@ -286,19 +298,28 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
 {
     size_t i = 0;
     bool done = true;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
     OGR_L_ResetReading(as_written);
     for (OGRFeatureH kept; done && (kept = OGR_L_GetNextFeature(as_written)) != NULL; i++) {
         if (i < layer->n_sent) {
             const gis_sent *sent = &layer->sent[i];
             done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error);
+            if (done && work->damaged)
+                done = gis_fail(error, "%s, layer %s: feature %zu does not read back as it was written; is the disk full?",
+                                layer->sink->request.path, layer->name, i + 1);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
             if (done && layer->changes && sent->feature)
                 compare_attributes(sent->feature, kept, layer->changes, n);
         }
         OGR_F_Destroy(kept);
     }
-    if (done && i != layer->n_sent)
-        return gis_sink_fail_count(layer, i, error);
+    gis_listen_end();
+    if (done && listener.failures)
+        done = gis_sink_fail_reading(layer, i, gis_listener_reason(&listener, "no reason given"), error);
+    else if (done && i != layer->n_sent)
+        done = gis_sink_fail_count(layer, i, error);
+    gis_listener_clear(&listener);
     return done;
 }
 
@@ -308,7 +329,7 @@ bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_resu
     int n = attributes ? OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))) : 0;
     if (attributes && !(layer->changes = new_changes(layer, as_written, n)))
         return gis_no_memory(error);
-    workspace work = {0};
+    workspace work = {.keeps_vertices = layer->sink->format.keeps_vertices};
     bool done = compare_features(layer, as_written, n, &work, result, error);
     gis_rings_clear(&work.sent);
     gis_rings_clear(&work.kept);

@@ -1,7 +1,6 @@
-/* sink_dataset.c: the datasets of a sink: made in the stage, copied there for an update, or a database. */
+/* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink_internal.h"
-#include "write/style.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -10,7 +9,6 @@
 
 /* What SQLite leaves beside a file that is open or was not closed well: part of the data. */
 static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
-enum { COMPANIONS_WITH_DATA = 2 };
 
 /* ---- What is replaced ------------------------------------------------------------------------------------- */
 
@@ -96,75 +94,21 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
     return *out != NULL;
 }
 
+/* For formats that are no databases. */
 static bool copy_in(gis_sink *sink, gis_error *error)
 {
     char *outside = gis_stage_outside(sink->stage, sink->main_file);
-    bool done = true;
-    for (size_t i = 0; done && i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
-        char *companion = CPLStrdup(CPLSPrintf("%s%s", outside, sqlite_companions[i]));
-        if (gis_sink_exists(companion)) {
-            if (i < COMPANIONS_WITH_DATA)
-                done = gis_stage_copy_in(sink->stage, companion, error);
-            else
-                gis_stage_supersede(sink->stage, companion);
-        }
-        CPLFree(companion);
-    }
-    done = done && gis_stage_copy_in(sink->stage, outside, error);
+    bool done = gis_stage_copy_in(sink->stage, outside, error);
     CPLFree(outside);
     return done;
 }
 
 static bool open_for_update(gis_sink *sink, gis_error *error)
 {
-    if (sink->place == GIS_PLACE_FILE && !copy_in(sink, error))
-        return false;
-    char *path = gis_sink_inside(sink, sink->main_file);
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    bool relaxed = relax_sqlite();
-    sink->dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
-    restore_sqlite(relaxed);
-    gis_listen_end();
-    CPLFree(path);
-    if (!sink->dataset)
-        gis_fail(error, "%s: cannot be opened to add layers: %s", sink->request.path,
-                 gis_listener_reason(&listener, "GDAL gives no reason"));
-    else if (!GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer))
-        gis_fail(error, "%s: no layers can be added to it", sink->request.path);
-    gis_listener_clear(&listener);
-    return sink->dataset && GDALDatasetTestCapability(sink->dataset, ODsCCreateLayer);
-}
-
-static bool remove_layer(gis_sink *sink, const char *name, gis_error *error)
-{
-    for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
-        if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name))
-            continue;
-        if (sink->format.geopackage)
-            gis_styles_forget(sink->dataset, name);
-        gis_listener listener = {0};
-        gis_listen_begin(&listener);
-        bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE;
-        gis_listen_end();
-        if (!done)
-            gis_fail(error, "%s: layer %s cannot be replaced: %s", sink->request.path, name,
-                     gis_listener_reason(&listener, "GDAL gives no reason"));
-        gis_listener_clear(&listener);
-        return done;
-    }
-    return true;
-}
-
-static bool begin_transaction(gis_sink *sink, gis_error *error)
-{
-    if (!GDALDatasetTestCapability(sink->dataset, ODsCTransactions)) {
-        if (sink->place == GIS_PLACE_DATABASE)
-            return gis_fail(error, "%s: the database has no transactions", sink->request.path);
-        return true;
-    }
-    sink->in_transaction = GDALDatasetStartTransaction(sink->dataset, FALSE) == OGRERR_NONE;
-    return sink->in_transaction || gis_fail(error, "%s: no transaction can be started", sink->request.path);
+    if (sink->place == GIS_PLACE_DATABASE && sink->format.sqlite && !sink->format.database)
+        return gis_sink_open_sqlite(sink, error);
+    return (sink->place != GIS_PLACE_FILE || copy_in(sink, error)) && gis_sink_open_for_update(sink, error) &&
+           gis_sink_begin_transaction(sink, error);
 }
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
@@ -179,12 +123,12 @@ bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *erro
         if (!sink->updating)
             supersede_existing(sink, sink->main_file);
         if (!(sink->updating ? open_for_update(sink, error)
-                             : create(sink, sink->main_file, &sink->dataset, error)) ||
-            !begin_transaction(sink, error))
+                             : create(sink, sink->main_file, &sink->dataset, error) &&
+                                   gis_sink_begin_transaction(sink, error)))
             return false;
     }
     layer->dataset = sink->dataset;
-    return !sink->updating || remove_layer(sink, layer->name, error);
+    return !sink->updating || gis_sink_make_room(sink, layer->name, error);
 }
 
 /* ---- Closing ---------------------------------------------------------------------------------------------- */
@@ -200,39 +144,6 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
         sink->dataset = NULL;
 }
 
-bool gis_sink_flush(gis_sink *sink, gis_error *error)
-{
-    gis_sink_layer *last = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
-    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer)
-        return true;
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    GDALFlushCache(sink->dataset);
-    gis_listen_end();
-    bool done = !listener.failures;
-    if (!done)
-        gis_fail(error, "%s, layer %s: writing failed: %s", sink->request.path, last->name,
-                 gis_listener_reason(&listener, "GDAL gives no reason"));
-    gis_listener_clear(&listener);
-    return done;
-}
-
-bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
-{
-    if (!sink->in_transaction)
-        return true;
-    sink->in_transaction = false;
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
-    gis_listen_end();
-    if (!done)
-        gis_fail(error, "%s: writing failed: %s", sink->request.path,
-                 gis_listener_reason(&listener, "the transaction cannot be committed"));
-    gis_listener_clear(&listener);
-    return done;
-}
-
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
     GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
@@ -240,13 +151,14 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
         return true;
     if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error))
         return false;
+    bool committed = dataset == sink->dataset && sink->place == GIS_PLACE_DATABASE; /* it cannot fail any more */
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     GDALFlushCache(dataset);
     GDALClose(dataset);
     gis_listen_end();
     forget_handles(sink, dataset);
-    bool done = !listener.failures;
+    bool done = !listener.failures || committed;
     if (!done)
         gis_fail(error, "%s: writing failed: %s", sink->request.path,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
@@ -260,8 +172,10 @@ void gis_sink_drop(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    if (sink->in_transaction)
+    if (sink->in_transaction) {
         GDALDatasetRollbackTransaction(sink->dataset);
+        gis_sink_seal(sink);
+    }
     sink->in_transaction = false;
     for (size_t i = 0; i < sink->n_layers; i++)
         if (sink->layers[i]->file && sink->layers[i]->dataset) {

@@ -2,10 +2,13 @@
  *
  *   sink.c          requests, checks before the work, the life of a sink
  *   sink_dataset.c  datasets made, opened for update, closed
+ *   sink_database.c the same of databases: locks and transactions
  *   sink_schema.c   layers and fields made
  *   sink_losses.c   what the format dropped of them
  *   sink_write.c    features
- *   sink_compare.c  what reads back beside what was sent
+ *   sink_digest.c   what reads back beside what was sent, in formats that keep every value
+ *   sink_compare.c  the same where coordinates or rings may change
+ *   sink_rewrite.c  a layer written again, with more digits
  *   sink_commit.c   closing, comparing, putting in place */
 #ifndef GIS_SINK_INTERNAL_H
 #define GIS_SINK_INTERNAL_H
@@ -30,6 +33,28 @@ typedef struct gis_change {
     GIntBig first; /* the first feature with one */
 } gis_change;
 
+/* A field whose values read back as they were sent. */
+typedef struct gis_plain_field {
+    char *name;
+    int sent, read; /* where it is in the layer that is written, and in the one that is read */
+    OGRFieldType type;
+    int width; /* of a text; 0: any */
+} gis_plain_field;
+
+typedef struct gis_digest gis_digest;
+
+/* The features of a layer as numbers (sink_digest.c). A zeroed struct is empty, and notes nothing. */
+typedef struct gis_digests {
+    bool wanted, with_fid, values_comparable;
+    gis_plain_field *fields;
+    size_t n_fields;
+    gis_digest *sent;
+    size_t n, capacity;
+    size_t with_z; /* features with a third coordinate */
+    double *xy;    /* room for the points of one ring */
+    size_t room;
+} gis_digests;
+
 struct gis_sink_layer {
     gis_sink *sink;
     gis_layer_request request; /* its field list is copied */
@@ -47,9 +72,15 @@ struct gis_sink_layer {
     bool can_measure, can_curve;
     size_t written;
     gis_boxes boxes; /* for the spatial index of a GeoPackage */
+    bool promised;   /* `verified` speaks of its features */
+    gis_digests digests;
     bool keep_sent;
     gis_sent *sent;
     size_t n_sent, capacity;
+    bool can_rewrite;       /* numbers are decimals, and how many digits they get is ours to choose */
+    bool more_digits;       /* than tell a double: the layer is written for the second time */
+    gis_value *sent_values; /* where it may be: n_fields for each that was sent, texts owned */
+    size_t values_room;     /* for so many features */
     gis_change *changes; /* by field of the source; NULL: not looked for */
 };
 
@@ -68,10 +99,10 @@ struct gis_sink {
     bool updating;     /* the output exists and gets more layers */
     bool fids_kept;    /* FIDs of the source are set; else sunder_fid holds them */
     gis_stage *stage;  /* of GIS_PLACE_FILE */
-    char *memory;      /* directory of GIS_PLACE_MEMORY */
+    char *memory;      /* directory of GIS_PLACE_MEMORY, and of what is only written */
     char *main_file;   /* base name of the main file in the stage */
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
-    bool in_transaction, set_date, set_rewind;
+    bool in_transaction, published, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;
     gis_list losses, warnings;
@@ -94,10 +125,18 @@ bool gis_sink_exists(const char *path);
 bool gis_sink_is_directory(const char *path);
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
+bool gis_sink_open_for_update(gis_sink *sink, gis_error *error);
+bool gis_sink_begin_transaction(gis_sink *sink, gis_error *error);
+/* Both of these for a SQLite file, with its write lock. */
+bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error);
+/* Takes a layer of this name away, if that was asked for; else it fails where there is one. */
+bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error);
 /* A database may have put off rows of the last layer written: sends them, and hears what it thinks of them. */
 bool gis_sink_flush(gis_sink *sink, gis_error *error);
 /* Commits the transaction of the common dataset, if one is open. */
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error);
+/* After the transaction: GDAL writes nothing more. */
+void gis_sink_seal(gis_sink *sink);
 /* Closes the dataset of a layer that has its own, or with NULL the common one; errors of closing fail. */
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */
@@ -109,7 +148,25 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
 
 /* Fails with the sentence that says how many features came back of those written. */
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);
+/* Fails with the sentence that says what the driver reported after so many features. */
+bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char *reason, gis_error *error);
+
+/* The layer and its fields are made: its features will be noted. */
+void gis_digests_begin(gis_sink_layer *layer);
+/* Notes a feature that was written, with the FID that it was to get: GDAL forgets a FID of 0. */
+bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_error *error);
+/* Reads every feature of the written layer, and fails unless all are as they were sent. */
+bool gis_digests_agree(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
+void gis_digests_clear(gis_digests *all);
+
 void gis_sink_forget_sent(gis_sink_layer *layer);
+/* For layers that can be written again: keeps the values of the feature that was remembered last. */
+bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error);
+void gis_sink_forget_values(gis_sink_layer *layer);
+/* Would more digits keep what was seen to change? */
+bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *seen);
+/* Writes the layer, which is closed, again with more digits, and closes it. */
+bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error);
 /* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills changes.
  */
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);

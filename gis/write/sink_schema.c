@@ -144,8 +144,8 @@ static char **layer_options(const gis_sink_layer *layer)
         options = offer(layer, options, "CREATE_CSVT", "YES");
     if (sink->format.shapefile)
         options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
-    if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double */
-        options = offer(layer, options, "SIGNIFICANT_FIGURES", "17");
+    if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double: see sink_rewrite.c */
+        options = offer(layer, options, "SIGNIFICANT_FIGURES", layer->more_digits ? "20" : "17");
     return options;
 }
 
@@ -344,7 +344,12 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     gis_listener_clear(&listener);
     CSLDestroy(options);
     /* What is promised is promised of the features; arrows and links may be rounded. */
-    bool promised = layer->request.like_source || !layer->request.suffix[0];
-    layer->keep_sent = promised && !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+    layer->promised = layer->request.like_source || !layer->request.suffix[0];
+    layer->keep_sent = !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
+    layer->can_rewrite = layer->keep_sent && layer->file && gis_format_has_option(&sink->format, "SIGNIFICANT_FIGURES") &&
+                         !CSLFetchNameValue((CSLConstList)sink->request.layer_options, "SIGNIFICANT_FIGURES") &&
+                         !CSLFetchNameValue((CSLConstList)sink->request.layer_options, "COORDINATE_PRECISION");
+    if (done && sink->format.keeps_doubles)
+        gis_digests_begin(layer);
     return done;
 }

@@ -23,6 +23,7 @@ static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
 
 void gis_sink_forget_sent(gis_sink_layer *layer)
 {
+    gis_sink_forget_values(layer);
     for (size_t i = 0; i < layer->n_sent; i++)
         OGR_G_DestroyGeometry(layer->sent[i].made);
     free(layer->sent);
@@ -91,12 +92,11 @@ static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
 
 static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
 {
+    GIntBig fid = OGR_F_GetFID(to);
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool done = OGR_L_CreateFeature(layer->layer, to) == OGRERR_NONE && !listener.failures;
     gis_listen_end();
-    if (done)
-        done = gis_rtree_add(&layer->boxes, to, error);
     if (done)
         layer->written++;
     else if (feature)
@@ -107,7 +107,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
                  layer->written + 1, gis_listener_reason(&listener, "GDAL gives no reason"));
     hear_warnings(layer, &listener);
     gis_listener_clear(&listener);
-    return done;
+    return done && gis_rtree_add(&layer->boxes, to, error) && gis_digests_add(&layer->digests, to, fid, error);
 }
 
 /* The feature has all it needs; it is fitted to the format, and written. */
@@ -130,7 +130,8 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
     }
     bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error);
+        done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error) &&
+               gis_sink_remember_values(layer, values, error);
     OGR_F_SetGeometryDirectly(to, geometry);
     done = done && send(layer, to, feature, error);
     OGR_F_Destroy(to);
@@ -145,7 +146,7 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
         return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error);
+        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) && gis_sink_remember_values(layer, values, error);
     done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error);
     OGR_F_Destroy(to);
     return done;

@@ -1,0 +1,277 @@
+/* sink_digest.c: written layers read back, where the format holds every value as it is.
+ *
+ * There a feature that reads back is equal to the one that was sent, double for double, whatever order the format likes:
+ * so a feature becomes two numbers of 64 bits when it is sent (its place: geometry and FID; its values), and two when it
+ * is read, and both lists are sorted and compared. No header's count is believed, no copy of the geometries is kept.
+ * The numbers are no secret and meet no adversary: that a damaged feature has those of another one is as likely as
+ * 2^-64 for each pair. */
+#include "write/sink_internal.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct gis_digest {
+    uint64_t place, values;
+};
+
+/* ---- Numbers of a feature --------------------------------------------------------------------------------- */
+
+enum { START = 1, NOTHING, POLYGON, NO_VALUE, TEXT };
+
+static uint64_t mix(uint64_t so_far, uint64_t word)
+{
+    uint64_t h = (so_far ^ word) * 0x9E3779B97F4A7C15u; /* odd, its bits without pattern: 2^64 over the golden ratio */
+    return h ^ h >> 29;
+}
+
+/* -0 counts as 0, as some formats keep it; so do all NaNs as one. */
+static uint64_t mix_double(uint64_t so_far, double x)
+{
+    uint64_t word;
+    x = isnan(x) ? NAN : x + 0.0;
+    memcpy(&word, &x, sizeof word);
+    return mix(so_far, word);
+}
+
+static uint64_t mix_bytes(uint64_t so_far, const char *bytes, size_t n)
+{
+    for (; n >= 8; bytes += 8, n -= 8) {
+        uint64_t word;
+        memcpy(&word, bytes, 8);
+        so_far = mix(so_far, word);
+    }
+    uint64_t rest = 0;
+    memcpy(&rest, bytes, n);
+    return mix(mix(so_far, rest), n);
+}
+
+static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far)
+{
+    size_t n = (size_t)OGR_G_GetPointCount(geometry);
+    if (n > all->room) {
+        double *larger = realloc(all->xy, 2 * n * sizeof *larger);
+        if (!larger)
+            return false;
+        all->xy = larger;
+        all->room = n;
+    }
+    int stride = 2 * sizeof(double);
+    if (n)
+        OGR_G_GetPoints(geometry, all->xy, stride, all->xy + 1, stride, NULL, 0);
+    *so_far = mix(*so_far, n);
+    for (size_t i = 0; i < 2 * n; i++)
+        *so_far = mix_double(*so_far, all->xy[i]);
+    return true;
+}
+
+/* X and Y, ring by ring. A polygon and a multipolygon of that one polygon are the same to a format that has but one of
+ * both; null and empty are the same to one that has no empty ones. */
+static bool mix_geometry(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far)
+{
+    if (!geometry || OGR_G_IsEmpty(geometry)) {
+        *so_far = mix(*so_far, NOTHING);
+        return true;
+    }
+    OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbPolygon || type == wkbCurvePolygon)
+        *so_far = mix(*so_far, POLYGON);
+    int parts = OGR_G_GetGeometryCount(geometry);
+    for (int i = 0; i < parts; i++)
+        if (!mix_geometry(OGR_G_GetGeometryRef(geometry, i), all, so_far))
+            return false;
+    return parts > 0 || mix_points(geometry, all, so_far);
+}
+
+static uint64_t mix_text(uint64_t so_far, const char *text, int width)
+{
+    size_t n = strlen(text);
+    if (width > 0 && n > (size_t)width) /* a format may cut it there: width counts signs, and none is under a byte */
+        n = (size_t)width;
+    return mix_bytes(mix(so_far, TEXT), text, n);
+}
+
+static uint64_t mix_value(uint64_t so_far, OGRFeatureH feature, int field, const gis_plain_field *as)
+{
+    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field))
+        return mix(so_far, NO_VALUE);
+    if (as->type == OFTString)
+        return mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
+    if (as->type != OFTReal)
+        return mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
+    double x = OGR_F_GetFieldAsDouble(feature, field);
+    return isnan(x) ? mix(so_far, NO_VALUE) : mix_double(so_far, x); /* databases store a NaN as null */
+}
+
+static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_written, gis_digest *out)
+{
+    *out = (gis_digest){START, START};
+    if (all->with_fid)
+        out->place = mix(out->place, (uint64_t)fid);
+    for (size_t i = 0; i < all->n_fields; i++)
+        out->values = mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent,
+                                &all->fields[i]);
+    /* What value stood where is told, too: the values of two features that changed places are not as they were. */
+    bool done = mix_geometry(OGR_F_GetGeometryRef(feature), all, &out->place);
+    out->values = mix(out->values, out->place);
+    return done;
+}
+
+/* ---- Fields whose values must come back -------------------------------------------------------------------- */
+
+/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something equivalent. */
+static bool is_plain(OGRFieldDefnH field)
+{
+    OGRFieldType type = OGR_Fld_GetType(field);
+    return OGR_Fld_GetSubType(field) == OFSTNone && !OGR_Fld_GetDefault(field) &&
+           (type == OFTInteger || type == OFTInteger64 || type == OFTReal || type == OFTString);
+}
+
+void gis_digests_begin(gis_sink_layer *layer)
+{
+    gis_digests *all = &layer->digests;
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer->layer);
+    int n = OGR_FD_GetFieldCount(definition);
+    all->wanted = true;
+    all->with_fid = layer->request.like_source && layer->sink->fids_kept;
+    all->fields = CPLCalloc((size_t)n + 1, sizeof *all->fields);
+    for (int i = 0; i < n; i++) {
+        OGRFieldDefnH field = OGR_FD_GetFieldDefn(definition, i);
+        if (is_plain(field))
+            all->fields[all->n_fields++] = (gis_plain_field){CPLStrdup(OGR_Fld_GetNameRef(field)), i, i,
+                                                             OGR_Fld_GetType(field), OGR_Fld_GetWidth(field)};
+    }
+}
+
+/* Where the fields are in the layer as it reads; one that has another type there cannot be compared (and is told as a
+ * loss). */
+static void find_fields(gis_digests *all, OGRLayerH as_written)
+{
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(as_written);
+    for (size_t i = 0; i < all->n_fields; i++) {
+        gis_plain_field *field = &all->fields[i];
+        field->read = OGR_FD_GetFieldIndex(definition, field->name);
+        if (field->read < 0 || OGR_Fld_GetType(OGR_FD_GetFieldDefn(definition, field->read)) != field->type)
+            all->values_comparable = false;
+    }
+}
+
+/* ---- Both lists ------------------------------------------------------------------------------------------- */
+
+static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
+{
+    if (*n == *capacity) {
+        size_t larger = *capacity ? 2 * *capacity : 256;
+        gis_digest *moved = realloc(*at, larger * sizeof *moved);
+        if (!moved)
+            return false;
+        *at = moved;
+        *capacity = larger;
+    }
+    (*at)[(*n)++] = one;
+    return true;
+}
+
+bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_error *error)
+{
+    gis_digest one;
+    if (!all->wanted)
+        return true;
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    all->with_z += geometry && OGR_G_Is3D(geometry) && !OGR_G_IsEmpty(geometry);
+    return (digest(all, feature, fid, false, &one) && append(&all->sent, &all->n, &all->capacity, one)) ||
+           gis_no_memory(error);
+}
+
+void gis_digests_clear(gis_digests *all)
+{
+    for (size_t i = 0; i < all->n_fields; i++)
+        CPLFree(all->fields[i].name);
+    CPLFree(all->fields);
+    free(all->sent);
+    free(all->xy);
+    *all = (gis_digests){0};
+}
+
+static int order(const void *a, const void *b)
+{
+    const gis_digest *p = a, *q = b;
+    if (p->place != q->place)
+        return p->place < q->place ? -1 : 1;
+    return (p->values > q->values) - (p->values < q->values);
+}
+
+/* How many of `sent` are not in `read`; both sorted, with repeats. */
+static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, bool values)
+{
+    size_t count = 0;
+    for (size_t i = 0, k = 0; i < n;) {
+        int way = k == n ? -1 : sent[i].place != read[k].place ? (sent[i].place < read[k].place ? -1 : 1)
+                                : values                       ? order(&sent[i], &read[k])
+                                                               : 0;
+        count += way < 0;
+        i += way <= 0;
+        k += way >= 0;
+    }
+    return count;
+}
+
+static bool compare(gis_sink_layer *layer, gis_digest *read, gis_error *error)
+{
+    gis_sink *sink = layer->sink;
+    gis_digests *all = &layer->digests;
+    if (!all->wanted) /* a format that keeps nothing as it is: all features were there to be read */
+        return true;
+    qsort(all->sent, all->n, sizeof *all->sent, order);
+    qsort(read, all->n, sizeof *read, order);
+    size_t lost = missing(all->sent, read, all->n, false);
+    size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent, read, all->n, true);
+    if (!lost && changed && !sink->format.keeps_values) {
+        gis_list_add(&sink->losses, "layer %s: the values of %zu features do not read back as they were written",
+                     layer->name, changed);
+        return true;
+    }
+    return !(lost || changed) ||
+           gis_fail(error, "%s, layer %s: %zu of %zu features do not read back as they were written; is the disk full?",
+                    sink->request.path, layer->name, lost ? lost : changed, all->n);
+}
+
+/* Every feature of the layer, decoded; what the driver reports meanwhile is a failure. */
+static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **read, gis_error *error)
+{
+    gis_digests *all = &layer->digests;
+    size_t n = 0, capacity = 0, with_z = 0;
+    bool done = true;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    OGR_L_ResetReading(as_written);
+    for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(as_written)) != NULL; OGR_F_Destroy(feature)) {
+        gis_digest one;
+        OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+        with_z += geometry && OGR_G_Is3D(geometry);
+        done = (digest(all, feature, OGR_F_GetFID(feature), true, &one) && append(read, &n, &capacity, one)) ||
+               gis_no_memory(error);
+    }
+    OGR_L_ResetReading(as_written); /* a database would keep the table open */
+    gis_listen_end();
+    if (done && listener.failures)
+        done = gis_sink_fail_reading(layer, n, gis_listener_reason(&listener, "no reason given"), error);
+    else if (done && n != layer->written)
+        done = gis_sink_fail_count(layer, n, error);
+    if (done && with_z < all->with_z && gis_sink_tells(layer))
+        gis_list_add(&layer->sink->losses, "Z values are not written: %s has none", layer->sink->format.name);
+    gis_listener_clear(&listener);
+    return done;
+}
+
+bool gis_digests_agree(gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
+{
+    gis_digest *read = NULL;
+    layer->digests.values_comparable = true;
+    find_fields(&layer->digests, as_written);
+    bool done = read_back(layer, as_written, &read, error) && (layer->written == 0 || compare(layer, read, error));
+    free(read);
+    return done;
+}

@@ -1,0 +1,111 @@
+/* sqlite_lock.c: see sqlite_lock.h. */
+#define _GNU_SOURCE
+#include "write/sqlite_lock.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Locks of the open file, not of the process, where the system has them. */
+#ifdef F_OFD_SETLK
+enum { SET_LOCK = F_OFD_SETLK, GET_LOCK = F_OFD_GETLK };
+#else
+enum { SET_LOCK = F_SETLK, GET_LOCK = F_GETLK };
+#endif
+
+/* One byte for a writer that waits for readers, one for a writer, and 510 for readers. */
+enum { PENDING = 0x40000000, RESERVED = PENDING + 1, ALL = 512 };
+
+static struct flock range(short type, off_t start, off_t length)
+{
+    return (struct flock){.l_type = type, .l_whence = SEEK_SET, .l_start = start, .l_len = length};
+}
+
+int gis_sqlite_patience(void)
+{
+    return atoi(CPLGetConfigOption("SQLITE_BUSY_TIMEOUT", "5000"));
+}
+
+bool gis_sqlite_is(const char *path)
+{
+    static const char magic[16] = "SQLite format 3";
+    char start[sizeof magic];
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+        return false;
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    bool is = file >= 0 && pread(file, start, sizeof start, 0) == (ssize_t)sizeof start &&
+              memcmp(start, magic, sizeof magic) == 0;
+    if (file >= 0)
+        close(file);
+    return is;
+}
+
+/* Does anyone hold a lock that one of this type on these bytes would meet? */
+static bool meets(const char *path, short type, off_t start, off_t length)
+{
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    struct flock lock = range(type, start, length);
+    bool met = file >= 0 && fcntl(file, GET_LOCK, &lock) == 0 && lock.l_type != F_UNLCK;
+    if (file >= 0)
+        close(file);
+    return met;
+}
+
+bool gis_sqlite_in_use(const char *path)
+{
+    return meets(path, F_WRLCK, PENDING, ALL);
+}
+
+bool gis_sqlite_being_written(const char *path)
+{
+    return meets(path, F_WRLCK, PENDING, 2);
+}
+
+static void wait_a_moment(void)
+{
+    const struct timespec moment = {0, 20000000};
+    nanosleep(&moment, NULL);
+}
+
+int gis_sqlite_lock(const char *path, gis_error *error)
+{
+    int file = open(path, O_RDWR | O_CLOEXEC);
+    if (file < 0 && (errno == EACCES || errno == EROFS || errno == EPERM))
+        return -2; /* nor can anyone of us write in it; whether it may be replaced is the directory's affair */
+    if (file < 0) {
+        gis_fail(error, "%s: %s", path, strerror(errno));
+        return -1;
+    }
+    for (int waited = 0;; waited += 20) {
+        struct flock lock = range(F_WRLCK, PENDING, ALL);
+        if (fcntl(file, SET_LOCK, &lock) == 0)
+            return file;
+        if (errno != EAGAIN && errno != EACCES) {
+            close(file);
+            return -2;
+        }
+        if (waited >= gis_sqlite_patience())
+            break;
+        wait_a_moment();
+    }
+    close(file);
+    gis_fail(error, "%s is in use by another program, which did not let go of it within %g s: close it there, or write "
+             "another file", path, gis_sqlite_patience() / 1000.);
+    return -1;
+}
+
+bool gis_sqlite_has(const char *path, const char *companion)
+{
+    char *name = CPLStrdup(CPLSPrintf("%s%s", path, companion));
+    struct stat status;
+    bool has = stat(name, &status) == 0 && status.st_size > 0;
+    CPLFree(name);
+    return has;
+}
