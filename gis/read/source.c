@@ -2,6 +2,7 @@
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/source.h"
 #include "read/source_layer.h"
+#include "read/sqlite_lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -32,16 +33,6 @@ static void keep_warnings(gis_source *source, const gis_listener *listener)
         gis_list_add(&source->warnings, "%s", listener->warnings.items[i]);
 }
 
-/* The journal of a transaction that was interrupted: a program that may not write cannot read past it. */
-static bool has_journal(const char *path)
-{
-    VSIStatBufL status;
-    char *journal = CPLStrdup(CPLSPrintf("%s-journal", path));
-    bool has = VSIStatL(journal, &status) == 0 && status.st_size > 0;
-    CPLFree(journal);
-    return has;
-}
-
 static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
@@ -56,7 +47,7 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
         VSIStatBufL status;
         if (VSIStatExL(request->path, &status, VSI_STAT_EXISTS_FLAG) != 0 && !strchr(request->path, ':'))
             gis_fail(error, "%s: no such file", request->path);
-        else if (has_journal(request->path))
+        else if (gis_sqlite_has_journal(request->path))
             gis_fail(error, "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls it "
                      "back once a program opens the database that may write, such as sqlite3", request->path,
                      request->path);

@@ -98,11 +98,11 @@ static bool end_rows(rows *all, bool so_far, gis_error *error)
 
 /* ---- Gathering -------------------------------------------------------------------------------------------- */
 
-void gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes)
+bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
     if (!column || !column[0])
-        return;
+        return true;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
     CPLFree(gis_sql_ask(dataset, "SELECT 1")); /* any SQL makes GDAL create tables and indexes that it had put off */
@@ -110,15 +110,13 @@ void gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes)
     CPLFree(find);
     CPLFree(literal);
     if (!boxes->trigger)
-        return;
+        return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
-    if (!run(dataset, drop, NULL)) {
-        CPLFree(boxes->trigger);
-        boxes->trigger = NULL;
-    }
+    bool done = run(dataset, drop, error);
     CPLFree(drop);
     CPLFree(name);
+    return done;
 }
 
 static float below(double x)

@@ -23,7 +23,7 @@ typedef struct gis_boxes {
 
 /* To be called when the layer and its fields are made and it has no features yet: makes GDAL create its (empty) index
  * now, and takes away the trigger that would fill it. Does nothing where GDAL makes no index, or another than known. */
-void gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes);
+bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error);
 /* Notes a feature that was written. */
 bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error);
 /* Fills the tree and puts the trigger back. */

@@ -3,7 +3,7 @@
 #include "write/sink_internal.h"
 #include "base/message.h"
 #include "read/source_files.h"
-#include "write/sqlite_lock.h"
+#include "read/sqlite_lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -164,14 +164,12 @@ static void settle_journal(const gis_sink *sink)
 /* A SQLite database has companions that belong to its content, and others may have it open. */
 static bool check_database_file(const gis_sink *sink, gis_error *error)
 {
-    static const char *const companions[] = {"-journal", "-wal"};
     const char *path = sink->request.path;
     bool there = gis_sink_exists(path);
-    for (size_t i = 0; !there && i < sizeof companions / sizeof *companions; i++)
-        if (gis_sqlite_has(path, companions[i]))
-            return gis_fail(error, "%s%s is left of another database and would be taken for part of the new one; move it "
-                            "away", path, companions[i]);
-    if (there && gis_sqlite_has(path, "-journal") && !gis_sqlite_being_written(path))
+    if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
+        return gis_fail(error, "%s%s is left of another database and would be taken for part of the new one; move it away",
+                        path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
+    if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path))
         settle_journal(sink);
     if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && gis_sqlite_in_use(path))
         return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
@@ -410,7 +408,7 @@ void gis_sink_free(gis_sink *sink)
         return;
     gis_sink_drop(sink);
     if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
-        gis_sqlite_has(sink->request.path, "-journal") && !gis_sqlite_being_written(sink->request.path))
+        gis_sqlite_has_journal(sink->request.path) && !gis_sqlite_being_written(sink->request.path))
         gis_say_warning("%s-journal holds what the database was; SQLite brings it back when a program opens it that may "
                         "write", sink->request.path);
     for (size_t i = 0; i < sink->n_layers; i++)

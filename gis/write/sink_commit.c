@@ -1,7 +1,7 @@
 /* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink_internal.h"
-#include "write/sqlite_lock.h"
+#include "read/sqlite_lock.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>

@@ -7,14 +7,14 @@
  * journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever opens the
  * database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
-#include "base/message.h"
 #include "read/sql.h"
 #include "write/sink_internal.h"
-#include "write/sqlite_lock.h"
+#include "read/sqlite_lock.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -47,6 +47,11 @@ bool gis_sink_begin_transaction(gis_sink *sink, gis_error *error)
     }
     sink->in_transaction = GDALDatasetStartTransaction(sink->dataset, FALSE) == OGRERR_NONE;
     return sink->in_transaction || gis_fail(error, "%s: no transaction can be started", sink->request.path);
+}
+
+static bool in_sqlite_file(const gis_sink *sink)
+{
+    return sink->place == GIS_PLACE_DATABASE && sink->format.sqlite;
 }
 
 /* ---- The lock of a SQLite file ---------------------------------------------------------------------------- */
@@ -105,6 +110,42 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
                     "changed", sink->request.path, gis_sqlite_patience() / 1000., reason);
 }
 
+/* ---- Nothing outside the transaction ----------------------------------------------------------------------- */
+
+/* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a transaction
+ * of its own, and be committed. Two things are set against that. A second connection reads all the time, so that nobody
+ * can commit, this program included, until it lets go (in WAL mode readers stop nobody; but there nothing is written
+ * before the commit, if the cache keeps what it has, and what is not written cannot fail). And a temporary table that
+ * goes when the transaction goes tells whether it is still the one that was begun. */
+#define MARK "sunder_transaction"
+
+static bool guard(gis_sink *sink, gis_error *error)
+{
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    sink->reading = sink->reader ? GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL) : NULL;
+    OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL; /* the first of several */
+    if (row)
+        OGR_F_Destroy(row);
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    return (row || gis_fail(error, "%s: cannot be read while it is written", sink->request.path)) &&
+           gis_sql_run(sink->dataset, "PRAGMA cache_spill = 0", "the database", error) &&
+           gis_sql_run(sink->dataset, "PRAGMA busy_timeout = 0", "the database", error) &&
+           gis_sql_run(sink->dataset, "CREATE TEMP TABLE " MARK " (x)", "the database", error);
+}
+
+static void unguard(gis_sink *sink)
+{
+    if (sink->reading)
+        GDALDatasetReleaseResultSet(sink->reader, sink->reading);
+    if (sink->reader)
+        GDALClose(sink->reader);
+    sink->reading = NULL;
+    sink->reader = NULL;
+}
+
 static bool begin_locked(gis_sink *sink, gis_error *error)
 {
     char *sql = locking_statement(sink);
@@ -114,18 +155,27 @@ static bool begin_locked(gis_sink *sink, gis_error *error)
                            (gis_sql_run(sink->dataset, sql, "the database", &reason) ||
                             fail_locked(sink, reason.message, error));
     CPLFree(sql);
-    return done;
+    return done && guard(sink, error);
+}
+
+bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
+{
+    if (!in_sqlite_file(sink) || !sink->in_transaction)
+        return true;
+    char *mark = gis_sql_ask(sink->dataset, "SELECT 1 FROM sqlite_temp_master WHERE name = '" MARK "'");
+    bool there = mark != NULL;
+    CPLFree(mark);
+    return there || gis_fail(error, "%s: writing failed, and the database took back what was written: is the disk full?",
+                             sink->request.path);
 }
 
 static void abandon(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    if (sink->in_transaction)
-        GDALDatasetRollbackTransaction(sink->dataset);
+    gis_sink_roll_back(sink);
     if (sink->dataset)
         GDALClose(sink->dataset);
-    sink->in_transaction = false;
     sink->dataset = NULL;
     gis_listen_end();
     gis_listener_clear(&listener);
@@ -164,17 +214,17 @@ bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
         if (!sink->request.overwrite_layer)
             return gis_fail(error, "%s has a layer %s by now; --overwrite-layer replaces it, --output-layer names another",
                             sink->request.path, name);
-        if (sink->format.geopackage)
-            gis_styles_forget(sink->dataset, name);
+        if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error))
+            return false;
         gis_listener listener = {0};
         gis_listen_begin(&listener);
-        bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE;
+        bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE && !listener.failures;
         gis_listen_end();
         if (!done)
             gis_fail(error, "%s: layer %s cannot be replaced: %s", sink->request.path, name,
                      gis_listener_reason(&listener, "GDAL gives no reason"));
         gis_listener_clear(&listener);
-        return done;
+        return done && gis_sink_unbroken(sink, error);
     }
     return true;
 }
@@ -195,20 +245,45 @@ bool gis_sink_flush(gis_sink *sink, gis_error *error)
         gis_fail(error, "%s, layer %s: writing failed: %s", sink->request.path, last->name,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
     gis_listener_clear(&listener);
-    return done;
+    return done && gis_sink_unbroken(sink, error);
 }
 
 /* What GDAL would still like to note when it closes the file would be outside the transaction. */
-void gis_sink_seal(gis_sink *sink)
+static void seal(gis_sink *sink)
 {
-    if (sink->place == GIS_PLACE_DATABASE && sink->format.sqlite)
+    if (in_sqlite_file(sink))
         gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
+}
+
+void gis_sink_roll_back(gis_sink *sink)
+{
+    if (sink->in_transaction) {
+        GDALDatasetRollbackTransaction(sink->dataset);
+        seal(sink);
+    }
+    sink->in_transaction = false;
+    unguard(sink);
+}
+
+/* The moment at which readers must let go, and are waited for. */
+static bool clear_the_way(gis_sink *sink, gis_error *error)
+{
+    char wait[64];
+    snprintf(wait, sizeof wait, "PRAGMA busy_timeout = %d", gis_sqlite_patience());
+    if (!in_sqlite_file(sink))
+        return true;
+    if (!gis_sink_unbroken(sink, error) || !gis_sql_run(sink->dataset, wait, "the database", error))
+        return false;
+    unguard(sink);
+    return true;
 }
 
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
 {
     if (!sink->in_transaction)
         return true;
+    if (!clear_the_way(sink, error))
+        return false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
@@ -220,7 +295,7 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
         gis_fail(error, "%s: writing failed: %s", sink->request.path,
                  gis_listener_reason(&listener, "the transaction cannot be committed"));
     else
-        gis_sink_seal(sink);
+        seal(sink);
     gis_listener_clear(&listener);
     return done;
 }

@@ -172,11 +172,7 @@ void gis_sink_drop(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    if (sink->in_transaction) {
-        GDALDatasetRollbackTransaction(sink->dataset);
-        gis_sink_seal(sink);
-    }
-    sink->in_transaction = false;
+    gis_sink_roll_back(sink);
     for (size_t i = 0; i < sink->n_layers; i++)
         if (sink->layers[i]->file && sink->layers[i]->dataset) {
             GDALDatasetH own = sink->layers[i]->dataset;

@@ -102,6 +102,8 @@ struct gis_sink {
     char *memory;      /* directory of GIS_PLACE_MEMORY, and of what is only written */
     char *main_file;   /* base name of the main file in the stage */
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
+    GDALDatasetH reader;  /* of a SQLite file in a transaction: holds everyone's commit back by its open result */
+    OGRLayerH reading;
     bool in_transaction, published, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;
@@ -129,14 +131,16 @@ bool gis_sink_open_for_update(gis_sink *sink, gis_error *error);
 bool gis_sink_begin_transaction(gis_sink *sink, gis_error *error);
 /* Both of these for a SQLite file, with its write lock. */
 bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error);
+/* Is the transaction of a SQLite file still the one that was begun? */
+bool gis_sink_unbroken(gis_sink *sink, gis_error *error);
 /* Takes a layer of this name away, if that was asked for; else it fails where there is one. */
 bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error);
 /* A database may have put off rows of the last layer written: sends them, and hears what it thinks of them. */
 bool gis_sink_flush(gis_sink *sink, gis_error *error);
 /* Commits the transaction of the common dataset, if one is open. */
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error);
-/* After the transaction: GDAL writes nothing more. */
-void gis_sink_seal(gis_sink *sink);
+/* Takes back what the transaction wrote, if one is open; GDAL writes nothing more. */
+void gis_sink_roll_back(gis_sink *sink);
 /* Closes the dataset of a layer that has its own, or with NULL the common one; errors of closing fail. */
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 void gis_sink_drop(gis_sink *sink); /* closes without asking, rolls back */

@@ -332,8 +332,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
             copy_metadata(layer);
         create_source_fields(layer);
         create_own_fields(layer);
-        if (sink->format.geopackage)
-            gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes);
+        done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes, error);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
     } else {
@@ -351,5 +350,5 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
                          !CSLFetchNameValue((CSLConstList)sink->request.layer_options, "COORDINATE_PRECISION");
     if (done && sink->format.keeps_doubles)
         gis_digests_begin(layer);
-    return done;
+    return done && gis_sink_unbroken(sink, error);
 }

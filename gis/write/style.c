@@ -142,11 +142,14 @@ bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, co
     return done && (!source || copy_styles(dataset, layer, source, &table_made, error));
 }
 
-void gis_styles_forget(GDALDatasetH dataset, const char *layer)
+bool gis_styles_forget(GDALDatasetH dataset, const char *layer, gis_error *error)
 {
+    char *there = gis_sql_ask(dataset, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'layer_styles'");
     char *name = quoted(layer);
     char *sql = CPLStrdup(CPLSPrintf("DELETE FROM layer_styles WHERE f_table_name = %s", name));
-    run(dataset, sql, NULL); /* no such table: nothing to forget */
+    bool done = !there || run(dataset, sql, error);
     CPLFree(sql);
     CPLFree(name);
+    CPLFree(there);
+    return done;
 }

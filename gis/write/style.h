@@ -14,8 +14,8 @@
 bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, const gis_source *source,
                       gis_error *error);
 
-/* Takes away the styles of a layer that is about to be replaced. */
-void gis_styles_forget(GDALDatasetH dataset, const char *layer);
+/* Takes away the styles of a layer that is about to be replaced, if there are any. */
+bool gis_styles_forget(GDALDatasetH dataset, const char *layer, gis_error *error);
 
 /* The QGIS style document for a layer of this geometry type; CPLFree(). NULL if there is none. */
 char *gis_style_qml(gis_style style, OGRwkbGeometryType type);

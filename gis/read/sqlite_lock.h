@@ -23,7 +23,8 @@ bool gis_sqlite_being_written(const char *path);
 int gis_sqlite_lock(const char *path, gis_error *error);
 
 /* Beside a database: a journal ("-journal") of a transaction that was interrupted and that SQLite rolls back when it opens
- * the database next, or a log ("-wal") that belongs to it. False if there is none, or it is empty. */
-bool gis_sqlite_has(const char *path, const char *companion);
+ * the database next (one whose head was never written says nothing), or a log ("-wal") that belongs to it. */
+bool gis_sqlite_has_journal(const char *path);
+bool gis_sqlite_has_log(const char *path);
 
 #endif

@@ -1,6 +1,6 @@
 /* sqlite_lock.c: see sqlite_lock.h. */
 #define _GNU_SOURCE
-#include "write/sqlite_lock.h"
+#include "read/sqlite_lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -101,9 +101,23 @@ int gis_sqlite_lock(const char *path, gis_error *error)
     return -1;
 }
 
-bool gis_sqlite_has(const char *path, const char *companion)
+bool gis_sqlite_has_journal(const char *path)
 {
-    char *name = CPLStrdup(CPLSPrintf("%s%s", path, companion));
+    static const unsigned char magic[8] = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+    unsigned char start[sizeof magic];
+    char *name = CPLStrdup(CPLSPrintf("%s-journal", path));
+    int file = open(name, O_RDONLY | O_CLOEXEC);
+    bool has = file >= 0 && read(file, start, sizeof start) == (ssize_t)sizeof start &&
+               memcmp(start, magic, sizeof magic) == 0;
+    if (file >= 0)
+        close(file);
+    CPLFree(name);
+    return has;
+}
+
+bool gis_sqlite_has_log(const char *path)
+{
+    char *name = CPLStrdup(CPLSPrintf("%s-wal", path));
     struct stat status;
     bool has = stat(name, &status) == 0 && status.st_size > 0;
     CPLFree(name);

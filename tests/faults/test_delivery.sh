@@ -1,0 +1,129 @@
+# shellcheck shell=bash disable=SC1091
+# The delivery of an output struck at its system calls: killed there, or the call fails, or writes half of what it was to
+# write, or the disk is full from some byte on. What is there afterwards is the old output or the new one, byte by byte; or
+# the next run that writes there finds what is left, says so and brings the old one back. Status 0 means the new one.
+#
+#   SUNDER_FAULTS=N     places for each way of striking, spread over the run from SUNDER_SEED on (default 1)
+#   SUNDER_FAULTS=all   every call, and a disk that is full at every 4096th byte
+#   SUNDER_FAULTS_SCENARIOS=WORDS   some of the scenarios only
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+strike=$SUNDER_BUILD/tests/strike
+[ -x "$strike" ] || { echo "skipped: tests/strike is not built"; exit 77; }
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # it cannot work while it is traced
+export SOURCE_DATE_EPOCH=1700000000
+budget=${SUNDER_FAULTS:-1}
+seed=${SUNDER_SEED:-$((RANDOM))}
+echo "SUNDER_SEED=$seed SUNDER_FAULTS=$budget"
+
+layer in.gpkg houses POLYGON <<'X'
+id,name,WKT
+1,one,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,two,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+3,three,"POLYGON((13 0,17 0,17 4,13 4,13 0),(14 1,14 2,15 2,15 1,14 1))"
+X
+"$strike" list 0 true 3>probe 2>message || { echo "skipped: $(cat message)"; exit 77; }
+rm -f probe message
+
+# scenario NAME: what is there before (`old`), and the run that is struck (`args`).
+scenarios="gpkg-overwrite shp-overwrite fgb-overwrite geojson-overwrite gpkg-update wal-update gpkg-replace-layer shp-update fgb-update
+geojson-update shp-new"
+scenario() {
+    local format=${1%%-*} kind=${1#*-}
+    [ "$format" = wal ] && format=gpkg
+    output=o.$format
+    options=(separate in.gpkg "$output" -q)
+    [ "$format" = shp ] && options+=(--lco DBF_DATE_LAST_UPDATE=2024-01-01)
+    args=("${options[@]}" --gap 1)
+    case $kind in
+    overwrite) args+=(--overwrite) ;;
+    update) if [ "$format" = gpkg ]; then args+=(--update --output-layer more); else args+=(--update --overwrite-layer); fi ;;
+    replace-layer) args+=(--update --overwrite-layer) ;;
+    esac
+    rm -rf pristine && mkdir pristine && cp in.gpkg pristine
+    if [ "$kind" != new ]; then
+        (cd pristine && "$SUNDER" "${options[@]}" 2>/dev/null) || fail "$1: no old output"
+    fi
+    if [ "$1" = wal-update ]; then
+        sqlite3 pristine/o.gpkg 'PRAGMA journal_mode = WAL' >/dev/null 2>&1 || return 1
+    fi
+}
+
+# What a reader finds. SQLite first does what it does when a database is opened: it rolls an interrupted transaction back.
+state() {
+    if [ -e "dir/$output-journal" ] || [ -e "dir/$output-wal" ]; then
+        ogrinfo -q "dir/$output" >/dev/null 2>&1 # opens for writing
+    fi
+    # A journal that begins with zeros was never synced: nothing had been changed, and SQLite does not look at it.
+    [ "$(head -qc 1 "dir/$output-journal" 2>/dev/null | od -An -tu1 | tr -d ' ')" = 0 ] && rm "dir/$output-journal"
+    (cd dir && find . -name '.sunder-*' -prune -o -type f ! -name '*-shm' -print0 | sort -z | xargs -0 cksum)
+}
+
+start() {
+    chmod -R u+rwx dir 2>/dev/null
+    rm -rf dir && cp -a pristine dir
+}
+
+# struck WAY PLACE: the run; sets $calls, $bytes, $status, $call.
+struck() {
+    start
+    (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
+    read -r calls bytes status call <report
+    runs=$((runs + 1))
+}
+
+judge() {
+    local name=$1 way=$2 place=$3 now after
+    now=$(state)
+    [ "$status" -eq 0 ] && [ "$now" != "$new" ] && fail "$name $way $place ($call): status 0, and the output is not the new one"
+    if [ "$now" = "$new" ]; then
+        ended_new=$((ended_new + 1))
+        [ "$status" -eq 1 ] && after_all=$((after_all + 1))
+        return
+    fi
+    if [ "$now" = "$old" ]; then
+        ended_old=$((ended_old + 1))
+        return
+    fi
+    (cd dir && "$SUNDER" "${options[@]}" >/dev/null 2>../next)
+    after=$(state)
+    if grep -q 'brought back' next && [ "$after" = "$old" ] && [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ]; then
+        brought_back=$((brought_back + 1))
+    else
+        fail "$name $way $place ($call): neither old nor new, and not brought back"
+        { cat next; diff <(echo "$old") <(echo "$now"); } | sed 's/^/  /' | head -20
+    fi
+}
+
+# The places of one way: all of 1..N in steps, or $budget of them.
+places() {
+    local n=$1 step=$2 i
+    if [ "$budget" = all ]; then
+        seq 1 "$step" "$n"
+    else
+        for ((i = 0; i < budget; i++)); do echo $((1 + (seed + i * n / budget) % n)); done
+    fi
+}
+
+for name in ${SUNDER_FAULTS_SCENARIOS:-$scenarios}; do
+    scenario "$name" || { echo "not tried: $name (no shell of SQLite)"; continue; }
+    runs=0 ended_old=0 ended_new=0 brought_back=0 after_all=0
+    start && old=$(state)
+    struck list 0
+    [ "$status" -eq 0 ] || fail "$name: the run fails when it is not struck"
+    new=$(state)
+    [ "$new" != "$old" ] || fail "$name: the run changes nothing"
+    all=$calls length=$bytes
+    for way in kill errno:ENOSPC errno:EIO short; do
+        for place in $(places "$all" 1); do
+            struck "$way" "$place"
+            judge "$name" "$way" "$place"
+        done
+    done
+    for place in $(places "$length" 4096); do
+        struck full "$place"
+        judge "$name" full "$place"
+    done
+    echo "$name: $all calls, $length bytes; $runs runs ended with the old output $ended_old, the new one $ended_new" \
+        "(of which with status 1: $after_all), brought back $brought_back"
+done
+finish
