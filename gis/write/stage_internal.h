@@ -23,11 +23,15 @@ struct gis_stage {
     char **superseded; /* base names */
 };
 
-/* One line of the record. Names are escaped. A staged file that takes no other's place is known by its inode: so that
- * what is taken away again is that file, and no other's of this name. */
+/* One line of the record. Names are escaped. A new file is known by more than its name, so that what is taken away again
+ * is that file, and not one that came later: "new MARK NAME". */
 #define GIS_RECORD_MAIN "main "
 #define GIS_RECORD_OLD "old "
 #define GIS_RECORD_NEW "new "
+
+/* The mark of a file: its inode, size and time of change, none of which a rename changes. False if it is not there. */
+enum { GIS_MARK_SIZE = 128 };
+bool gis_stage_mark(const char *path, char mark[GIS_MARK_SIZE]);
 
 char *gis_join(const char *directory, const char *name);
 /* A link counts, wherever it leads. */

@@ -13,7 +13,7 @@
 #include <cpl_vsi.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,12 +75,21 @@ static void record_name(FILE *file, const char *kind, const char *name)
     CPLFree(escaped);
 }
 
-static void record_new(const gis_stage *stage, FILE *file, const char *name)
+bool gis_stage_mark(const char *path, char mark[GIS_MARK_SIZE])
 {
     struct stat status;
-    char *path = gis_join(stage->inside, name), kind[64];
-    if (stat(path, &status) == 0) {
-        snprintf(kind, sizeof kind, GIS_RECORD_NEW "%" PRIuMAX " ", (uintmax_t)status.st_ino);
+    if (lstat(path, &status) != 0)
+        return false;
+    snprintf(mark, GIS_MARK_SIZE, "%ju-%jd-%jd.%ld", (uintmax_t)status.st_ino, (intmax_t)status.st_size,
+             (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+    return true;
+}
+
+static void record_new(const gis_stage *stage, FILE *file, const char *name)
+{
+    char *path = gis_join(stage->inside, name), mark[GIS_MARK_SIZE], kind[GIS_MARK_SIZE + 8];
+    if (gis_stage_mark(path, mark)) {
+        snprintf(kind, sizeof kind, GIS_RECORD_NEW "%s ", mark);
         record_name(file, kind, name);
     }
     CPLFree(path);

@@ -12,19 +12,17 @@
 #include <cpl_vsi.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct remains {
     const char *directory; /* of the output */
     char *inside;          /* the stage */
     char *main;            /* the main file of the run that made it; NULL: there is no record */
-    char **old, **fresh;   /* names of superseded files; "INODE NAME" of new ones */
+    char **old, **fresh;   /* names of superseded files; "MARK NAME" of new ones */
 } remains;
 
 static void forget(remains *found)
@@ -80,19 +78,16 @@ static bool is_in(const char *directory, const char *name)
     return there;
 }
 
-/* "INODE NAME" */
-static const char *fresh_name(const char *entry, uintmax_t *inode)
+static const char *fresh_name(const char *entry)
 {
-    char *end;
-    *inode = strtoumax(entry, &end, 10);
-    return *end == ' ' ? end + 1 : end;
+    const char *blank = strchr(entry, ' ');
+    return blank ? blank + 1 : entry;
 }
 
 static bool unfinished(const remains *found)
 {
-    uintmax_t inode;
     for (char **entry = found->fresh; entry && *entry; entry++)
-        if (is_in(found->inside, fresh_name(*entry, &inode)))
+        if (is_in(found->inside, fresh_name(*entry)))
             return true;
     return false;
 }
@@ -110,11 +105,11 @@ static bool move(const char *from_directory, const char *to_directory, const cha
 
 static bool take_away(const remains *found, const char *entry, gis_error *error)
 {
-    uintmax_t inode;
-    struct stat status;
-    const char *name = fresh_name(entry, &inode);
-    char *path = gis_join(found->directory, name);
-    bool ours = lstat(path, &status) == 0 && (uintmax_t)status.st_ino == inode && !is_in(found->inside, name);
+    const char *name = fresh_name(entry);
+    char *path = gis_join(found->directory, name), mark[GIS_MARK_SIZE];
+    size_t n = (size_t)(name - entry);
+    bool ours = gis_stage_mark(path, mark) && strlen(mark) + 1 == n && strncmp(mark, entry, n - 1) == 0 &&
+                !is_in(found->inside, name);
     CPLFree(path);
     return !ours || move(found->directory, found->inside, name, error);
 }

@@ -5,7 +5,7 @@
 #
 #   SUNDER_FAULTS=N     places for each way of striking, spread over the run from SUNDER_SEED on (default 1)
 #   SUNDER_FAULTS=all   every call, and a disk that is full at every 4096th byte
-#   SUNDER_FAULTS_SCENARIOS=WORDS   some of the scenarios only
+#   SUNDER_FAULTS_SCENARIOS=WORDS, SUNDER_FAULTS_WAYS=WORDS   some of the scenarios, of the ways to strike only
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 strike=$SUNDER_BUILD/tests/strike
 [ -x "$strike" ] || { echo "skipped: tests/strike is not built"; exit 77; }
@@ -55,7 +55,10 @@ state() {
     fi
     # A journal that begins with zeros was never synced: nothing had been changed, and SQLite does not look at it.
     [ "$(head -qc 1 "dir/$output-journal" 2>/dev/null | od -An -tu1 | tr -d ' ')" = 0 ] && rm "dir/$output-journal"
-    (cd dir && find . -name '.sunder-*' -prune -o -type f ! -name '*-shm' -print0 | sort -z | xargs -0 cksum)
+    (cd dir && find . -name '.sunder-*' -prune -o -type f ! -name '*-shm' ! -name '*.geojson' -print0 | sort -z |
+        xargs -0 cksum
+    # GDAL ends a GeoJSON file with a line break, and does not hear whether it was written; nothing is missing without.
+    for text in *.geojson; do [ -e "$text" ] && echo "$text $(printf %s "$(cat "$text")" | cksum)"; done)
 }
 
 start() {
@@ -113,15 +116,12 @@ for name in ${SUNDER_FAULTS_SCENARIOS:-$scenarios}; do
     new=$(state)
     [ "$new" != "$old" ] || fail "$name: the run changes nothing"
     all=$calls length=$bytes
-    for way in kill errno:ENOSPC errno:EIO short; do
-        for place in $(places "$all" 1); do
+    for way in ${SUNDER_FAULTS_WAYS:-kill errno:ENOSPC errno:EIO short full}; do
+        if [ "$way" = full ]; then where=$(places "$length" 4096); else where=$(places "$all" 1); fi
+        for place in $where; do
             struck "$way" "$place"
             judge "$name" "$way" "$place"
         done
-    done
-    for place in $(places "$length" 4096); do
-        struck full "$place"
-        judge "$name" full "$place"
     done
     echo "$name: $all calls, $length bytes; $runs runs ended with the old output $ended_old, the new one $ended_new" \
         "(of which with status 1: $after_all), brought back $brought_back"

@@ -1,0 +1,128 @@
+# shellcheck shell=bash disable=SC1091
+# A GeoPackage that others have open. --update writes into the database itself, in one transaction under its lock; what
+# cannot have the lock says so; nobody's work is lost, and the mode of the journal stays.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null && python3 -c 'import sqlite3' 2>/dev/null || { echo "skipped: no Python with SQLite"; exit 77; }
+
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+X
+cat >hold.py <<'X'
+import sqlite3, sys
+path, how = sys.argv[1:]
+held = sqlite3.connect(path, isolation_level=None, timeout=0)
+if how == "read":
+    held.execute("BEGIN")
+if how == "write":
+    held.execute("BEGIN IMMEDIATE")
+    held.execute("CREATE TABLE held (x)")
+held.execute("SELECT count(*) FROM houses").fetchall()
+print("held", flush=True)
+sys.stdin.readline()
+if how == "write":
+    held.execute("COMMIT")
+held.close()
+X
+ask() { python3 -c 'import sqlite3, sys; print(*(sqlite3.connect(sys.argv[1]).execute(sys.argv[2]).fetchone()))' "$1" "$2"; }
+mkfifo to from
+
+# held DATABASE HOW: another process holds it until `let_go`.
+held() {
+    python3 hold.py "$1" "$2" <to >from &
+    holder=$!
+    exec 8>to 9<from
+    read -r -u 9 _ || fail "nobody holds $1"
+}
+let_go() {
+    echo >&8
+    exec 8>&- 9<&-
+    wait "$holder"
+}
+
+for mode in delete wal; do
+    ogr2ogr "$mode.gpkg" in.gpkg
+    ask "$mode.gpkg" "PRAGMA journal_mode = $mode" >/dev/null
+    for how in read write open; do
+        rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
+        held o.gpkg "$how"
+        run separate in.gpkg o.gpkg --update --output-layer apart --config SQLITE_BUSY_TIMEOUT 200 -q
+        case $mode-$how in
+        delete-open | wal-read | wal-open) [ "$status" -eq 0 ] || fail "$mode, $how: status $status" ;;
+        *) [ "$status" -eq 1 ] && grep -q 'in use by another program.*within 0.2 s' err || fail "$mode, $how: status $status" ;;
+        esac
+        let_go
+        same "$(ask o.gpkg 'PRAGMA journal_mode')" "$mode" "$how: the mode of the journal"
+        same "$(ask o.gpkg 'PRAGMA integrity_check')" ok "$mode, $how"
+        [ "$status" -eq 0 ] && same "$(count o.gpkg apart)" 2 "$mode, $how: the layer"
+        [ "$status" -eq 0 ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name LIKE '%apart%'")" 0 "$mode, $how"
+        [ "$how" != write ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'held'")" 1 "$mode: what another wrote"
+
+        # To be replaced it must be nobody's.
+        rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
+        held o.gpkg "$how"
+        if [ "$mode-$how" != delete-open ]; then # (which holds no lock)
+            refused 1 'in use by another program' separate in.gpkg o.gpkg --overwrite
+        fi
+        let_go
+        expect 0 separate in.gpkg o.gpkg --overwrite -q
+        [ ! -e o.gpkg-wal ] || fail "a log is left beside a new file"
+    done
+done
+
+# ---- runs at once: every layer of a run that says 0 is there
+for mode in delete wal; do
+    rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
+    for i in 1 2 3 4; do
+        (status=0; "$SUNDER" separate in.gpkg o.gpkg --update --output-layer "apart$i" -q 2>"err$i" || status=$?; echo $status >"status$i") &
+    done
+    wait
+    for i in 1 2 3 4; do
+        if [ "$(cat "status$i")" -eq 0 ]; then
+            same "$(count o.gpkg "apart$i")" 2 "$mode: layer $i of four runs at once"
+        else
+            grep -q '^sunder: error' "err$i" || fail "run $i of four at once says nothing"
+        fi
+    done
+    same "$(ask o.gpkg 'PRAGMA integrity_check')" ok "$mode, four runs at once"
+done
+# Into a file that does not exist yet one comes first; the others must not take its place.
+rm -f o.gpkg*
+for i in 1 2 3 4; do
+    (status=0; "$SUNDER" separate in.gpkg o.gpkg --update --output-layer "apart$i" -q 2>"err$i" || status=$?; echo $status >"status$i") &
+done
+wait
+for i in 1 2 3 4; do
+    [ "$(cat "status$i")" -ne 0 ] || same "$(count o.gpkg "apart$i")" 2 "layer $i of four runs at once into a new file"
+done
+
+# ---- a journal that another program left is named, and rolled back; of another database it is refused
+interrupted() { # an update of o.gpkg that is killed with its journal synced
+    rm -f o.gpkg* && cp delete.gpkg o.gpkg
+    python3 - <<'X'
+import os, sqlite3
+c = sqlite3.connect("o.gpkg", isolation_level=None)
+c.execute("PRAGMA cache_size = 1")
+c.execute("PRAGMA cache_spill = 1")
+c.execute("BEGIN IMMEDIATE")
+c.execute("CREATE TABLE half (x)")
+c.executemany("INSERT INTO half VALUES (?)", [("x" * 3000,)] * 500)
+os._exit(1)
+X
+    [ -s o.gpkg-journal ] || fail "the test's own journal is missing"
+}
+interrupted
+refused 1 'o.gpkg-journal is left of a transaction that was interrupted' separate o.gpkg other.gpkg
+run separate in.gpkg o.gpkg --update --output-layer apart -q
+[ "$status" -eq 0 ] || fail "a database with a journal is not added to"
+says err 'o.gpkg-journal is left of a transaction that was interrupted'
+same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'half'")" 0 'what was interrupted'
+same "$(count o.gpkg apart)" 2 'the layer added'
+interrupted
+run separate in.gpkg o.gpkg --overwrite -q
+[ "$status" -eq 0 ] && [ ! -e o.gpkg-journal ] || fail "a journal stays beside a new file"
+interrupted
+rm o.gpkg
+refused 1 'o.gpkg-journal is left of another database' separate in.gpkg o.gpkg
+finish
