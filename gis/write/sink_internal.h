@@ -63,6 +63,7 @@ struct gis_sink_layer {
     GDALDatasetH dataset;      /* NULL when closed */
     OGRLayerH layer;           /* NULL when closed */
     OGRwkbGeometryType type;   /* as asked for */
+    bool has_encoding;         /* a Shapefile's file that tells it is asked for */
     bool promote;              /* Polygons become MultiPolygons: the source said Polygon and meant both */
     bool wind;                 /* rings are turned as Shapefiles want them before they are written */
     int *field_map;            /* field of the source -> field of the layer, -1: not written */
@@ -149,6 +150,16 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error);
 /* Compares the fields, type and CRS of the layer as it is in the dataset with what was asked for; adds losses, one
  * sentence a field, in which the changes of its values stand as well. */
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
+
+/* The CRS that the layer was given. */
+static inline OGRSpatialReferenceH gis_sink_crs(const gis_sink_layer *layer)
+{
+    return layer->sink->source ? gis_source_crs(layer->sink->source) : layer->request.crs;
+}
+
+/* Shapefiles keep the CRS and the encoding in small files of their own, and GDAL does not hear whether those are written.
+ * Fails if one is not there. */
+bool gis_sink_check_companions(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 
 /* Fails with the sentence that says how many features came back of those written. */
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error);

@@ -137,3 +137,29 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
     gis_listen_end();
     gis_listener_clear(&listener);
 }
+
+/* ---- Beside a Shapefile ------------------------------------------------------------------------------------ */
+
+static bool esri_knows(OGRSpatialReferenceH crs)
+{
+    static const char *const options[] = {"FORMAT=WKT1_ESRI", NULL};
+    char *text = NULL;
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool known = crs && OSRExportToWktEx(crs, &text, options) == OGRERR_NONE && text && text[0];
+    gis_listen_end();
+    gis_listener_clear(&listener);
+    CPLFree(text);
+    return known;
+}
+
+bool gis_sink_check_companions(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
+{
+    const gis_sink *sink = layer->sink;
+    if (!sink->format.shapefile)
+        return true;
+    bool crs = OGR_L_GetSpatialRef(as_written) != NULL || !esri_knows(gis_sink_crs(layer));
+    bool encoding = GDALGetMetadataItem(as_written, "ENCODING_FROM_CPG", "SHAPEFILE") != NULL || !layer->has_encoding;
+    return (crs && encoding) || gis_fail(error, "%s, layer %s: the file of its %s was not written; is the disk full?",
+                                         sink->request.path, layer->name, crs ? "encoding" : "CRS");
+}

@@ -320,11 +320,12 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");
         sink->set_rewind = true;
     }
-    OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : layer->request.crs;
     char **options = layer_options(layer);
+    const char *encoding = sink->format.shapefile ? CSLFetchNameValue(options, "ENCODING") : NULL;
+    layer->has_encoding = encoding && encoding[0];
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    layer->layer = GDALDatasetCreateLayer(layer->dataset, layer->name, crs, layer->type, options);
+    layer->layer = GDALDatasetCreateLayer(layer->dataset, layer->name, gis_sink_crs(layer), layer->type, options);
     bool done = layer->layer != NULL;
     if (done) {
         note_name(layer);

@@ -53,8 +53,10 @@ state() {
     if [ -e "dir/$output-journal" ] || [ -e "dir/$output-wal" ]; then
         ogrinfo -q "dir/$output" >/dev/null 2>&1 # opens for writing
     fi
-    # A journal that begins with zeros was never synced: nothing had been changed, and SQLite does not look at it.
-    [ "$(head -qc 1 "dir/$output-journal" 2>/dev/null | od -An -tu1 | tr -d ' ')" = 0 ] && rm "dir/$output-journal"
+    # A journal that is empty, or begins with zeros, was never synced: nothing had been changed, and SQLite ignores it.
+    case $(head -qc 1 "dir/$output-journal" 2>/dev/null | od -An -tu1 | tr -d ' ') in
+    '' | 0) rm -f "dir/$output-journal" ;;
+    esac
     (cd dir && find . -name '.sunder-*' -prune -o -type f ! -name '*-shm' ! -name '*.geojson' -print0 | sort -z |
         xargs -0 cksum
     # GDAL ends a GeoJSON file with a line break, and does not hear whether it was written; nothing is missing without.
