@@ -3,12 +3,13 @@
  *   gis_sink_open      checks what can be checked before the work: format, permission, what exists
  *   gis_sink_add       adds a layer; the first is the main one. Write it whole before adding the next:
  *   gis_sink_write     one feature
- *   gis_sink_finish    closes, and reads back where the format may have rounded
+ *   gis_sink_finish    closes, and reads everything back
  *   gis_sink_publish   puts all in place
  *   gis_sink_free      when published: releases; else: undoes everything
  *
- * Files are made in a new directory beside the output and renamed into place; the main file last; an update works on
- * a copy. A database gets one transaction. /vsistdout/ gets the main layer only, when it is complete. */
+ * Files are made in a new directory beside the output and renamed into place, the main file last; an update of files
+ * works on a copy. A database, SQLite files included, gets one transaction. /vsistdout/ gets the main layer only, when it
+ * is complete. */
 #ifndef GIS_SINK_H
 #define GIS_SINK_H
 
@@ -102,8 +103,8 @@ typedef struct gis_sink_result {
     bool unread;      /* nothing can read them back */
 } gis_sink_result;
 
-/* Closes everything (errors of closing count), compares with what was sent where the format needs it, applies strict:
- * all that can fail, but for the last step. Once only. */
+/* Closes everything (errors of closing count; a transaction stays open), reads every feature back and compares it with
+ * what was sent, applies strict: all that can fail, but for the last step. Once only. */
 bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error);
 /* The last step: renames, or ends the transaction. On failure what was there before is there again. */
 bool gis_sink_publish(gis_sink *sink, gis_error *error);

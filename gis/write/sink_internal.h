@@ -180,6 +180,8 @@ bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gi
 void gis_sink_forget_values(gis_sink_layer *layer);
 /* Would more digits keep what was seen to change? */
 bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *seen);
+/* After a feature is written and remembered: begins the layer again if its coordinates need more digits. */
+bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error);
 /* Writes the layer, which is closed, again with more digits, and closes it. */
 bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error);
 /* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills changes.

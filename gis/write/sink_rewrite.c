@@ -3,13 +3,15 @@
  * GDAL's SIGNIFICANT_FIGURES=17 would tell every double, were it not for a beauty: where the digits after the point hold
  * 999999 or 000000 it tries with up to three digits fewer, and takes what no longer holds them: 999999.4999999995 becomes
  * 999999.5. With three more to give away every number keeps its seventeen; but then most numbers are printed with digits
- * that say nothing. So a layer is written with seventeen, and only where it does not read back the same, again. */
+ * that say nothing. So a layer is begun with seventeen. The first coordinate that would lose makes it begin again; and if
+ * it reads back otherwise all the same, it is written again then. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,7 +86,7 @@ static bool start_again(gis_sink_layer *layer, gis_error *error)
     return gis_sink_dataset_for(layer->sink, layer, error) && gis_sink_create_layer(layer, error);
 }
 
-bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error)
+static bool send_again(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_layer before = *layer; /* owns what was sent, until it is sent again */
     bool done = start_again(layer, error);
@@ -96,5 +98,55 @@ bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error)
                            : gis_sink_write(layer, sent->feature, made, values_of(&before, i), error);
     }
     gis_sink_forget_sent(&before);
-    return done && gis_sink_close(layer->sink, layer, error);
+    return done;
+}
+
+bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error)
+{
+    return send_again(layer, error) && gis_sink_close(layer->sink, layer, error);
+}
+
+/* ---- Seen beforehand -------------------------------------------------------------------------------------- */
+
+static bool has_run(const char *text)
+{
+    const char *point = strchr(text, '.');
+    return point && (strstr(point, "999999") || strstr(point, "000000"));
+}
+
+/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read back. */
+static bool loses(double x)
+{
+    char text[64];
+    snprintf(text, sizeof text, "%.17g", x);
+    if (!has_run(text))
+        return false;
+    for (int digits = 16; digits >= 14; digits--) {
+        snprintf(text, sizeof text, "%.*g", digits, x);
+        if (strchr(text, '.') && !has_run(text))
+            return strtod(text, NULL) != x;
+    }
+    return false;
+}
+
+static bool any_loses(OGRGeometryH geometry)
+{
+    if (!geometry)
+        return false;
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        if (any_loses(OGR_G_GetGeometryRef(geometry, i)))
+            return true;
+    if (OGR_G_GetGeometryCount(geometry))
+        return false;
+    for (int i = 0; i < OGR_G_GetPointCount(geometry); i++)
+        if (loses(OGR_G_GetX(geometry, i)) || loses(OGR_G_GetY(geometry, i)))
+            return true;
+    return false;
+}
+
+bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error)
+{
+    if (!layer->can_rewrite || layer->more_digits || !any_loses(OGR_F_GetGeometryRef(written)))
+        return true;
+    return gis_sink_close(layer->sink, layer, error) && send_again(layer, error);
 }

@@ -133,7 +133,7 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
         done = remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0}, error) &&
                gis_sink_remember_values(layer, values, error);
     OGR_F_SetGeometryDirectly(to, geometry);
-    done = done && send(layer, to, feature, error);
+    done = done && send(layer, to, feature, error) && gis_sink_watch_digits(layer, to, error);
     OGR_F_Destroy(to);
     return done;
 }
@@ -147,7 +147,8 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
         done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) && gis_sink_remember_values(layer, values, error);
-    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error) &&
+           gis_sink_watch_digits(layer, to, error);
     OGR_F_Destroy(to);
     return done;
 }
