@@ -40,9 +40,10 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listener_clear(&listener);
 }
 
-static void supersede_existing(gis_sink *sink, const char *file)
+/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing fails. */
+static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
-    if (sink->place != GIS_PLACE_FILE)
+    if (sink->place != GIS_PLACE_FILE || !may_replace)
         return;
     char *outside = gis_stage_outside(sink->stage, file);
     if (gis_sink_exists(outside))
@@ -116,12 +117,12 @@ bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *erro
     if (sink->stage && !gis_stage_make(sink->stage, error))
         return false;
     if (layer->file) {
-        supersede_existing(sink, layer->file);
+        supersede_existing(sink, layer->file, sink->request.overwrite || sink->request.overwrite_layer);
         return create(sink, layer->file, &layer->dataset, error);
     }
     if (!sink->dataset) {
         if (!sink->updating)
-            supersede_existing(sink, sink->main_file);
+            supersede_existing(sink, sink->main_file, sink->request.overwrite);
         if (!(sink->updating ? open_for_update(sink, error)
                              : create(sink, sink->main_file, &sink->dataset, error) &&
                                    gis_sink_begin_transaction(sink, error)))

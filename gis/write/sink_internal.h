@@ -1,6 +1,7 @@
 /* sink_internal.h: what the files of the sink share.
  *
- *   sink.c          requests, checks before the work, the life of a sink
+ *   sink.c          requests, the life of a sink
+ *   sink_checks.c   what is refused before the work
  *   sink_dataset.c  datasets made, opened for update, closed
  *   sink_database.c the same of databases: locks and transactions
  *   sink_schema.c   layers and fields made
@@ -126,6 +127,12 @@ char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 /* Of any path that GDAL knows. */
 bool gis_sink_exists(const char *path);
 bool gis_sink_is_directory(const char *path);
+
+/* Is something in the way of the output, or the output in the way of something? Sets sink->updating, and finds that a
+ * SQLite file to be updated is a database. */
+bool gis_sink_check_existing(gis_sink *sink, gis_error *error);
+/* Would the format turn the coordinates to WGS 84, unasked? */
+bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error);
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
 bool gis_sink_open_for_update(gis_sink *sink, gis_error *error);
