@@ -25,13 +25,14 @@ sunder_i_line sunder_i_line_make(sunder_i_pairing *g, sunder_i_point a, sunder_i
                            sunder_i_approx(l, a.x),
                            sunder_i_approx(l, a.y),
                            sunder_i_approx(l, d.x),
-                           sunder_i_approx(l, d.y)};
+                           sunder_i_approx(l, d.y),
+                           sunder_i_point_is_plain(a) && sunder_i_point_is_plain(d)};
 }
 
 sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *line)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    if (l->narrow) {
+    if (line->plain) {
         const sunder_i_i128 num = -sunder_i_narrow_dot(line->a, line->d), den = sunder_i_narrow_dot(line->d, line->d);
         if (num <= 0) return (sunder_i_fraction){0, 1, 0};
         if (num >= den) return (sunder_i_fraction){1, 1, 1};
@@ -47,7 +48,7 @@ sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *l
 int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    if (!l->narrow) return sunder_i_fraction_cmp(l, s, t);
+    if (s->den == 0 || t->den == 0) return sunder_i_fraction_cmp(l, s, t);
     l->operations.comparisons++;
     const double d = s->value - t->value, bound = 0x1p-49 * (fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
@@ -56,7 +57,7 @@ int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sun
     return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
 }
 
-/* On a narrow lattice, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
+/* Of plain numbers, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
 static inline void narrow_linear(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
                                  sunder_i_i128 *b)
 {
@@ -70,7 +71,7 @@ int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sun
     sunder_i_lattice *l = &g->placed.lattice;
     l->operations.orientation_tests++;
     l->operations.exact_fallbacks++;
-    if (l->narrow) {
+    if (line->plain && s->plain && t->den != 0) {
         sunder_i_i128 a, b;
         narrow_linear(line, s, k, &a, &b);
         if (b == 0) return sunder_i_i128_sign(a);
@@ -146,27 +147,102 @@ long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const s
     return -1;
 }
 
+/* ---- Exits ---- */
+
+/* Sides first .. first + n - 1, cyclically. */
+typedef struct stretch {
+    uint32_t first, n;
+} stretch;
+
+#define SIDES_MANY 24 /* fewer are looked at one by one */
+
+/* The first side whose angle in [0, 2 pi) is above that of (dx, dy), in doubles; as many as there are sides if none. */
+static uint32_t first_above(const sunder_i_subsum *s, double dx, double dy)
+{
+    const bool half = dy < 0 || (dy == 0 && dx < 0);
+    uint32_t low = 0, high = s->sides;
+    while (low < high) {
+        const uint32_t k = low + (high - low) / 2;
+        const bool own = s->sy[k] < 0 || (s->sy[k] == 0 && s->sx[k] < 0);
+        if (own != half ? own : dx * s->sy[k] - dy * s->sx[k] > 0)
+            high = k;
+        else
+            low = k + 1;
+    }
+    return low;
+}
+
+/* How far the corner is to the left of the line, times its length. */
+static double height(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k)
+{
+    if (k >= s->sides) k -= s->sides;
+    return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
+}
+
+/* Counter-clockwise round a convex polygon whose interior a line meets, corners are to its right, then to its left, and
+ * never again. So between any corner that is certainly to its right and one that is certainly to its left there is one
+ * side through which it leaves, found by halving; only corners that doubles cannot place are left between, and the
+ * sides at them. Backwards it is the other way round. */
+static stretch leaving(const sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s, bool forwards)
+{
+    const stretch all = {0, s->sides};
+    if (s->sides < SIDES_MANY) return all;
+    /* The corners farthest to the right and to the left, about; the bound is derived as that of a side. */
+    const uint32_t lowest = first_above(s, line->dx, line->dy) % s->sides;
+    const uint32_t highest = first_above(s, -line->dx, -line->dy) % s->sides;
+    const double sign = forwards ? 1 : -1;
+    const double bound = (fabs(line->dx) + fabs(line->dy)) * 2 * g->error + 16 * g->magnitude * g->rough;
+    const uint32_t from = forwards ? lowest : highest, to = forwards ? highest : lowest;
+    uint32_t low = from, high = to > from ? to : to + s->sides;
+    if (sign * height(line, s, from) >= -bound || sign * height(line, s, to) <= bound) return all;
+    for (uint32_t end = high; end - low > 1;) { /* the last one that is certainly before */
+        const uint32_t k = low + (end - low) / 2;
+        if (sign * height(line, s, k) < -bound)
+            low = k;
+        else
+            end = k;
+    }
+    for (uint32_t start = low; high - start > 1;) { /* the first one that is certainly past */
+        const uint32_t k = start + (high - start) / 2;
+        if (sign * height(line, s, k) > bound)
+            high = k;
+        else
+            start = k;
+    }
+    return (stretch){low, high - low};
+}
+
+static void take_first(sunder_i_pairing *g, const sunder_i_fraction *t, bool forwards, sunder_i_fraction *best,
+                       bool *any)
+{
+    const int c = *any ? sunder_i_line_cmp(g, t, best) : 0;
+    if (!*any || (forwards ? c < 0 : c > 0)) *best = *t;
+    *any = true;
+}
+
 sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s,
                                      bool forwards)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_fraction best = {0, 1, 0};
     bool any = false;
-    for (uint32_t k = 0; k < s->sides; k++) {
-        sunder_i_fraction t;
-        if (l->narrow) {
+    const stretch near = leaving(g, line, s, forwards);
+    const bool plain = line->plain && s->plain;
+    for (uint32_t i = 0; i < near.n; i++) {
+        const uint32_t k = (near.first + i) % s->sides;
+        if (plain) {
             sunder_i_i128 a, b;
             narrow_linear(line, s, k, &a, &b);
             if (forwards ? b >= 0 : b <= 0) continue;
-            t = b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
-        } else {
-            const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
-            if (forwards ? turn >= 0 : turn <= 0) continue;
-            t = sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
+            const sunder_i_fraction t = b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
+            take_first(g, &t, forwards, &best, &any);
+            continue;
         }
-        const int c = any ? sunder_i_line_cmp(g, &t, &best) : 0;
-        if (!any || (forwards ? c < 0 : c > 0)) best = t;
-        any = true;
+        const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
+        if (forwards ? turn >= 0 : turn <= 0) continue;
+        const sunder_i_fraction t =
+            sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
+        take_first(g, &t, forwards, &best, &any);
     }
     l->operations.segment_intersections++;
     return best;

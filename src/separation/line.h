@@ -8,6 +8,7 @@
 typedef struct sunder_i_line {
     sunder_i_point a, b, d;
     double ax, ay, dx, dy;
+    bool plain; /* a and d are plain numbers */
 } sunder_i_line;
 
 /* The line through a in direction d. */

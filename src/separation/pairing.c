@@ -201,7 +201,8 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     fill_boxes(g, 0);
     fill_boxes(g, 1);
     g->error = COORDINATE_ERROR * g->magnitude;
-    g->rough = l->narrow ? 0 : g->error;
+    /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
+    g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
     g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
     g->unit = ldexp(1, (int)(l->exponent + l->approx_shift));
     return SUNDER_OK;

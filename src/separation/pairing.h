@@ -18,6 +18,7 @@ typedef struct sunder_i_subsum {
     sunder_i_point *corner, *side; /* side[k] = corner[k + 1] - corner[k] */
     double *cx, *cy, *sx, *sy;     /* the same as doubles */
     double *bound; /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
+    bool plain;    /* all corners and sides are plain numbers */
 } sunder_i_subsum;
 
 /* A convex piece that starts at its lowest corner; the first corner stands again at the end. */
@@ -35,7 +36,7 @@ typedef struct sunder_i_pairing {
     double box[2][4];
     double magnitude; /* no coordinate is larger */
     double error;     /* of a coordinate of a sum, or of a point on a line through sums, evaluated in doubles */
-    double rough;     /* absolute error of a difference vector as doubles, besides its relative one; 0 if narrow */
+    double rough;     /* absolute error of a difference vector as doubles, besides its relative one; mostly 0 */
     double coarse;    /* the same for the difference of two coordinates in doubles; 0 if they are exact */
     double base[2];   /* a translation of both that was left out */
     double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */

@@ -153,8 +153,10 @@ bool sunder_i_subsum_make(sunder_i_pairing *g, sunder_i_subsum *s)
     s->bound = s->sy + most;
     const uint32_t n = merge(g, a, b, s->corner, s->side);
     const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
+    s->plain = true;
     for (uint32_t k = 0; k < n; k++) {
         const sunder_i_point c = s->corner[k], d = s->side[k];
+        s->plain = s->plain && sunder_i_point_is_plain(c) && sunder_i_point_is_plain(d);
         s->cx[k] = l->narrow ? (double)c.x : sunder_i_approx(l, c.x);
         s->cy[k] = l->narrow ? (double)c.y : sunder_i_approx(l, c.y);
         s->sx[k] = l->narrow ? (double)d.x : sunder_i_approx(l, d.x);
