@@ -355,7 +355,7 @@ SUNDER_API const char *sunder_contact_string(sunder_contact contact);
 
 typedef struct sunder_separation {
     bool overlap;            /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
-    bool attained;           /* false: the optimum is an isolated irrational point, and this is the best of the rest */
+    bool attained;           /* the least is given, as near as is said below: always, for isolated optima are rational */
     bool rounded_is_free;    /* (dx, dy) as doubles takes them apart as well, checked exactly */
     sunder_contact contact;
     double dx, dy, distance; /* nearest doubles of the exact values */

@@ -101,8 +101,7 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
     if (bound < out->lower_bound) out->lower_bound = bound;
-    out->overlap = true;
-    out->attained = a->attained;
+    out->overlap = out->attained = true;
     out->contact = a->contact;
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || doubles_free(p, out->dx, out->dy);
     if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
@@ -126,7 +125,7 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     sunder_i_gap_answer answer;
     const sunder_status status = run(p, &answer, err);
     if (status) return status;
-    if (answer.found && answer.bound * g->unit <= o->upper) return fill(p, &answer, o->texts, out, err);
+    if (answer.found && !(answer.bound * g->unit > o->upper)) return fill(p, &answer, o->texts, out, err);
     if (!(o->upper < INFINITY)) /* two sets can always be parted */
         return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: no free translation was found");
     sunder_i_too_far(o->upper, out, beyond);

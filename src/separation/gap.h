@@ -36,10 +36,9 @@ typedef struct sunder_i_gap_problem {
 } sunder_i_gap_problem;
 
 typedef struct sunder_i_gap_answer {
-    bool found;    /* a free point within the limit that is not isolated and irrational */
-    bool attained; /* at is longer than `bound` by at most 1e-9 of it */
-    sunder_i_spot at; /* rational */
-    double bound;     /* units, rounded down; no free point is nearer. 0 if nothing free is within the limit */
+    bool found;       /* a free point within the limit */
+    sunder_i_spot at; /* rational; longer than the least by at most 4e-10 of it */
+    double bound;     /* the length of the least in units, rounded down */
     sunder_contact contact;
 } sunder_i_gap_answer;
 

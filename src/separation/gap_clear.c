@@ -3,9 +3,26 @@
  * angles to them, is free of all these, however far. The other subsums are farther than the gap, so a small enough step
  * is free of them too: the step is made smaller, and the numbers longer, until the exact test agrees.
  *
- * Where two contacts are opposite there is only the line between them. It is rational: if one is a side, 2 g L is an
- * integer fraction (the cross product of the side and the way to the other contact), and so is the root L; if both are
- * corners, the point is the middle between them, and no step is needed. */
+ * There always is room: a point that is held on all sides is rational, and one between two opposite contacts lies on a
+ * rational line. A side of normal n (integers) and length L = |n| says n.p = c + g L, with c an integer and g rational, a
+ * corner says |p - a| = g.
+ *
+ * Opposite contacts. Two sides, n = -k m: adding up, 2 g L is rational, so is L, and the line n.p = c + g L. A side and a
+ * corner: n.a = c + 2 g L, so L is rational and p = a - g n / L. Two corners: p is the middle.
+ *
+ * Held on all sides, a point has among its contacts two opposite pairs (on two rational lines, so it is rational), or
+ * three whose normals n1, n2, n3 have l1 n1 + l2 n2 + l3 n3 = 0 with all l > 0, no two parallel:
+ *   - three sides: the l are rational, and l1 L1 + l2 L2 + l3 L3 is. Roots of integers do not cancel with positive factors:
+ *     all L are rational.
+ *   - three corners: their circle has a rational center.
+ *   - a side and two corners: p = m + t v, m the middle of the corners, v the way between them turned by a right angle, and
+ *     t^2 rational. Suppose t is not. If n.v = 0, the way +-v is open. Else t = (c - n.m + g L) / n.v, and as its square
+ *     is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L.
+ *   - two sides and a corner: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the basis with
+ *     n_i.e_j = 0 or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin s. Suppose
+ *     some L is irrational; what stands beside each root in |w|^2 is zero. If both are, of one root: 1 = |r_1 e_1 + r_2 e_2|^2
+ *     + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. Of two roots: r = 0 and e_1.e_2 = 0, so |w|^2 = 2. If L_2
+ *     alone: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of side 2, not against it. */
 #include "separation/gap_search.h"
 
 #include "predicate/vector.h"
@@ -69,27 +86,26 @@ static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i
     return true;
 }
 
-sunder_i_gap_room sunder_i_gap_room_at(sunder_i_gap_state *s, const sunder_i_gap_find *f, long *a, long *b)
+sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_find *f)
 {
-    *a = *b = -1;
     bool same = true;
     for (size_t k = 1; k < f->contacts && same; k++)
         same = sign_of(s, f, 0, k, false) == 0 && sign_of(s, f, 0, k, true) > 0;
-    if (same) {
-        *a = *b = f->contacts ? 0 : -1;
-        return SUNDER_I_ROOM_HALF;
-    }
+    if (same) return (sunder_i_gap_way){SUNDER_I_ROOM_HALF, 0, 0};
+    sunder_i_gap_way way = {SUNDER_I_ROOM_OPEN, -1, -1};
     for (size_t k = 0; k < f->contacts; k++) {
-        if (*a < 0 && may_turn(s, f, k, 1)) *a = (long)k;
-        if (*b < 0 && may_turn(s, f, k, -1)) *b = (long)k;
+        if (way.left < 0 && may_turn(s, f, k, 1)) way.left = (long)k;
+        if (way.right < 0 && may_turn(s, f, k, -1)) way.right = (long)k;
     }
-    if (*a < 0 && *b < 0) return SUNDER_I_ROOM_NONE;
-    if (*a < 0 || *b < 0) return SUNDER_I_ROOM_LINE;
-    /* Between the two ways all is strictly clear, unless some normal is at right angles to both. */
+    if (way.left < 0 || way.right < 0) {
+        way.room = way.left < 0 && way.right < 0 ? SUNDER_I_ROOM_NONE : SUNDER_I_ROOM_LINE;
+        return way;
+    }
+    /* Between the two all is strictly clear, unless some normal is at right angles to both. */
     for (size_t k = 0; k < f->contacts; k++)
-        if (sign_of(s, f, (size_t)*a, k, false) == 0 && sign_of(s, f, k, (size_t)*b, false) == 0)
-            return SUNDER_I_ROOM_LINE;
-    return SUNDER_I_ROOM_OPEN;
+        if (sign_of(s, f, (size_t)way.left, k, false) == 0 && sign_of(s, f, k, (size_t)way.right, false) == 0)
+            way.room = SUNDER_I_ROOM_LINE;
+    return way;
 }
 
 /* ---- Steps ---- */
@@ -182,13 +198,12 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t
  * an angle of 2^-n is hit with n digits. */
 #define ROUNDS_MAX 12
 
-bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_big xy[2],
-                        unsigned long bits, sunder_i_spot *out)
+bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_gap_way *way,
+                        const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out)
 {
-    long i, j;
-    const sunder_i_gap_room room = sunder_i_gap_room_at(s, f, &i, &j);
-    if (room == SUNDER_I_ROOM_NONE || (i < 0 && j < 0)) return false;
-    const bool open = room == SUNDER_I_ROOM_OPEN || room == SUNDER_I_ROOM_HALF;
+    const long i = way->left, j = way->right;
+    if (way->room == SUNDER_I_ROOM_NONE || f->contacts == 0) return false;
+    const bool open = way->room == SUNDER_I_ROOM_OPEN || way->room == SUNDER_I_ROOM_HALF;
     if (open && to_doubles(s, f, f->contact + i, f->contact + j, xy, bits, out)) return true;
     /* The greater coordinate is at least 2^size. */
     const unsigned long u = sunder_i_big_bits(xy[0]), v = sunder_i_big_bits(xy[1]);

@@ -164,32 +164,9 @@ static int order(sunder_i_gap_state *s, const sunder_i_gap_find *a, const sunder
     return sunder_i_spot_cmp(s->g, &a->spot, &b->spot);
 }
 
-static sunder_contact kind_of(const sunder_i_gap_find *f, sunder_i_gap_room room)
-{
-    bool flat = true, any_flat = false;
-    for (size_t i = 0; i < f->contacts; i++) {
-        flat = flat && f->contact[i].flat;
-        any_flat = any_flat || f->contact[i].flat;
-    }
-    switch (room) {
-    case SUNDER_I_ROOM_HALF: return any_flat ? SUNDER_CONTACT_EDGE : SUNDER_CONTACT_ARC;
-    case SUNDER_I_ROOM_NONE: return SUNDER_CONTACT_DEGENERATE_POINT;
-    case SUNDER_I_ROOM_LINE: return flat ? SUNDER_CONTACT_DEGENERATE_SEGMENT : SUNDER_CONTACT_VERTEX;
-    default: return SUNDER_CONTACT_VERTEX;
-    }
-}
-
-/* An irrational point that is held on all sides cannot be given: it is kept apart, as a bound. */
-static void offer(sunder_i_gap_state *s, sunder_i_gap_find *f)
+static void offer(sunder_i_gap_state *s, const sunder_i_gap_find *f)
 {
     if (s->found.any && order(s, f, &s->found) >= 0) return;
-    long a, b;
-    const sunder_i_gap_room room = sunder_i_gap_room_at(s, f, &a, &b);
-    f->kind = kind_of(f, room);
-    if (room == SUNDER_I_ROOM_NONE && !sunder_i_spot_is_rational(&f->spot)) {
-        if (!s->isolated.any || order(s, f, &s->isolated) < 0) s->isolated = *f;
-        return;
-    }
     s->found = *f;
     const double most = sunder_i_gap_length(f->x, f->y) + f->error + s->error;
     if (most < s->best) s->best = most;

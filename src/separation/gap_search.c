@@ -117,25 +117,37 @@ static bool set_up(sunder_i_gap_state *s)
     return true;
 }
 
+static sunder_contact kind_of(const sunder_i_gap_find *f, sunder_i_gap_room room)
+{
+    bool flat = true, any_flat = false;
+    for (size_t i = 0; i < f->contacts; i++) {
+        flat = flat && f->contact[i].flat;
+        any_flat = any_flat || f->contact[i].flat;
+    }
+    switch (room) {
+    case SUNDER_I_ROOM_HALF: return any_flat ? SUNDER_CONTACT_EDGE : SUNDER_CONTACT_ARC;
+    case SUNDER_I_ROOM_NONE: return SUNDER_CONTACT_DEGENERATE_POINT;
+    case SUNDER_I_ROOM_LINE: return flat ? SUNDER_CONTACT_DEGENERATE_SEGMENT : SUNDER_CONTACT_VERTEX;
+    default: return SUNDER_CONTACT_VERTEX;
+    }
+}
+
 /* What is given of what was found, and what is said of it. */
 static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
 {
-    const sunder_i_gap_find *f = &s->found, *held = &s->isolated;
-    const bool past = held->any && (!f->any || sunder_i_spot_cmp(s->g, &held->spot, &f->spot) < 0);
-    *out = (sunder_i_gap_answer){.found = f->any, .contact = f->kind};
-    const sunder_i_gap_find *nearest = past ? held : f;
-    if (!nearest->any) return SUNDER_OK;
-    sunder_i_big xy[2];
-    unsigned long bits = sunder_i_spot_digits(s->g, &nearest->spot, sunder_i_gap_length(nearest->x, nearest->y), xy);
-    out->bound = sunder_i_spot_length_down(s->g, xy, bits);
+    const sunder_i_gap_find *f = &s->found;
+    *out = (sunder_i_gap_answer){.found = f->any};
     if (!f->any) return SUNDER_OK;
-    if (past) bits = sunder_i_spot_digits(s->g, &f->spot, sunder_i_gap_length(f->x, f->y), xy);
+    const sunder_i_gap_way way = sunder_i_gap_way_off(s, f);
+    out->contact = kind_of(f, way.room);
+    sunder_i_big xy[2];
+    const unsigned long bits = sunder_i_spot_digits(s->g, &f->spot, sunder_i_gap_length(f->x, f->y), xy);
+    out->bound = sunder_i_spot_length_down(s->g, xy, bits);
     if (sunder_i_spot_is_rational(&f->spot))
         out->at = f->spot;
-    else if (!sunder_i_gap_clear(s, f, xy, bits, &out->at))
+    else if (!sunder_i_gap_clear(s, f, &way, xy, bits, &out->at))
         return s->failed ? sunder_i_no_memory(err)
                          : sunder_i_fail(err, SUNDER_ERANGE, "internal fault: no way off a free point");
-    out->attained = !past || sunder_i_gap_length(f->x, f->y) <= out->bound * (1 + 4e-10);
     return SUNDER_OK;
 }
 

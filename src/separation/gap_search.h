@@ -83,8 +83,8 @@ typedef struct sunder_i_gap_state {
     size_t hint;  /* the subsum that covered the last point */
     size_t *arcs; /* circles taken off the heap so far */
     size_t arcs_n;
-    sunder_i_gap_find found, isolated; /* the nearest of each kind */
-    bool failed;                       /* memory is out */
+    sunder_i_gap_find found; /* the nearest */
+    bool failed;             /* memory is out */
 } sunder_i_gap_state;
 
 /* ---- Numbers, and what covers a point (gap_cover.c) ---- */
@@ -137,14 +137,18 @@ typedef enum sunder_i_gap_room {
     SUNDER_I_ROOM_HALF  /* all contacts are on one side, opposite the same direction */
 } sunder_i_gap_room;
 
-/* Where one can go from a free point: the directions u with u . n >= 0 for all contacts' normals n. Exact. They lie
- * between the normal of contact *a turned left and that of *b turned right; only one of them is one if they are the
- * same but for the number -1. */
-sunder_i_gap_room sunder_i_gap_room_at(sunder_i_gap_state *s, const sunder_i_gap_find *at, long *a, long *b);
-/* A rational free point no farther than 1 + 4e-10 times as far as the one found, which has room, and stands at xy /
- * 2^bits to 72 digits. */
-bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *found, const sunder_i_big xy[2],
-                        unsigned long bits, sunder_i_spot *out);
+/* Where one can go from a free point: the directions u with u . n >= 0 for all contacts' normals n. They lie between
+ * the normal of contact `left` turned left and that of contact `right` turned right; -1: that is no way to go. */
+typedef struct sunder_i_gap_way {
+    sunder_i_gap_room room;
+    long left, right;
+} sunder_i_gap_way;
+
+sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_find *at);
+/* A rational free point no farther than 1 + 4e-10 times as far as the irrational one found, which stands at xy / 2^bits
+ * to 72 digits. */
+bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *found, const sunder_i_gap_way *way,
+                        const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out);
 
 /* ---- The heap (gap_search.c) ---- */
 

@@ -1,0 +1,32 @@
+/* Least translations with a gap by brute force, for tests. Shares no code with the library.
+ *
+ * The least translation is the nearest to the origin of: feet of perpendiculars on lines at the gap from a side of one
+ * set moved to a corner of the other, nearest points of circles about the differences of two corners, and places where
+ * two of all these cross. Each that is no farther than an answer to be judged is computed in long binary fractions and
+ * asked whether it keeps the gap, corner against side. What differs from the gap by less than 2^-2700 there counts as
+ * equal: places are of degree 4 at most over the coordinates, which have 60 bits here, and the squares that are compared
+ * are integers of less than 700 bits in a common unit, so that the product with the three conjugates bounds what is not
+ * zero from below by 2^-2100. */
+#ifndef SUNDER_TESTS_GAP_ORACLE_H
+#define SUNDER_TESTS_GAP_ORACLE_H
+
+#include "polyset.h"
+
+#include <gmp.h>
+#include <stdbool.h>
+
+/* Do the interiors of P and Q + (x, y) stay apart, and the sets at least gap from each other? Exact. gap > 0. */
+bool gap_oracle_keeps(const polyset *p, const polyset *q, double gap, const mpq_t x, const mpq_t y);
+
+typedef enum gap_verdict {
+    GAP_FINE,
+    GAP_TOO_LONG,  /* something free is nearer than the answer by more than 1e-9 of it */
+    GAP_BOUND_HIGH /* something free is nearer than the bound */
+} gap_verdict;
+
+/* Judges the length of an answer that keeps the gap, by its square, and a lower bound. *length: of the nearest place found,
+ * nearly; it is infinite if nothing so near is free. */
+gap_verdict gap_oracle_judge(const polyset *p, const polyset *q, double gap, const mpq_t square, double bound,
+                             double *length);
+
+#endif
