@@ -448,7 +448,7 @@ SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
     SUNDER_REASON_NONE,       /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT,  /* the pair cannot be parted within both limits together */
+    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
     SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,
     SUNDER_REASON_NO_ROOM,    /* proved: what is in conflict and hangs together with it has no solution within the limits */
@@ -487,7 +487,8 @@ typedef struct sunder_layer_summary {
     double total, mean, max;              /* of the lengths of moves; mean over the moved */
     size_t max_feature;                   /* whose move is longest; SIZE_MAX if nothing moved */
     double cost, lower_bound;             /* sum of weight * length^2; what no admissible displacement can beat */
-    bool verified;                        /* every pair but those listed and those in blocks was proved apart */
+    bool verified;                        /* every pair but those listed and those in blocks was proved apart (or
+                                             inside, where that may overlap), and none listed stands worse */
     double seconds_solve, seconds_verify;
 } sunder_layer_summary;
 
@@ -500,7 +501,8 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
  *
  * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
  * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict
- * is listed. */
+ * is listed, and stands no worse than it stood: no nearer, and no deeper in each other by the least translation that
+ * parts the two. Nobody moves to ease it. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);

@@ -131,7 +131,7 @@ typedef struct sunder_i_body {
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
-    bool pinned;              /* stays where it came from, for rounding would make a pair of it stand worse (uphold.c) */
+    bool pinned;              /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
 } sunder_i_body;
@@ -410,8 +410,8 @@ typedef struct sunder_i_cluster {
  * pairs are given up, and the rest is solved. */
 sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
-/* Pairs given up are asked for peace once more, one after the other, and keep it where there is a solution; overlaps come
- * first. All others keep theirs, and neighbours outside the cluster stay where they are. */
+/* Pairs given up are asked for peace once more, one after the other, and keep it where there is a solution; overlaps
+ * come first. All others keep theirs, and neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */

@@ -1,5 +1,5 @@
-/* What limits and fixed bodies leave no solution for: pairs that no admissible moves bring to peace, found exactly before
- * anything moves; pairs that a cluster gave up, which are asked once more at the end. */
+/* What limits and fixed bodies leave no solution for: pairs that no admissible moves bring to peace, found exactly
+ * before anything moves; pairs that a cluster gave up, which are asked once more at the end. */
 #include "displacement/job.h"
 #include "displacement/peace.h"
 
@@ -28,7 +28,7 @@ typedef struct judging {
     sunder_i_peace *peace; /* [start->n] */
 } judging;
 
-/* Is there surely a move of no more than `reach` that takes b's box the gap off a's? Then the exact question is spared. */
+/* Is there surely a move of no more than `reach` that takes b's box the gap off a's? It spares the exact question. */
 static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
 {
     const double out = fmin(fmin(a[2] - b[0], b[2] - a[0]), fmin(a[3] - b[1], b[3] - a[1]));
@@ -62,7 +62,8 @@ static sunder_status note(sunder_i_job *w, const sunder_i_relation *r, const sun
 {
     sunder_i_town *town = &w->town;
     if (truce->hopeless) return sunder_i_truces_add(&town->truces, truce) ? SUNDER_OK : sunder_i_no_memory(err);
-    const double reach = sunder_i_limit_of(&town->body[town->body_of[r->a]]) + sunder_i_limit_of(&town->body[town->body_of[r->b]]);
+    const sunder_i_body *p = &town->body[town->body_of[r->a]], *q = &town->body[town->body_of[r->b]];
+    const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q);
     if (!peace->apart_beyond || !peace->inside || hypot(peace->place[0], peace->place[1]) > reach) return SUNDER_OK;
     if (!sunder_i_reserve(&w->entry, &w->entry_capacity, w->entries + 1, sizeof *w->entry))
         return sunder_i_no_memory(err);

@@ -142,7 +142,8 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
         const sunder_i_relation *r = &w->now.pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
-        if (sunder_i_is_at_peace(r) || i == j || ((fi || town->body[i].pinned) && (fj || town->body[j].pinned))) continue;
+        if (sunder_i_is_at_peace(r) || i == j) continue;
+        if ((fi || town->body[i].pinned) && (fj || town->body[j].pinned)) continue;
         if (sunder_i_truces_find(&town->truces, r->a, r->b)) {
             const sunder_status status = heed_truce(w, r, any, err);
             if (status) return status;

@@ -3,8 +3,8 @@
  * The search knows one kind of demand, to keep a distance from a convex obstacle, and a truce is made of the same:
  *
  *   disjoint at the start   the pair keeps the distance that it had, which is less than the gap
- *   in each other           with v the least translation of b that parted them: b + v stays off a. Then v, or less, still
- *                           parts them, so they are no deeper in each other than they were.
+ *   in each other           with v the least translation of b that parted them: b + v stays off a. Then v, or less,
+ *                           still parts them, so they are no deeper in each other than they were.
  *   one inside the other    where that is peace: it stays inside
  *
  * At the start every truce holds, so to leave everything where it was is always a way. (The second demands more than

@@ -1,7 +1,7 @@
 /* Does a pair stand worse than it stood? Exactly.
  *
- * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the least
- * translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where they
+ * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the
+ * least translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where they
  * differ by more than they can be off; else the rationals are compared. */
 #include "predicate/vector.h"
 #include "separation/least.h"

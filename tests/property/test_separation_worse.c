@@ -1,5 +1,5 @@
-/* Does a pair stand worse than it stood? The library's exact answer against rationals by brute force, on placements that
- * tie, that differ by a unit in the last place, and others. */
+/* Does a pair stand worse than it stood? The library's exact answer against rationals by brute force, on placements
+ * that tie, that differ by a unit in the last place, and others. */
 #include "generate.h"
 #include "standing.h"
 

@@ -1,6 +1,6 @@
 /* The least translation that parts two sets lies on the boundary of those that do not: on a segment that an edge of one
- * makes with a vertex of the other. So it is an end of such a segment, the foot of the perpendicular from the origin, or
- * a crossing of two. Candidates are sorted by their lengths in doubles; those that may be the shortest are made in
+ * makes with a vertex of the other. So it is an end of such a segment, the foot of the perpendicular from the origin,
+ * or a crossing of two. Candidates are sorted by their lengths in doubles; those that may be the shortest are made in
  * rationals and asked, by vertical slabs, whether they part the two. */
 #include "standing.h"
 

@@ -1,5 +1,5 @@
-/* How ill a pair of features stands, in rationals and by brute force: for the rule that nothing is made worse. Shares no
- * code with src/. */
+/* How ill a pair of features stands, in rationals and by brute force: for the rule that nothing is made worse. Shares
+ * no code with src/. */
 #ifndef SUNDER_TESTS_STANDING_H
 #define SUNDER_TESTS_STANDING_H
 
