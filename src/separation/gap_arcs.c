@@ -23,8 +23,8 @@ static bool arcs_idle(sunder_i_gap_state *s, const double a[2], const double b[2
     return true;
 }
 
-/* The centers' difference is taken on the lattice, where nothing cancels: v is off by 4 u of itself. With c = |v| / 2 and
- * h^2 = g^2 - c^2 an error of 16 u g^2 in h^2 is one of 8 u g^2 / h in h, and turns the chord by 4 u. */
+/* The centers' difference is taken on the lattice, where nothing cancels: v is off by 4 u of itself. With c = |v| / 2
+ * and h^2 = g^2 - c^2 an error of 16 u g^2 in h^2 is one of 8 u g^2 / h in h, and turns the chord by 4 u. */
 static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
 {
     const sunder_i_point a = s->p->center[i], b = s->p->center[j];

@@ -4,25 +4,26 @@
  * is free of them too: the step is made smaller, and the numbers longer, until the exact test agrees.
  *
  * There always is room: a point that is held on all sides is rational, and one between two opposite contacts lies on a
- * rational line. A side of normal n (integers) and length L = |n| says n.p = c + g L, with c an integer and g rational, a
- * corner says |p - a| = g.
+ * rational line. A side of normal n (integers) and length L = |n| says n.p = c + g L, with c an integer and g rational,
+ * a corner says |p - a| = g.
  *
- * Opposite contacts. Two sides, n = -k m: adding up, 2 g L is rational, so is L, and the line n.p = c + g L. A side and a
- * corner: n.a = c + 2 g L, so L is rational and p = a - g n / L. Two corners: p is the middle.
+ * Opposite contacts. Two sides, n = -k m: adding up, 2 g L is rational, so is L, and the line n.p = c + g L. A side and
+ * a corner: n.a = c + 2 g L, so L is rational and p = a - g n / L. Two corners: p is the middle.
  *
  * Held on all sides, a point has among its contacts two opposite pairs (on two rational lines, so it is rational), or
  * three whose normals n1, n2, n3 have l1 n1 + l2 n2 + l3 n3 = 0 with all l > 0, no two parallel:
- *   - three sides: the l are rational, and l1 L1 + l2 L2 + l3 L3 is. Roots of integers do not cancel with positive factors:
- *     all L are rational.
+ *   - three sides: the l are rational, and l1 L1 + l2 L2 + l3 L3 is. Roots of integers do not cancel with positive
+ *     factors: all L are rational.
  *   - three corners: their circle has a rational center.
- *   - a side and two corners: p = m + t v, m the middle of the corners, v the way between them turned by a right angle, and
- *     t^2 rational. Suppose t is not. If n.v = 0, the way +-v is open. Else t = (c - n.m + g L) / n.v, and as its square
- *     is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L.
- *   - two sides and a corner: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the basis with
- *     n_i.e_j = 0 or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin s. Suppose
- *     some L is irrational; what stands beside each root in |w|^2 is zero. If both are, of one root: 1 = |r_1 e_1 + r_2 e_2|^2
- *     + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. Of two roots: r = 0 and e_1.e_2 = 0, so |w|^2 = 2. If L_2
- *     alone: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of side 2, not against it. */
+ *   - a side and two corners: p = m + t v, m the middle of the corners, v the way between them turned by a right angle,
+ *     and t^2 rational. Suppose t is not. If n.v = 0, the way +-v is open. Else t = (c - n.m + g L) / n.v, and as its
+ *     square is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L.
+ *   - two sides and a corner: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the
+ *     basis with n_i.e_j = 0 or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin
+ *     s. Suppose some L is irrational; what stands beside each root in |w|^2 is zero. If both are, of one root: 1 =
+ *     |r_1 e_1 + r_2 e_2|^2 + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. Of two roots: r = 0 and e_1.e_2 = 0,
+ *     so |w|^2 = 2. If L_2 alone: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of
+ *     side 2, not against it. */
 #include "separation/gap_search.h"
 
 #include "predicate/vector.h"
@@ -166,15 +167,14 @@ static void step_off(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i
     sunder_i_spot_scaled(s->g, &f->spot, bits, at);
     unit_normal(s, &f->spot, f->contact + i, digits, n);
     unit_normal(s, &f->spot, f->contact + j, digits, m);
-    /* The middle between the normals; where they are far from each other that cancels, and is said by the ways: n turned
-     * left and m turned right. */
+    /* The middle between the normals; where they are far from each other that cancels, and is said by the ways: n
+     * turned left and m turned right. */
     const bool wide = sign_of(s, f, i, j, true) < 0;
     const sunder_i_big u[2] = {wide ? sunder_i_big_sub(a, m[1], n[1]) : sunder_i_big_add(a, n[0], m[0]),
                                wide ? sunder_i_big_sub(a, n[0], m[0]) : sunder_i_big_add(a, n[1], m[1])};
-    for (int k = 0; k < 2; k++) {
-        const sunder_i_big step = sunder_i_big_shr(a, sunder_i_big_shl(a, u[k], (unsigned long)(size + (long)bits)), digits);
-        at[k] = sunder_i_big_add(a, at[k], step);
-    }
+    const unsigned long shift = (unsigned long)(size + (long)bits);
+    for (int k = 0; k < 2; k++)
+        at[k] = sunder_i_big_add(a, at[k], sunder_i_big_shr(a, sunder_i_big_shl(a, u[k], shift), digits));
     *out = sunder_i_spot_rational(s->g, at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits));
 }
 
@@ -189,7 +189,9 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t
     const sunder_i_subsum *m = s->g->subsum + f->contact[k].of;
     const sunder_i_curve wall = {false, m->corner[f->contact[k].at], m->side[f->contact[k].at]};
     const bool ahead = (sign_of(s, f, i, k, true) > 0) == (turn > 0); /* the side is its normal turned left */
-    sunder_i_big along, step = sunder_i_big_shl(a, sunder_i_big_i64(a, ahead ? 1 : -1), (unsigned long)(size + (long)bits));
+    const unsigned long shift = (unsigned long)(size + (long)bits);
+    const sunder_i_big step = sunder_i_big_shl(a, sunder_i_big_i64(a, ahead ? 1 : -1), shift);
+    sunder_i_big along;
     if (!sunder_i_gap_position(s->p, &wall, &f->spot, bits, &along)) return false;
     return sunder_i_gap_along(s->p, &wall, sunder_i_big_add(a, along, step), bits, out);
 }

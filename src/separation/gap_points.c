@@ -159,8 +159,8 @@ bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_spot *at)
 /* Order of two free points; doubles settle what is not a tie. */
 static int order(sunder_i_gap_state *s, const sunder_i_gap_find *a, const sunder_i_gap_find *b)
 {
-    const double u = sunder_i_gap_length(a->x, a->y), v = sunder_i_gap_length(b->x, b->y), e = a->error + b->error + s->error;
-    if (fabs(u - v) > e) return u < v ? -1 : 1;
+    const double u = sunder_i_gap_length(a->x, a->y), v = sunder_i_gap_length(b->x, b->y);
+    if (fabs(u - v) > a->error + b->error + s->error) return u < v ? -1 : 1;
     return sunder_i_spot_cmp(s->g, &a->spot, &b->spot);
 }
 

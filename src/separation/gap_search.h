@@ -5,14 +5,14 @@
  * point within 2 g of its box. u is the unit roundoff; first-order terms only, the rest is far less than what is to
  * spare.
  *
- *   corner   an integer is rounded once, three limbs of a wide lattice 5 times: 8 u M. Sides come from
- *            exact differences, so are off by 4 u of themselves; their lengths by 6 u, the gap by 4 u.
+ *   corner   an integer is rounded once, three limbs of a wide lattice 5 times: 8 u M. Sides come from exact
+ *            differences, so are off by 4 u of themselves; their lengths by 6 u, the gap by 4 u.
  *   point    a + gap n / |d| + t d, 0 <= t <= 1: corner 8 u M, the normal 4 + 4 + 6 + 2 = 16 u g, t d 5 u * 3 M, sums
  *            2 u * 4 S: below 32 u S a coordinate, 48 u S in all. Feet, ends and the points of circles nearest to the
  *            origin have no more steps. What is found by a division that loses digits carries an error of its own.
- *   height   of a point over a side, cross(side, v) / length: v is off by 8 u M + 6 u S a coordinate, that makes 20 u S;
- *            each product by (4 + 1) u |side| |v|, their difference by one u more: 36 u S; length and division 7 u of
- *            at most 6 S: 42 u S. Below 100 u S in all.
+ *   height   of a point over a side, cross(side, v) / length: v is off by 8 u M + 6 u S a coordinate, that makes 20 u
+ *            S; each product by (4 + 1) u |side| |v|, their difference by one u more: 36 u S; length and division 7 u
+ *            of at most 6 S: 42 u S. Below 100 u S in all.
  *   distance from a side as its height; from a corner 20 u S + 2 u * 6 S. Whether the corner or the side is nearer is
  *            judged by a product that is off as the height is, and where it is judged wrongly the two distances differ
  *            by no more than that: below 200 u S.

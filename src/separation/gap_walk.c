@@ -141,8 +141,8 @@ void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, si
 
 /* ---- Certain steps ---- */
 
-/* The farthest t short of `leave` that is covered by subsum k for certain, as far as the segment's end; false if none is
- * found. */
+/* The farthest t short of `leave` that is covered by subsum k for certain, as far as the segment's end; false if none
+ * is found. */
 static bool covered_until(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards, double leave_at, double *t)
 {
     const double end = forwards ? 1 : 0;
@@ -205,8 +205,8 @@ static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t
     sunder_i_gap_push(s, sunder_i_gap_length(m->ax + t * m->dx, m->ay + t * m->dy) - s->error, &p);
 }
 
-/* The foot of the perpendicular from the origin, or the end that is nearest. Which of them it is is decided exactly: the
- * foot has the same parameter on the moved side as on the unmoved one. */
+/* The foot of the perpendicular from the origin, or the end that is nearest. Which of them it is is decided exactly:
+ * the foot has the same parameter on the moved side as on the unmoved one. */
 void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
 {
     const moved m = moved_side(s, segment);

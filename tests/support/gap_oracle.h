@@ -4,9 +4,9 @@
  * set moved to a corner of the other, nearest points of circles about the differences of two corners, and places where
  * two of all these cross. Each that is no farther than an answer to be judged is computed in long binary fractions and
  * asked whether it keeps the gap, corner against side. What differs from the gap by less than 2^-2700 there counts as
- * equal: places are of degree 4 at most over the coordinates, which have 60 bits here, and the squares that are compared
- * are integers of less than 700 bits in a common unit, so that the product with the three conjugates bounds what is not
- * zero from below by 2^-2100. */
+ * equal: places are of degree 4 at most over the coordinates, which have 60 bits here, and the squares that are
+ * compared are integers of less than 700 bits in a common unit, so that the product with the three conjugates bounds
+ * what is not zero from below by 2^-2100. */
 #ifndef SUNDER_TESTS_GAP_ORACLE_H
 #define SUNDER_TESTS_GAP_ORACLE_H
 
@@ -24,8 +24,8 @@ typedef enum gap_verdict {
     GAP_BOUND_HIGH /* something free is nearer than the bound */
 } gap_verdict;
 
-/* Judges the length of an answer that keeps the gap, by its square, and a lower bound. *length: of the nearest place found,
- * nearly; it is infinite if nothing so near is free. */
+/* Judges the length of an answer that keeps the gap, by its square, and a lower bound. *length: of the nearest place
+ * found, nearly; it is infinite if nothing so near is free. */
 gap_verdict gap_oracle_judge(const polyset *p, const polyset *q, double gap, const mpq_t square, double bound,
                              double *length);
 

@@ -94,12 +94,14 @@ static void signs_agree_with_digits(void **state)
         const int bits = (int)rng_int(&g, 1, 60), most = (int)rng_int(&g, 1, 4);
         while (roots.n < most) {
             sunder_i_surd r;
-            const sunder_i_surd square = rng_once_in(&g, 2) ? integer(&a, rng_int(&g, 2, 1000)) : random_surd(&a, &roots, &g, bits);
+            const bool plain = rng_once_in(&g, 2);
+            const sunder_i_surd square = plain ? integer(&a, rng_int(&g, 2, 1000)) : random_surd(&a, &roots, &g, bits);
             sunder_i_surd_root(&a, &roots, square, &r);
         }
         const sunder_i_surd u = random_surd(&a, &roots, &g, bits), v = random_surd(&a, &roots, &g, bits);
         const sunder_i_surd w = sunder_i_surd_mul(&a, &roots, u, v);
-        const sunder_i_big near = sunder_i_surd_scaled(&a, &roots, w, 400), far = sunder_i_surd_scaled(&a, &roots, w, 17);
+        const sunder_i_big near = sunder_i_surd_scaled(&a, &roots, w, 400);
+        const sunder_i_big far = sunder_i_surd_scaled(&a, &roots, w, 17);
         if (sunder_i_big_bits(near) > 3)
             assert_int_equal(sunder_i_surd_sign(&a, &roots, w), sunder_i_big_sign(near));
         assert_int_equal(sunder_i_surd_sign(&a, &roots, w),
@@ -108,7 +110,8 @@ static void signs_agree_with_digits(void **state)
         assert_true(sunder_i_big_bits(off) <= 2);
         /* (u v)^2 = u^2 v^2, and u v - v u = 0 */
         const sunder_i_surd uu = sunder_i_surd_mul(&a, &roots, u, u), vv = sunder_i_surd_mul(&a, &roots, v, v);
-        const sunder_i_surd d = sunder_i_surd_sub(&a, sunder_i_surd_mul(&a, &roots, w, w), sunder_i_surd_mul(&a, &roots, uu, vv));
+        const sunder_i_surd ww = sunder_i_surd_mul(&a, &roots, w, w);
+        const sunder_i_surd d = sunder_i_surd_sub(&a, ww, sunder_i_surd_mul(&a, &roots, uu, vv));
         assert_int_equal(sunder_i_surd_sign(&a, &roots, d), 0);
         assert_false(a.failed);
         sunder_i_arena_free(&a);

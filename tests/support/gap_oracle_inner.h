@@ -1,0 +1,71 @@
+/* The parts of the brute force for gaps among themselves. */
+#ifndef SUNDER_TESTS_GAP_ORACLE_INNER_H
+#define SUNDER_TESTS_GAP_ORACLE_INNER_H
+
+#include "gap_oracle.h"
+
+/* ---- Sides and corners (gap_oracle_figure.c) ---- */
+
+typedef struct side {
+    double ax, ay, bx, by;
+} side;
+
+typedef struct figure {
+    const polyset *p, *q;
+    side *a, *b;
+    size_t n, m;
+    double gap;
+} figure;
+
+void figure_open(figure *f, const polyset *p, const polyset *q, double gap);
+void figure_close(figure *f);
+/* For sets of which each corner is at least the gap from all sides of the other: then no sign here is in doubt. */
+bool interiors_apart(const figure *f, double tx, double ty);
+
+/* ---- Places, in long binary fractions (gap_oracle_places.c) ---- */
+
+enum { SHORT, LONG }; /* so many bits; see precision() */
+
+/* A line n . x = c with |n| = 1, or (n = 0) a circle about (x, y). */
+typedef struct track {
+    bool circle;
+    double x, y, nx, ny, c;
+    double corner[4], direction[4]; /* exactly: ([0] - [2], [1] - [3]); of the side its direction */
+    double gap;
+    bool ready[2];
+    mpf_t hx[2], hy[2], hnx[2], hny[2], hc[2];
+} track;
+
+/* A foot has u NULL; root: which of two crossings. */
+typedef struct place {
+    track *t, *u;
+    int root;
+    double x, y;
+} place;
+
+typedef struct numbers {
+    mpf_t v[8];
+} numbers;
+
+void numbers_open(numbers *n, int level);
+void numbers_close(numbers *n);
+mp_bitcnt_t precision(int level);
+/* a - b, exactly where out has the bits. */
+void minus(mpf_t out, double a, double b);
+/* out = a b + c d, or less c d */
+void pair_sum(mpf_t out, const mpf_t a, const mpf_t b, const mpf_t c, const mpf_t d, mpf_t work, bool subtract);
+/* Is it so small that at this level it counts as nothing, or cannot be told from it? */
+bool negligible(const mpf_t v, int level);
+
+/* All lines and circles of the figure, five for each side of one set at each of the other; returns how many. */
+size_t add_tracks(const figure *f, track *t);
+void release(track *t);
+/* Without those that are farther than the limit all along; returns how many are left. */
+size_t drop_far_tracks(track *t, size_t n, double limit);
+/* In doubles: false if the place is known to be farther than the limit, or not to be. *sure: x and y are good to 1e-9
+ * of the figure. */
+bool rough_place(place *p, double size, double limit, bool *sure);
+/* The place to so many bits; false if there is none. */
+bool locate(mpf_t x, mpf_t y, const place *p, int level, numbers *w);
+
+#endif
