@@ -228,7 +228,8 @@ static bool hint_at_order(const gis_options *options, gis_error *error)
 /* Points are taken where a symbol is given, which is easily forgotten. */
 static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
 {
-    if (input->points || !(gis_option_table[OPT_SYMBOL].commands & input->options->command->bit) || !strstr(error->message, "Point"))
+    bool known = gis_option_table[OPT_SYMBOL].commands & input->options->command->bit;
+    if (input->points || !known || !strstr(error->message, "Point"))
         return false;
     size_t n = strlen(error->message);
     snprintf(error->message + n, sizeof error->message - n, "; for points give their --symbol, as in --symbol disc:4");

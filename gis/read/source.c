@@ -48,8 +48,8 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
         if (VSIStatExL(request->path, &status, VSI_STAT_EXISTS_FLAG) != 0 && !strchr(request->path, ':'))
             gis_fail(error, "%s: no such file", request->path);
         else if (gis_sqlite_has_journal(request->path))
-            gis_fail(error, "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls it "
-                     "back once a program opens the database that may write, such as sqlite3", request->path,
+            gis_fail(error, "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls "
+                     "it back once a program opens the database that may write, such as sqlite3", request->path,
                      request->path);
         else
             gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,

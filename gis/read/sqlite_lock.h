@@ -1,8 +1,8 @@
-/* sqlite_lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of the
- * file, locked by fcntl() ("File Locking And Concurrency In SQLite Version 3", and os.h of its source).
+/* sqlite_lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of
+ * the file, locked by fcntl() ("File Locking And Concurrency In SQLite Version 3", and os.h of its source).
  *
- * Closing any handle of a file gives up the locks that this very process has on it through others: so none of this may be
- * asked while GDAL has the database open. */
+ * Closing any handle of a file gives up the locks that this very process has on it through others: so none of this may
+ * be asked while GDAL has the database open. */
 #ifndef GIS_SQLITE_LOCK_H
 #define GIS_SQLITE_LOCK_H
 
@@ -18,12 +18,12 @@ bool gis_sqlite_in_use(const char *path);
 /* Is a write transaction of another process under way? */
 bool gis_sqlite_being_written(const char *path);
 
-/* The whole lock, which keeps everyone out, waited for. The handle to be closed in the end, or -1 with an error; -2: the
- * file system has no locks. */
+/* The whole lock, which keeps everyone out, waited for. The handle to be closed in the end, or -1 with an error; -2:
+ * the file system has no locks. */
 int gis_sqlite_lock(const char *path, gis_error *error);
 
-/* Beside a database: a journal ("-journal") of a transaction that was interrupted and that SQLite rolls back when it opens
- * the database next (one whose head was never written says nothing), or a log ("-wal") that belongs to it. */
+/* Beside a database: a journal ("-journal") of a transaction that was interrupted and that SQLite rolls back when it
+ * opens the database next (one whose head was never written says nothing), or a log ("-wal") that belongs to it. */
 bool gis_sqlite_has_journal(const char *path);
 bool gis_sqlite_has_log(const char *path);
 

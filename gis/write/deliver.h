@@ -9,8 +9,8 @@
 
 /* Where --stats goes; NULL if nowhere. */
 const char *gis_stats_path(const gis_options *options);
-/* Can the file of --stats be made, and is neither it nor the output a file that something is read from? Asked before the work, so that its failure does not
- * come when all is done. */
+/* Can the file of --stats be made, and is neither it nor the output a file that something is read from? Asked before
+ * the work, so that its failure does not come when all is done. */
 bool gis_stats_check(const gis_options *options, gis_error *error);
 /* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
  * once is wrong usage. */

@@ -136,7 +136,8 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->fids_kept = format.keeps_fids && (!source || gis_source_fids_unique(source));
     choose_place(sink);
     fix_date(sink);
-    if (!gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) || !prepare_place(sink, error)) {
+    if (!gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) ||
+        !prepare_place(sink, error)) {
         gis_sink_free(sink);
         return false;
     }
@@ -212,8 +213,8 @@ void gis_sink_free(gis_sink *sink)
     gis_sink_drop(sink);
     if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
         gis_sqlite_has_journal(sink->request.path) && !gis_sqlite_being_written(sink->request.path))
-        gis_say_warning("%s-journal holds what the database was; SQLite brings it back when a program opens it that may "
-                        "write", sink->request.path);
+        gis_say_warning("%s-journal holds what the database was; SQLite brings it back when it is next written",
+                        sink->request.path);
     for (size_t i = 0; i < sink->n_layers; i++)
         free_layer(sink->layers[i]);
     free(sink->layers);

@@ -8,8 +8,8 @@
  *   gis_sink_free      when published: releases; else: undoes everything
  *
  * Files are made in a new directory beside the output and renamed into place, the main file last; an update of files
- * works on a copy. A database, SQLite files included, gets one transaction. /vsistdout/ gets the main layer only, when it
- * is complete. */
+ * works on a copy. A database, SQLite files included, gets one transaction. /vsistdout/ gets the main layer only, when
+ * it is complete. */
 #ifndef GIS_SINK_H
 #define GIS_SINK_H
 

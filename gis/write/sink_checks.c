@@ -75,8 +75,8 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* What is renamed over is gone: a device or a pipe would be taken from the whole system. A link that leads nowhere would
- * show when all is done. */
+/* What is renamed over is gone: a device or a pipe would be taken from the whole system. A link that leads nowhere
+ * would show when all is done. */
 static bool check_is_file(const char *path, gis_error *error)
 {
     struct stat status;
@@ -119,8 +119,9 @@ static bool check_files(const gis_sink *sink, gis_error *error)
  * database that may write. What is there before the work is what was there before that transaction. */
 static void settle_journal(const gis_sink *sink)
 {
-    gis_say_warning("%s-journal is left of a transaction that was interrupted; SQLite rolls it back", sink->request.path);
-    GDALDatasetH dataset = sink->request.update ? open_quietly(sink->request.path, GDAL_OF_UPDATE, &sink->format) : NULL;
+    const char *path = sink->request.path;
+    gis_say_warning("%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
+    GDALDatasetH dataset = sink->request.update ? open_quietly(path, GDAL_OF_UPDATE, &sink->format) : NULL;
     if (dataset)
         GDALClose(dataset);
 }
@@ -131,7 +132,7 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
     const char *path = sink->request.path;
     bool there = gis_sink_exists(path);
     if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
-        return gis_fail(error, "%s%s is left of another database and would be taken for part of the new one; move it away",
+        return gis_fail(error, "%s%s is left of another database and would count as part of the new one; move it away",
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
     if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path))
         settle_journal(sink);

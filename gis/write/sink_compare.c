@@ -293,6 +293,12 @@ static gis_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written
 
 /* ---- The layer -------------------------------------------------------------------------------------------- */
 
+static bool fail_damaged(const gis_sink_layer *layer, size_t feature, gis_error *error)
+{
+    return gis_fail(error, "%s, layer %s: feature %zu does not read back as it was written; is the disk full?",
+                    layer->sink->request.path, layer->name, feature);
+}
+
 static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n, workspace *work,
                              gis_sink_result *result, gis_error *error)
 {
@@ -306,8 +312,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
             const gis_sent *sent = &layer->sent[i];
             done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error);
             if (done && work->damaged)
-                done = gis_fail(error, "%s, layer %s: feature %zu does not read back as it was written; is the disk full?",
-                                layer->sink->request.path, layer->name, i + 1);
+                done = fail_damaged(layer, i + 1, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
             if (done && layer->changes && sent->feature)
                 compare_attributes(sent->feature, kept, layer->changes, n);

@@ -2,10 +2,10 @@
  *
  * A SQLite file (a GeoPackage) is written where it is: a copy renamed over it would lose what others write meanwhile,
  * and a log that another program keeps beside it would be applied to the new file. Its write lock is taken first, by a
- * statement that changes nothing (GDAL begins its transactions without a lock); then it is made sure that what GDAL read
- * when it opened the file is still so, else it is opened again. From there to the end nobody else writes. The mode of the
- * journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever opens the
- * database next. */
+ * statement that changes nothing (GDAL begins its transactions without a lock); then it is made sure that what GDAL
+ * read when it opened the file is still so, else it is opened again. From there to the end nobody else writes. The mode
+ * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
+ * opens the database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/sql.h"
 #include "write/sink_internal.h"
@@ -76,7 +76,8 @@ static version version_of(const char *path, GDALDatasetH dataset)
 
 static bool same_version(const version *a, const version *b)
 {
-    return a->device == b->device && a->inode == b->inode && a->schema && b->schema && strcmp(a->schema, b->schema) == 0;
+    return a->device == b->device && a->inode == b->inode && a->schema && b->schema &&
+           strcmp(a->schema, b->schema) == 0;
 }
 
 static version version_before(const gis_sink *sink)
@@ -112,11 +113,11 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
 
 /* ---- Nothing outside the transaction ----------------------------------------------------------------------- */
 
-/* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a transaction
- * of its own, and be committed. Two things are set against that. A second connection reads all the time, so that nobody
- * can commit, this program included, until it lets go (in WAL mode readers stop nobody; but there nothing is written
- * before the commit, if the cache keeps what it has, and what is not written cannot fail). And a temporary table that
- * goes when the transaction goes tells whether it is still the one that was begun. */
+/* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a
+ * transaction of its own, and be committed. Two things are set against that. A second connection reads all the time, so
+ * that nobody can commit, this program included, until it lets go (in WAL mode readers stop nobody; but there nothing
+ * is written before the commit, if the cache keeps what it has, and what is not written cannot fail). And a temporary
+ * table that goes when the transaction goes tells whether it is still the one that was begun. */
 #define MARK "sunder_transaction"
 
 static bool guard(gis_sink *sink, gis_error *error)
@@ -124,7 +125,8 @@ static bool guard(gis_sink *sink, gis_error *error)
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
-    sink->reading = sink->reader ? GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL) : NULL;
+    if (sink->reader)
+        sink->reading = GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL);
     OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL; /* the first of several */
     if (row)
         OGR_F_Destroy(row);
@@ -165,7 +167,7 @@ bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
     char *mark = gis_sql_ask(sink->dataset, "SELECT 1 FROM sqlite_temp_master WHERE name = '" MARK "'");
     bool there = mark != NULL;
     CPLFree(mark);
-    return there || gis_fail(error, "%s: writing failed, and the database took back what was written: is the disk full?",
+    return there || gis_fail(error, "%s: writing failed, and the database took it all back; is the disk full?",
                              sink->request.path);
 }
 
@@ -212,8 +214,8 @@ bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
         if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name))
             continue;
         if (!sink->request.overwrite_layer)
-            return gis_fail(error, "%s has a layer %s by now; --overwrite-layer replaces it, --output-layer names another",
-                            sink->request.path, name);
+            return gis_fail(error, "%s has a layer %s by now: --overwrite-layer replaces it, --output-layer names "
+                            "another", sink->request.path, name);
         if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error))
             return false;
         gis_listener listener = {0};

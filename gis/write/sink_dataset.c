@@ -40,7 +40,8 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listener_clear(&listener);
 }
 
-/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing fails. */
+/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing fails.
+ */
 static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
     if (sink->place != GIS_PLACE_FILE || !may_replace)
@@ -88,11 +89,12 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
         copy_metadata(sink, *out);
     gis_listen_end();
     CPLFree(path);
-    if (!*out)
+    bool done = *out && !(sink->format.sqlite && listener.failures); /* a database may go on with half of its tables */
+    if (!done)
         gis_fail(error, "%s: cannot be created as %s: %s", sink->request.path, sink->format.name,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
     gis_listener_clear(&listener);
-    return *out != NULL;
+    return done;
 }
 
 /* For formats that are no databases. */

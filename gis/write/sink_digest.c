@@ -1,10 +1,10 @@
 /* sink_digest.c: written layers read back, where the format holds every value as it is.
  *
- * There a feature that reads back is equal to the one that was sent, double for double, whatever order the format likes:
- * so a feature becomes two numbers of 64 bits when it is sent (its place: geometry and FID; its values), and two when it
- * is read, and both lists are sorted and compared. No header's count is believed, no copy of the geometries is kept.
- * The numbers are no secret and meet no adversary: that a damaged feature has those of another one is as likely as
- * 2^-64 for each pair. */
+ * There a feature that reads back is equal to the one that was sent, double for double, whatever order the format
+ * likes: so a feature becomes two numbers of 64 bits when it is sent (its place: geometry and FID; its values), and two
+ * when it is read, and both lists are sorted and compared. No header's count is believed, no copy of the geometries is
+ * kept. The numbers are no secret and meet no adversary: that a damaged feature has those of another one is as likely
+ * as 2^-64 for each pair. */
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -121,7 +121,8 @@ static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
 
 /* ---- Fields whose values must come back -------------------------------------------------------------------- */
 
-/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something equivalent. */
+/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something equivalent.
+ */
 static bool is_plain(OGRFieldDefnH field)
 {
     OGRFieldType type = OGR_Fld_GetType(field);

@@ -164,8 +164,8 @@ static inline OGRSpatialReferenceH gis_sink_crs(const gis_sink_layer *layer)
     return layer->sink->source ? gis_source_crs(layer->sink->source) : layer->request.crs;
 }
 
-/* Shapefiles keep the CRS and the encoding in small files of their own, and GDAL does not hear whether those are written.
- * Fails if one is not there. */
+/* Shapefiles keep the CRS and the encoding in small files of their own, and GDAL does not hear whether those are
+ * written. Fails if one is not there. */
 bool gis_sink_check_companions(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 
 /* Fails with the sentence that says how many features came back of those written. */

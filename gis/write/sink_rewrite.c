@@ -1,10 +1,10 @@
 /* sink_rewrite.c: a layer of numbers in decimals, written once more with more digits.
  *
- * GDAL's SIGNIFICANT_FIGURES=17 would tell every double, were it not for a beauty: where the digits after the point hold
- * 999999 or 000000 it tries with up to three digits fewer, and takes what no longer holds them: 999999.4999999995 becomes
- * 999999.5. With three more to give away every number keeps its seventeen; but then most numbers are printed with digits
- * that say nothing. So a layer is begun with seventeen. The first coordinate that would lose makes it begin again; and if
- * it reads back otherwise all the same, it is written again then. */
+ * GDAL's SIGNIFICANT_FIGURES=17 would tell every double, were it not for a beauty: where the digits after the point
+ * hold 999999 or 000000 it tries with up to three digits fewer, and takes what no longer holds them: 999999.4999999995
+ * becomes 999999.5. With three more to give away every number keeps its seventeen; but then most numbers are printed
+ * with digits that say nothing. So a layer is begun with seventeen. The first coordinate that would lose makes it begin
+ * again; and if it reads back otherwise all the same, it is written again then. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink_internal.h"
 
@@ -94,8 +94,9 @@ static bool send_again(gis_sink_layer *layer, gis_error *error)
         gis_sent *sent = &before.sent[i];
         OGRGeometryH made = sent->made;
         sent->made = NULL;
-        done = sent->moved ? gis_sink_write_moved(layer, sent->feature, sent->dx, sent->dy, values_of(&before, i), error)
-                           : gis_sink_write(layer, sent->feature, made, values_of(&before, i), error);
+        const gis_value *values = values_of(&before, i);
+        done = sent->moved ? gis_sink_write_moved(layer, sent->feature, sent->dx, sent->dy, values, error)
+                           : gis_sink_write(layer, sent->feature, made, values, error);
     }
     gis_sink_forget_sent(&before);
     return done;
@@ -114,7 +115,8 @@ static bool has_run(const char *text)
     return point && (strstr(point, "999999") || strstr(point, "000000"));
 }
 
-/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read back. */
+/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read back.
+ */
 static bool loses(double x)
 {
     char text[64];

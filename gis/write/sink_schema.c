@@ -305,6 +305,13 @@ static void note_name(gis_sink_layer *layer)
     layer->name = CPLStrdup(name);
 }
 
+static bool digits_are_ours(const gis_sink *sink)
+{
+    CSLConstList given = (CSLConstList)sink->request.layer_options;
+    return gis_format_has_option(&sink->format, "SIGNIFICANT_FIGURES") &&
+           !CSLFetchNameValue(given, "SIGNIFICANT_FIGURES") && !CSLFetchNameValue(given, "COORDINATE_PRECISION");
+}
+
 bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink *sink = layer->sink;
@@ -336,19 +343,18 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes, error);
         layer->can_measure = OGR_L_TestCapability(layer->layer, OLCMeasuredGeometries);
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
-    } else {
-        gis_fail(error, "%s: layer %s cannot be made: %s", sink->request.path, layer->name,
-                 gis_listener_reason(&listener, "GDAL gives no reason"));
     }
     gis_listen_end();
+    /* In a database GDAL may go on with half of a layer where a statement fails. */
+    if (!layer->layer || (sink->format.sqlite && listener.failures))
+        done = gis_fail(error, "%s: layer %s cannot be made: %s", sink->request.path, layer->name,
+                        gis_listener_reason(&listener, "GDAL gives no reason"));
     gis_listener_clear(&listener);
     CSLDestroy(options);
     /* What is promised is promised of the features; arrows and links may be rounded. */
     layer->promised = layer->request.like_source || !layer->request.suffix[0];
     layer->keep_sent = !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
-    layer->can_rewrite = layer->keep_sent && layer->file && gis_format_has_option(&sink->format, "SIGNIFICANT_FIGURES") &&
-                         !CSLFetchNameValue((CSLConstList)sink->request.layer_options, "SIGNIFICANT_FIGURES") &&
-                         !CSLFetchNameValue((CSLConstList)sink->request.layer_options, "COORDINATE_PRECISION");
+    layer->can_rewrite = layer->keep_sent && layer->file && digits_are_ours(sink);
     if (done && sink->format.keeps_doubles)
         gis_digests_begin(layer);
     return done && gis_sink_unbroken(sink, error);

@@ -146,7 +146,8 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
         return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
-        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) && gis_sink_remember_values(layer, values, error);
+        done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
+               gis_sink_remember_values(layer, values, error);
     done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, feature, error) &&
            gis_sink_watch_digits(layer, to, error);
     OGR_F_Destroy(to);

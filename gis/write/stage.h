@@ -2,8 +2,8 @@
  *
  * New files are made under their final names in a new hidden directory beside their place (so that renaming does not
  * copy, and formats that write their own name into themselves write the right one). Publishing syncs and renames them,
- * the main one last, and puts everything back if a rename fails. Freeing without publishing leaves nothing behind. A run
- * that is killed between two renames leaves a record, from which the next one puts everything back. */
+ * the main one last, and puts everything back if a rename fails. Freeing without publishing leaves nothing behind. A
+ * run that is killed between two renames leaves a record, from which the next one puts everything back. */
 #ifndef GIS_STAGE_H
 #define GIS_STAGE_H
 
@@ -37,8 +37,9 @@ void gis_stage_supersede(gis_stage *stage, const char *path);
 /* Puts all that was made in its place. A file in the way that is not superseded makes it fail, unless `replace`. */
 bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
 
-/* Looks beside an output for what a run has left that was killed while it put its files there. The old files are brought
- * back; what was done, and what is to be done by hand, is said, a sentence each. Fails if they cannot be brought back. */
+/* Looks beside an output for what a run has left that was killed while it put its files there. The old files are
+ * brought back; what was done, and what is to be done by hand, is said, a sentence each. Fails if they cannot be
+ * brought back. */
 bool gis_stage_recover(const char *final_path, gis_list *said, gis_error *error);
 
 #endif

@@ -23,8 +23,8 @@ struct gis_stage {
     char **superseded; /* base names */
 };
 
-/* One line of the record. Names are escaped. A new file is known by more than its name, so that what is taken away again
- * is that file, and not one that came later: "new MARK NAME". */
+/* One line of the record. Names are escaped. A new file is known by more than its name, so that what is taken away
+ * again is that file, and not one that came later: "new MARK NAME". */
 #define GIS_RECORD_MAIN "main "
 #define GIS_RECORD_OLD "old "
 #define GIS_RECORD_NEW "new "

@@ -1,9 +1,9 @@
 /* stage_remains.c: what a run left that was killed among its renames, and the way back.
  *
  * A stage whose lock can be had belongs to nobody that lives. If it has a record and a new file is still in it, the run
- * did not finish: what stepped aside goes back, what came to a place that was empty is taken away (if it is the very file
- * of the record), and the output is as it was. Each step may be repeated: a run that is killed at this leaves what the
- * next one can finish. If no new file is in it, all were put in place, and only the stage remained. */
+ * did not finish: what stepped aside goes back, what came to a place that was empty is taken away (if it is the very
+ * file of the record), and the output is as it was. Each step may be repeated: a run that is killed at this leaves what
+ * the next one can finish. If no new file is in it, all were put in place, and only the stage remained. */
 #define _GNU_SOURCE
 #include "write/stage_internal.h"
 
@@ -96,8 +96,8 @@ static bool move(const char *from_directory, const char *to_directory, const cha
 {
     char *from = gis_join(from_directory, name), *to = gis_join(to_directory, name);
     bool done = rename(from, to) == 0 ||
-                gis_fail(error, "%s cannot be brought back from %s, where a run left it that was killed: %s; move it by "
-                         "hand", to, from, strerror(errno));
+                gis_fail(error, "%s cannot be brought back from %s, where a run left it that was killed: %s", to, from,
+                         strerror(errno));
     CPLFree(from);
     CPLFree(to);
     return done;
@@ -158,8 +158,8 @@ static bool settle(remains *found, const char *name, gis_list *said, gis_error *
         return false;
     clear_away(found);
     if (half)
-        gis_list_add(said, "%s/%s: an earlier run was killed while it put its files in place; the former ones have been "
-                     "brought back", found->directory, name);
+        gis_list_add(said, "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
+                     "been brought back", found->directory, name);
     return true;
 }
 
@@ -173,8 +173,8 @@ static bool look_at(remains *found, const char *name, gis_list *said, gis_error 
     } else if (lock >= 0 && errno != EWOULDBLOCK) {
         read_record(found);
         if (found->main && strcmp(found->main, name) == 0)
-            gis_list_add(said, "%s is in use, or left of a run that was killed while it put its files in place; the former "
-                         "ones are in %s/%s: move them back", found->inside, found->inside, GIS_STAGE_OLD);
+            gis_list_add(said, "%s is in use, or left of a run that was killed while it put its files in place; the "
+                         "former ones are in %s/%s: move them back", found->inside, found->inside, GIS_STAGE_OLD);
     }
     if (lock >= 0)
         close(lock);

@@ -3,16 +3,16 @@
  *   strike kill N COMMAND...       SIGKILL just before the Nth such call
  *   strike errno:NAME N COMMAND... that call fails (ENOSPC, EIO, EDQUOT, EINTR); nothing is done
  *   strike short N COMMAND...      that call, if it writes more than one byte, writes half of them
- *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one in
- *                                  which the disk becomes full is short
+ *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one
+ *                                  in which the disk becomes full is short
  *   strike list 0 COMMAND...       strikes nowhere
  *
- * Counted are calls that can fail for want of room or for a broken disk, or that change what a directory shows: open with
- * O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename, link,
- * unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To be killed
- * anywhere else leaves the same files as to be killed before the next of them. At the end a line on the standard output
- * of strike, file descriptor 3: "COUNT BYTES STATUS", the name of the call that was struck, if any; STATUS is the exit
- * status, or 128 + the signal. strike itself exits with 0 if the program ended, whatever came of it.
+ * Counted are calls that can fail for want of room or for a broken disk, or that change what a directory shows: open
+ * with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename,
+ * link, unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To
+ * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line on the
+ * standard output of strike, file descriptor 3: "COUNT BYTES STATUS", the name of the call that was struck, if any;
+ * STATUS is the exit status, or 128 + the signal. strike itself exits with 0 if the program ended, whatever came of it.
  *
  * ptrace needs no privilege and no other program. Registers are read and written for x86-64 and AArch64. */
 #define _GNU_SOURCE
@@ -267,6 +267,8 @@ static void call_ends(thread *it)
     set_registers(it->pid, &r);
 }
 
+enum { TRACING = PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE | PTRACE_O_TRACEEXEC | PTRACE_O_EXITKILL };
+
 static int follow(pid_t main_pid)
 {
     int status, ended = -1;
@@ -332,8 +334,7 @@ int main(int argc, char **argv)
     }
     int status;
     if (pid < 0 || waitpid(pid, &status, 0) != pid || !WIFSTOPPED(status) ||
-        ptrace(PTRACE_SETOPTIONS, pid, NULL,
-               (void *)(intptr_t)(PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE | PTRACE_O_TRACEEXEC | PTRACE_O_EXITKILL)) != 0) {
+        ptrace(PTRACE_SETOPTIONS, pid, NULL, (void *)(intptr_t)TRACING) != 0) {
         fputs("strike: processes cannot be traced here\n", stderr);
         return 77;
     }
