@@ -112,7 +112,8 @@ static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_po
     const sunder_i_vector uv = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, v), a);
     const sunder_i_vector uw = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, w), a);
     /* From u: (uv (2^j - 1) + 2 uw) / 2^(j + 1), over the denominators of both. */
-    const sunder_i_big part = sunder_i_big_sub(m, sunder_i_big_shl(m, uw.w, j), uw.w), twice = sunder_i_big_shl(m, uv.w, 1);
+    const sunder_i_big part = sunder_i_big_sub(m, sunder_i_big_shl(m, uw.w, j), uw.w);
+    const sunder_i_big twice = sunder_i_big_shl(m, uv.w, 1);
     const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, uv.x, part), sunder_i_big_mul(m, uw.x, twice));
     const sunder_i_big y = sunder_i_big_add(m, sunder_i_big_mul(m, uv.y, part), sunder_i_big_mul(m, uw.y, twice));
     const sunder_i_big den = sunder_i_big_shl(m, sunder_i_big_mul(m, uv.w, uw.w), j + 1);

@@ -203,7 +203,8 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     const int b = sunder_i_big_sign(abc[1]);
     if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
         for (int i = 0; i < 3; i++) abc[i] = sunder_i_big_neg(abc[i]);
-    if (sunder_i_big_bits(p->at[2]) > 1 || (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at[2]) > 1)) {
+    if (sunder_i_big_bits(p->at[2]) > 1 ||
+        (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at[2]) > 1)) {
         const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
         if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
             for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);

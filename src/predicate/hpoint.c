@@ -1,5 +1,5 @@
-/* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points define
- * is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
+/* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
+ * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
 #include "predicate/kernel.h"
 #include "predicate/vector.h"
 
@@ -71,7 +71,8 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
 {
     if (l->narrow) return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, (double)a.x, (double)a.y};
     if (sunder_i_point_is_plain(a))
-        return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, sunder_i_approx(l, a.x), sunder_i_approx(l, a.y)};
+        return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, sunder_i_approx(l, a.x),
+                                 sunder_i_approx(l, a.y)};
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     const sunder_i_vector v = sunder_i_vector_get(&l->scratch, l, a);
     sunder_i_hpoint p;

@@ -57,7 +57,11 @@ static bool both_plain(sunder_i_point a, sunder_i_point b)
     return sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b);
 }
 
-static bool stays_plain(int64_t n) { return n < (int64_t)1 << SUNDER_I_PLAIN_BITS && n > -((int64_t)1 << SUNDER_I_PLAIN_BITS); }
+static bool stays_plain(int64_t n)
+{
+    const int64_t limit = (int64_t)1 << SUNDER_I_PLAIN_BITS;
+    return n < limit && n > -limit;
+}
 
 /* a + b or a - b, b's sign being given. */
 static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, int sign)

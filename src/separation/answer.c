@@ -328,7 +328,8 @@ static dyadic dyadic_of(sunder_i_pairing *g, double dx, double dy)
     memset(&d, 0, sizeof d);
     int64_t mx, my;
     long fx, fy;
-    if (l->small && l->approx_shift == 0 && native_units(dx, l->exponent, &mx, &fx) && native_units(dy, l->exponent, &my, &fy)) {
+    if (l->small && l->approx_shift == 0 && native_units(dx, l->exponent, &mx, &fx) &&
+        native_units(dy, l->exponent, &my, &fy)) {
         const long low = fx < fy ? fx < 0 ? fx : 0 : fy < 0 ? fy : 0;
         if (fx - low < 70 && fy - low < 70) {
             d.native = true;

@@ -11,7 +11,8 @@ sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, const sunder_i_big num
 bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *corner);
 /* Copies the numbers of all vertices into the shape. False if memory is out. */
 bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact);
-/* xy of corners that are no doubles as the nearest ones, the box outward, the extent, area and anchor. False if memory is out. */
+/* xy of corners that are no doubles as the nearest ones, the box outward, the extent, area and anchor. False if memory
+ * is out. */
 bool sunder_i_shape_measure_rational(sunder_shape *s);
 
 #endif

@@ -20,7 +20,8 @@
 #include "number/lattice.h"
 #include "sunder.h"
 
-/* A corner that is no pair of doubles: (num[0], num[1]) / den * 2^exponent, den > 0 and odd. den.size == 0: it is one. */
+/* A corner that is no pair of doubles: (num[0], num[1]) / den * 2^exponent, den > 0 and odd. den.size == 0: it is
+ * one. */
 typedef struct sunder_i_exact {
     sunder_i_big num[2], den;
     long exponent;

@@ -93,6 +93,23 @@ typedef enum family_kind {
 const char *family_kind_string(family_kind kind);
 /* Some `low` to `high` vertices an operand. */
 void random_family(polyset *p, polyset *q, rng *r, family_kind kind, int low, int high);
+/* ---- Sets that are not valid, and taken by the even-odd rule ---- */
+
+typedef enum invalid_kind {
+    INVALID_SCRIBBLE, /* a ring through random places of a small grid: crossings, overlaps, touching */
+    INVALID_RAGGED,   /* the same in 53-bit doubles */
+    INVALID_ROUND,    /* a round outline at map coordinates with neighbouring vertices swapped: tiny crossings */
+    INVALID_HOUSE,    /* a building with two corners swapped */
+    INVALID_TRACK,    /* a walk that comes back to where it was */
+    INVALID_MEMBERS,  /* two scribbles, each a member */
+    INVALID_SCALED,   /* a scribble, huge or tiny */
+    INVALID_KINDS
+} invalid_kind;
+
+const char *invalid_kind_string(invalid_kind kind);
+/* `most` bounds the number of vertices, >= 8. */
+void random_invalid(polyset *set, rng *r, invalid_kind kind, int most);
+
 /* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in
  * the middle of edges where these are exact; members in another order. */
 void random_dress(polyset *set, rng *r);
