@@ -451,7 +451,8 @@ typedef enum sunder_reason {
     SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
     SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,
-    SUNDER_REASON_NO_ROOM,    /* proved: what is in conflict and hangs together with it has no solution within the limits */
+    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed pairs are no
+                               * worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
     SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
@@ -523,6 +524,57 @@ typedef struct sunder_bound_pair {
     double least, multiplier;
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
+
+/* A proof that a conflict has no room, which rational arithmetic can follow. Every number in it means itself, exactly.
+ *
+ * Let t be the moves of blocks (a feature that stands alone is one), no longer than the block's limit: the least
+ * max_shift of its members, 0 if one is fixed or ignored. The proof is a tree, node 0 its root.
+ *
+ * An inner node (ways > 0) is about the pair of features a and b, of blocks A and B; let u = t_B - t_A. Its parts are
+ * convex polygons within a and b, counter-clockwise, as they stood at the start. Any u at which the second part, moved
+ * by it, keeps the clearance from the first, has n.u >= d for at least one of the node's ways. (To keep a clearance c
+ * >= 0: disjoint interiors, and a distance of at least c. A clearance c < 0: some translation no longer than -c leaves
+ * them disjoint interiors.) The clearance is no more than the pair owes: the gap, if it is the conflict itself, or is
+ * not among the conflicts; else what it had at the start, its distance or minus the length of the least translation
+ * that parts it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u < d
+ * for those before.
+ *
+ * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
+ * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
+ * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|: no such
+ * moves are within the limits. */
+typedef struct sunder_proof_way {
+    double n[2], d;
+    size_t next;
+} sunder_proof_way;
+
+typedef struct sunder_proof_force {
+    size_t node, way; /* of all ways */
+    bool behind;
+    double force;
+} sunder_proof_force;
+
+typedef struct sunder_proof_node {
+    size_t a, b;               /* features */
+    size_t part_a, part_b;     /* the first corners of the parts, of all corners */
+    size_t corners_a, corners_b;
+    double clearance;
+    size_t way, ways;          /* its first way, and how many; none: a leaf */
+    size_t force, forces;
+} sunder_proof_node;
+
+typedef struct sunder_proof {
+    const sunder_proof_node *node;
+    const sunder_proof_way *way;
+    const sunder_proof_force *force;
+    const double *corner; /* [2 * corners] */
+    size_t nodes, ways, forces, corners;
+} sunder_proof;
+
+/* The proof of conflict k of sunder_report_conflicts(): of each with SUNDER_REASON_NO_ROOM; else NULL. It lives as long
+ * as the report. The features of its nodes, but for the two in conflict, are the conflict's blocked_by: none of them
+ * could be left out of it. */
+SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 

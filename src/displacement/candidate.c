@@ -1,141 +1,154 @@
-/* What a candidate runs into: pairs of convex pieces that stand in each other, and the lines by which one can pass the
- * other. */
+/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, and the ways out. */
 #include "displacement/inquiry.h"
-
-#include "displacement/peace.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static size_t difference(sunder_i_inquiry *c, const sunder_i_piece *a, const sunder_i_piece *b, uint32_t i, uint32_t j)
-{
-    const sunder_i_body *p = &c->town->body[c->body[i]], *q = &c->town->body[c->body[j]];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    return sunder_i_difference(c->town->corner + 2 * (size_t)a->corner, a->corners,
-                               c->town->corner + 2 * (size_t)b->corner, b->corners, offset, &c->scratch);
-}
+static bool is_rational(const sunder_i_town *town, uint32_t f) { return town->layer->feature[f].shape->rational; }
 
-bool sunder_i_inquiry_may_overlap(const sunder_i_inquiry *c, uint32_t i, uint32_t j)
+/* The ways between two pieces: into c->scratch. */
+static size_t fill_ways(sunder_i_inquiry *c, const sunder_i_body *p, const sunder_i_piece *a, const sunder_i_body *q,
+                        const sunder_i_piece *b, double clearance)
 {
     const sunder_i_town *town = c->town;
-    const sunder_i_body *p = &town->body[c->body[i]], *q = &town->body[c->body[j]];
-    if (!sunder_i_may_be_inside(&town->rules)) return false;
-    const double reach = nextafter(c->limit[i] + c->limit[j], INFINITY);
-    for (uint32_t k = 0; k < p->members; k++)
-        for (uint32_t l = 0; l < q->members; l++) {
-            const size_t f = town->member[p->member + k], g = town->member[q->member + l];
-            if (town->present[f] && town->present[g] &&
-                sunder_i_may_get_inside(&town->rules, town->box + 4 * f, town->box + 4 * g, reach))
-                return true;
-        }
-    return false;
-}
-
-/* An obstacle K grown by the gap has round corners. Where K turns by more than this, lines between its edges' are taken
- * too, so that the next is never more than half of it away: a place at distance g is g cos(CORNER / 2) beyond one of
- * the lines, or more. */
-#define CORNER 0.78539816339744831
-
-static void add_edge(const sunder_i_inquiry *c, const double at[2], const double n[2], const double u[2],
-                     sunder_i_passage *e)
-{
-    *e = (sunder_i_passage){.n = {n[0], n[1]}};
-    e->h = n[0] * at[0] + n[1] * at[1] + c->town->rules.gap * cos(CORNER / 2);
-    e->at = n[0] * u[0] + n[1] * u[1] - e->h;
-}
-
-/* Lines such that what keeps the gap from the obstacle in scratch (n corners) is beyond one of them: into c->edge, from
- * c->edges on. Returns how many, 0 if memory is out; *depth: how far u, if it is behind all of them, is from the next.
- */
-static size_t fill_edges(sunder_i_inquiry *c, size_t n, const double u[2], double *depth)
-{
-    const double *d = c->scratch.xy;
-    const size_t most = 2 * n + (size_t)(7 / CORNER);
-    size_t out = 0;
-    if (!sunder_i_reserve(&c->edge, &c->edge_capacity, c->edges + most, sizeof *c->edge)) return 0;
-    sunder_i_passage *list = c->edge + c->edges;
-    for (size_t k = 0; k < n; k++) {
-        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0), *r = NULL;
-        const double x = q[0] - p[0], y = q[1] - p[1], length = hypot(x, y);
-        if (!(length > 0)) continue;
-        const double normal[2] = {y / length, -x / length};
-        add_edge(c, p, normal, u, &list[out++]);
-        for (size_t l = 2; l <= n && c->town->rules.gap > 0 && !r; l++) {
-            r = d + 2 * ((k + l) % n);
-            if (r[0] == q[0] && r[1] == q[1]) r = NULL;
-        }
-        if (!r) continue;
-        const double turn = atan2(x * (r[1] - q[1]) - y * (r[0] - q[0]), x * (r[0] - q[0]) + y * (r[1] - q[1]));
-        for (double a = CORNER; a < fabs(turn); a += CORNER)
-            add_edge(c, q,
-                     (double[2]){normal[0] * cos(a) - normal[1] * sin(a), normal[0] * sin(a) + normal[1] * cos(a)}, u,
-                     &list[out++]);
+    sunder_i_parting parting = {.a = town->corner + 2 * (size_t)a->corner,
+                                .b = town->corner + 2 * (size_t)b->corner,
+                                .na = a->corners,
+                                .nb = b->corners,
+                                .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
+                                .clearance = clearance};
+    /* Corners of rational shapes are known as the nearest doubles. */
+    for (int x = 0; x < 4; x++) {
+        if (is_rational(town, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
+        if (is_rational(town, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
     }
-    double at = -INFINITY;
-    for (size_t k = 0; k < out; k++) at = fmax(at, list[k].at);
-    *depth = -at;
-    return out;
+    const size_t most = SUNDER_I_WAYS_A_CORNER * (parting.na + parting.nb);
+    c->looked += parting.na + parting.nb;
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
+        c->failed = true;
+        return 0;
+    }
+    return sunder_i_ways_between(&parting, c->scratch);
 }
 
-static void look_at(sunder_i_inquiry *c, uint32_t i, uint32_t j, sunder_i_meeting *worst)
+static double depth_of(const sunder_i_inquiry *c, size_t ways, const double u[2])
 {
-    const sunder_i_body *p = &c->town->body[c->body[i]], *q = &c->town->body[c->body[j]];
-    const double *t = c->program.t;
-    if (p->pieces == 0 || q->pieces == 0 || !(c->limit[i] + c->limit[j] > 0)) return;
-    double box[4], shift[4];
+    double at = -INFINITY;
+    for (size_t k = 0; k < ways; k++) {
+        sunder_i_way *w = &c->scratch[k];
+        w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
+        at = fmax(at, w->at);
+    }
+    return ways ? -at : -INFINITY;
+}
+
+/* A body, and where it stands. */
+typedef struct standing {
+    uint32_t number;
+    const sunder_i_body *body;
+    double t[2];
+} standing;
+
+static standing stand(const sunder_i_inquiry *c, uint32_t place)
+{
+    return (standing){c->body[place], &c->town->body[c->body[place]], {c->t[2 * place], c->t[2 * place + 1]}};
+}
+
+static void look_at(sunder_i_inquiry *c, const standing *s, const standing *r, sunder_i_meeting *worst)
+{
+    const sunder_i_body *p = s->body, *q = r->body;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]};
+    double box[4], shift[4], clearance = 0;
     for (uint32_t x = 0; x < 4; x++) {
-        shift[x] = p->origin[x & 1] + t[2 * i + (x & 1)] - q->origin[x & 1] - t[2 * j + (x & 1)];
-        shift[x] += x < 2 ? -c->town->rules.gap : c->town->rules.gap;
+        shift[x] = p->origin[x & 1] - q->origin[x & 1] - u[x & 1] + (x < 2 ? -c->town->rules.gap : c->town->rules.gap);
         box[x] = p->box[x] + shift[x];
     }
-    if (!sunder_i_box_meet(box, q->box) || sunder_i_inquiry_may_overlap(c, i, j)) return;
-    const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
+    c->looked++;
+    if (p->pieces == 0 || q->pieces == 0 || !sunder_i_box_meet(box, q->box)) return;
     for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
         const sunder_i_piece *a = &c->town->piece[k];
         for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
+        c->looked++;
         if (!sunder_i_box_meet(box, q->box)) continue;
+        c->looked += q->pieces / 4;
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
             const sunder_i_piece *b = &c->town->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
-            const size_t n = difference(c, a, b, i, j);
-            double depth;
-            if (n == 0 || !fill_edges(c, n, u, &depth)) {
-                c->scratch.failed = true;
-                return;
-            }
-            if (depth > worst->depth) *worst = (sunder_i_meeting){i, j, depth, a, b};
+            if (!sunder_i_inquiry_owe(c, a->feature, b->feature, &clearance)) continue;
+            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance), u);
+            if (depth > worst->depth) *worst = (sunder_i_meeting){s->number, r->number, a, b, clearance, depth};
         }
     }
+}
+
+/* Bodies that a member of this one may meet, in c->near, ascending. */
+static bool find_near(sunder_i_inquiry *c, const standing *s)
+{
+    const sunder_i_town *town = c->town;
+    c->near.n = 0;
+    for (uint32_t m = 0; m < s->body->members; m++) {
+        const uint32_t f = town->member[s->body->member + m];
+        double box[4], grown[4];
+        if (!town->present[f]) continue;
+        for (uint32_t x = 0; x < 4; x++) box[x] = town->box[4 * (size_t)f + x] + s->t[x & 1];
+        sunder_i_box_grow(box, town->rules.gap, grown);
+        c->looked += 16;
+        if (!sunder_i_index_query(&town->tree, grown, &c->near)) return false;
+    }
+    for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = town->body_of[c->near.item[k]];
+    c->near.n = sunder_i_set_make(c->near.item, c->near.n);
+    return true;
+}
+
+static size_t insert(sunder_i_meeting deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_meeting *o)
+{
+    if (!o->a || (n == SUNDER_I_CHOICES && o->depth <= deepest[n - 1].depth)) return n;
+    size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
+    for (; k > 0 && deepest[k - 1].depth < o->depth; k--) deepest[k] = deepest[k - 1];
+    deepest[k] = *o;
+    return n;
 }
 
 size_t sunder_i_inquiry_meetings(sunder_i_inquiry *c, sunder_i_meeting deepest[SUNDER_I_CHOICES])
 {
     size_t n = 0;
-    for (uint32_t i = 0; i < c->bodies; i++)
+    for (uint32_t i = 0; i < c->bodies; i++) {
+        const standing s = stand(c, i);
         for (uint32_t j = i + 1; j < c->bodies; j++) {
-            sunder_i_meeting o = {.depth = SUNDER_I_INQUIRY_TOLERANCE * c->longest};
-            look_at(c, i, j, &o);
-            if (!o.a || (n == SUNDER_I_CHOICES && o.depth <= deepest[n - 1].depth)) continue;
-            size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
-            for (; k > 0 && deepest[k - 1].depth < o.depth; k--) deepest[k] = deepest[k - 1];
-            deepest[k] = o;
+            sunder_i_meeting o = {.depth = 2 * c->hair};
+            const standing r = stand(c, j);
+            look_at(c, &s, &r, &o);
+            n = insert(deepest, n, &o);
         }
+        /* The others stand where they were. */
+        if (!find_near(c, &s)) c->failed = true;
+        for (size_t k = 0; k < c->near.n && !c->failed; k++) {
+            sunder_i_meeting o = {.depth = 2 * c->hair};
+            bool known = false;
+            for (uint32_t j = 0; j < c->bodies && !known; j++) known = c->body[j] == c->near.item[k];
+            if (known) continue;
+            const standing r = {.number = c->near.item[k], .body = &c->town->body[c->near.item[k]]};
+            look_at(c, &s, &r, &o);
+            n = insert(deepest, n, &o);
+        }
+    }
     return n;
 }
 
 static int by_nearness(const void *a, const void *b)
 {
-    const sunder_i_passage *p = a, *q = b;
-    return (p->at < q->at) - (p->at > q->at);
+    const sunder_i_way *p = a, *q = b;
+    if (p->at != q->at) return p->at < q->at ? 1 : -1;
+    return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
-size_t sunder_i_inquiry_passages(sunder_i_inquiry *c, const sunder_i_meeting *o)
+size_t sunder_i_inquiry_ways(sunder_i_inquiry *c, const sunder_i_meeting *o)
 {
-    const double *t = c->program.t;
-    const double u[2] = {t[2 * o->j] - t[2 * o->i], t[2 * o->j + 1] - t[2 * o->i + 1]};
-    double depth;
-    const size_t n = difference(c, o->a, o->b, o->i, o->j), edges = n ? fill_edges(c, n, u, &depth) : 0;
-    if (edges) qsort(c->edge + c->edges, edges, sizeof *c->edge, by_nearness);
-    return edges;
+    const standing s = stand(c, sunder_i_inquiry_place(c, o->p)), r = stand(c, sunder_i_inquiry_place(c, o->q));
+    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance);
+    const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
+    depth_of(c, n, u);
+    if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
+    return n;
 }

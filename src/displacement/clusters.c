@@ -89,6 +89,21 @@ bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body
     return w->members && bsearch(&wanted, w->member, w->members, sizeof wanted, by_member);
 }
 
+const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_t *n)
+{
+    size_t low = 0, high = w->members;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (w->member[middle].root < root)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    while (high < w->members && w->member[high].root == root) high++;
+    *n = high - low;
+    return w->body + low;
+}
+
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some
  * units in the last place of the coordinates; four times as much for each failed check. */
 static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t n)

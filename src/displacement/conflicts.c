@@ -1,4 +1,4 @@
-/* Conflicts as they are reported: what kind, how bad, why they remain and what stands in the way. */
+/* Conflicts as they are reported: what kind, how bad, and why they remain. */
 #include "displacement/peace.h"
 
 #include <math.h>
@@ -175,7 +175,7 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
         *reason = SUNDER_REASON_FIXED;
         return SUNDER_OK;
     }
-    *reason = SUNDER_REASON_NO_ROOM;
+    *reason = SUNDER_REASON_UNRESOLVED;
     if (la + lb == INFINITY) return SUNDER_OK;
     /* Too far for the two limits together? The pair by itself, as it stood, tells. */
     sunder_i_peace peace;
@@ -183,54 +183,6 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
         sunder_i_make_peace(&town->rules, town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
                             nextafter(la + lb, INFINITY), &peace, err);
     if (!status && peace.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
-    return status;
-}
-
-/* Features of other blocks that a or b rests against: within the gap of them, and a hair. */
-static sunder_status find_blockers(const sunder_i_town *town, const sunder_i_scene *scene, const sunder_conflict *c,
-                                   sunder_i_list *blockers, sunder_error *err)
-{
-    const size_t pair[2] = {c->a, c->b};
-    const uint32_t bodies[2] = {town->body_of[c->a], town->body_of[c->b]};
-    sunder_i_list near = {0};
-    sunder_status status = SUNDER_OK;
-    const size_t first = blockers->n;
-    for (int e = 0; e < 2 && !status; e++) {
-        const sunder_i_body *body = &town->body[bodies[e]];
-        if (body->fixed && pair[e] == c->a && town->body[bodies[1]].fixed) continue;
-        for (uint32_t m = 0; m < body->members && !status; m++) {
-            const uint32_t f = town->member[body->member + m];
-            if (!town->present[f]) continue;
-            const double size =
-                hypot(scene->box[4 * f + 2] - scene->box[4 * f], scene->box[4 * f + 3] - scene->box[4 * f + 1]);
-            const double hair = fmax(town->rules.gap, size) * 0x1p-20, reach = town->rules.gap + hair;
-            double box[4];
-            sunder_i_box_grow(scene->box + 4 * (size_t)f, reach, box);
-            near.n = 0;
-            if (!sunder_i_index_query(&scene->tree, box, &near)) status = sunder_i_no_memory(err);
-            for (size_t k = 0; k < near.n && !status; k++) {
-                const uint32_t g = near.item[k], other = town->body_of[g];
-                if (other == bodies[0] || other == bodies[1] || sunder_i_is_kept(town, f, g)) continue;
-                bool known = false, apart;
-                for (size_t i = first; i < blockers->n && !known; i++) known = blockers->item[i] == g;
-                if (known) continue;
-                status = sunder_i_apart(scene->stand[f].shape, scene->stand[f].t, scene->stand[g].shape,
-                                        scene->stand[g].t, reach, &apart, err);
-                if (status || apart) continue;
-                if (!sunder_i_reserve(&blockers->item, &blockers->capacity, blockers->n + 1, sizeof *blockers->item))
-                    status = sunder_i_no_memory(err);
-                else
-                    blockers->item[blockers->n++] = g;
-            }
-        }
-    }
-    sunder_i_free(near.item);
-    for (size_t i = first + 1; !status && i < blockers->n; i++)
-        for (size_t k = i; k > first && blockers->item[k - 1] > blockers->item[k]; k--) {
-            const uint32_t swap = blockers->item[k];
-            blockers->item[k] = blockers->item[k - 1];
-            blockers->item[k - 1] = swap;
-        }
     return status;
 }
 
@@ -276,33 +228,6 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-static sunder_status fill_blockers(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
-                                   sunder_error *err)
-{
-    sunder_i_list blockers = {0};
-    sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < report->conflicts && !status; k++) {
-        sunder_conflict *c = &report->conflict[k];
-        const size_t first = blockers.n;
-        if (!c->inside_block && c->reason != SUNDER_REASON_KEPT) status = find_blockers(town, scene, c, &blockers, err);
-        c->n_blocked_by = blockers.n - first;
-    }
-    if (!status) {
-        report->blocker = sunder_i_alloc(blockers.n, sizeof *report->blocker);
-        if (!report->blocker) status = sunder_i_no_memory(err);
-    }
-    if (!status) {
-        size_t next = 0;
-        for (size_t i = 0; i < blockers.n; i++) report->blocker[i] = blockers.item[i];
-        for (size_t k = 0; k < report->conflicts; k++) {
-            report->conflict[k].blocked_by = report->blocker + next;
-            next += report->conflict[k].n_blocked_by;
-        }
-    }
-    sunder_i_free(blockers.item);
-    return status;
-}
-
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
                                         const sunder_i_relations *relations, bool reasons, sunder_error *err)
 {
@@ -328,6 +253,5 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_to
     describing d = {town, scene, report->conflict, overlap, reasons};
     sunder_status status = sunder_i_parallel(town->rules.threads, n, 8, describe, &d, err);
     sunder_i_free(overlap);
-    if (!status && reasons) status = fill_blockers(report, town, scene, err);
     return status;
 }

@@ -301,7 +301,8 @@ bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, 
  * ------------------------------------------------------------------------------------- */
 
 /* Fills the report's conflicts from the relations as the features stand. start: the relations and scene before anything
- * moved (equal to the others in a check). reasons: fill reason and blocked_by of what remains between blocks. */
+ * moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far as it shows
+ * in the pair by itself. */
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
                                         const sunder_i_relations *relations, bool reasons, sunder_error *err);
 /* Counts what the relations amount to, without listing it. */
@@ -448,7 +449,8 @@ struct sunder_report {
     int64_t *block;                /* [n] */
     sunder_conflict *conflict;
     size_t conflicts;
-    size_t *blocker; /* what all blocked_by point into */
+    size_t *blocker;      /* what all blocked_by point into */
+    sunder_proof **proof; /* [conflicts] NULL: there is none; the array too */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_layer_summary summary;

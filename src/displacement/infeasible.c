@@ -1,14 +1,17 @@
 /* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of the
- * layer's conflicts (certify.c): either it is proved that limits and fixed features leave no room, or there is a
- * solution to go on from, or the question stays open.
- *
- * A conflict in a component in which one pair cannot be parted by itself, or which is proved insoluble, has the reason
- * "no_room"; any other that remains is "unresolved". */
+ * layer's conflicts (certify.c): either it is proved that limits and fixed features leave no room for all of them, or
+ * there is a solution to go on from, or the question stays open. What is said of those that remain is for
+ * verdicts.c. */
 #include "displacement/certify.h"
 #include "displacement/job.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* How long a solution is looked for, in constraints looked at: so many for each body, and at most. */
+#define EFFORT 100000u
+#define MOST_EFFORT 20000000u
 
 /* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
 typedef struct component {
@@ -108,32 +111,21 @@ typedef struct asking {
     const sunder_i_job *job;
     const component *component;
     const bool *asked; /* [components] */
-    sunder_i_verdict *verdict;
-    sunder_i_solution *solution;
+    const sunder_i_held *held;
+    size_t held_n;
+    sunder_i_answer *answer;
 } asking;
-
-static int by_first_root(const void *key, const void *cluster_root)
-{
-    const uint32_t *p = key;
-    const sunder_i_member *q = cluster_root;
-    return *p < q->root ? -1 : *p > q->root;
-}
 
 /* The component's bodies and those that the search found it to hang together with, ascending. */
 static sunder_status gather_bodies(const sunder_i_job *w, const component *c, uint32_t **body, size_t *n,
                                    sunder_error *err)
 {
-    const uint32_t root = sunder_i_union_find(w->parent, c->root);
-    const sunder_i_member *first =
-        w->members ? bsearch(&root, w->member, w->members, sizeof *w->member, by_first_root) : NULL;
-    const sunder_i_member *end = first;
-    while (first && first > w->member && first[-1].root == root) first--;
-    while (end && end < w->member + w->members && end->root == root) end++;
-    const size_t more = first ? (size_t)(end - first) : 0;
+    size_t more;
+    const uint32_t *member = sunder_i_job_members(w, sunder_i_union_find(w->parent, c->root), &more);
     *body = sunder_i_alloc(c->bodies + more, sizeof **body);
     if (!*body) return sunder_i_no_memory(err);
     memcpy(*body, c->body, c->bodies * sizeof **body);
-    for (size_t k = 0; k < more; k++) (*body)[c->bodies + k] = first[k].body;
+    if (more) memcpy(*body + c->bodies, member, more * sizeof **body);
     *n = sunder_i_set_make(*body, c->bodies + more);
     return SUNDER_OK;
 }
@@ -148,8 +140,15 @@ static sunder_status certify_some(void *context, size_t begin, size_t end, sunde
         size_t n = 0;
         if (!g->asked[k]) continue;
         status = gather_bodies(g->job, c, &body, &n, err);
-        if (!status)
-            status = sunder_i_certify(&g->job->town, body, n, c->pair, c->pairs, &g->verdict[k], &g->solution[k], err);
+        const sunder_i_question question = {.town = &g->job->town,
+                                            .body = body,
+                                            .bodies = n,
+                                            .a = SUNDER_I_NOBODY,
+                                            .b = SUNDER_I_NOBODY,
+                                            .held = g->held,
+                                            .held_n = g->held_n,
+                                            .effort = n < MOST_EFFORT / EFFORT ? EFFORT * n : MOST_EFFORT};
+        if (!status) status = sunder_i_certify(&question, &g->answer[k], err);
         sunder_i_free(body);
     }
     return status;
@@ -158,6 +157,19 @@ static sunder_status certify_some(void *context, size_t begin, size_t end, sunde
 static void mark(const components *all, const sunder_i_town *town, uint32_t body, bool *by_root_of)
 {
     if (!town->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
+}
+
+/* What is hopeless is held to the clearance of its truce; ascending, as truces are. */
+static size_t list_held(const sunder_i_town *town, sunder_i_held *held)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < town->truces.n; k++) {
+        const sunder_i_truce *t = &town->truces.item[k];
+        const double shift = hypot(t->shift[0], t->shift[1]);
+        if (!t->hopeless) continue;
+        held[n++] = (sunder_i_held){t->a, t->b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
+    }
+    return n;
 }
 
 /* Components in which a pair was given up. */
@@ -219,56 +231,26 @@ sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_err
     sunder_status status = find_components(w, &all, err);
     if (!status) status = sunder_i_job_gather(w, err);
     bool *asked = sunder_i_calloc(all.n, sizeof *asked);
-    sunder_i_verdict *verdict = sunder_i_calloc(all.n, sizeof *verdict);
-    sunder_i_solution *solution = sunder_i_calloc(all.n, sizeof *solution);
-    if (!status && (!asked || !verdict || !solution)) status = sunder_i_no_memory(err);
+    sunder_i_answer *answer = sunder_i_calloc(all.n, sizeof *answer);
+    sunder_i_held *held = sunder_i_alloc(w->town.truces.n, sizeof *held);
+    if (!status && (!asked || !answer || !held)) status = sunder_i_no_memory(err);
     if (!status) status = ask(w, &all, asked, err);
     if (!status) {
-        asking g = {w, all.component, asked, verdict, solution};
+        asking g = {w, all.component, asked, held, list_held(&w->town, held), answer};
         status = sunder_i_parallel(w->town.rules.threads, all.n, 1, certify_some, &g, err);
     }
     if (!status) memset(w->changed, 0, w->town.features * sizeof *w->changed);
     for (size_t k = 0; k < all.n && !status; k++) {
         unsigned char *standing = &w->standing[all.component[k].root];
-        if (verdict[k] == SUNDER_I_INSOLUBLE) *standing = SUNDER_I_NO_SOLUTION;
-        if (verdict[k] == SUNDER_I_UNKNOWN && asked[k]) *standing = SUNDER_I_LEFT_OPEN;
-        if (verdict[k] != SUNDER_I_SOLVED) continue;
+        if (asked[k] && answer[k].verdict != SUNDER_I_SOLVED) *standing = SUNDER_I_LEFT;
+        if (answer[k].verdict != SUNDER_I_SOLVED) continue;
         *changed = true;
-        if (!go_on_from(w, &all.component[k], &solution[k])) status = sunder_i_no_memory(err);
+        if (!go_on_from(w, &all.component[k], &answer[k].solution)) status = sunder_i_no_memory(err);
     }
-    for (size_t k = 0; k < all.n && solution; k++) sunder_i_solution_clear(&solution[k]);
+    for (size_t k = 0; k < all.n && answer; k++) sunder_i_answer_clear(&answer[k]);
     sunder_i_free(asked);
-    sunder_i_free(verdict);
-    sunder_i_free(solution);
+    sunder_i_free(answer);
+    sunder_i_free(held);
     free_components(&all);
     return !status && *changed ? sunder_i_job_check(w, err) : status;
-}
-
-/* ---- What is said of it ---------------------------------------------------------------------------------------------
- */
-
-sunder_status sunder_i_job_name_reasons(sunder_i_job *w, sunder_error *err)
-{
-    const sunder_i_town *town = &w->town;
-    components all;
-    sunder_status status = find_components(w, &all, err);
-    bool *shown = sunder_i_calloc(town->bodies, sizeof *shown);
-    if (!shown) status = sunder_i_no_memory(err);
-    for (size_t b = 0; b < town->bodies && !status; b++) shown[b] = w->standing[b] == SUNDER_I_NO_SOLUTION;
-    for (size_t k = 0; k < w->report->conflicts && !status; k++) {
-        const sunder_conflict *c = &w->report->conflict[k];
-        if (c->reason != SUNDER_REASON_MAX_SHIFT) continue;
-        mark(&all, town, town->body_of[c->a], shown);
-        mark(&all, town, town->body_of[c->b], shown);
-    }
-    for (size_t k = 0; k < w->report->conflicts && !status; k++) {
-        sunder_conflict *c = &w->report->conflict[k];
-        if (c->reason != SUNDER_REASON_NO_ROOM) continue;
-        const uint32_t i = town->body_of[c->a], j = town->body_of[c->b];
-        if (!shown[sunder_i_union_find(all.parent, i)] && !shown[sunder_i_union_find(all.parent, j)])
-            c->reason = SUNDER_REASON_UNRESOLVED;
-    }
-    sunder_i_free(shown);
-    free_components(&all);
-    return status;
 }

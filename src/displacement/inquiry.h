@@ -1,82 +1,125 @@
 /* The state of an inquiry into a few bodies (certify.c), and its parts: one node's program, its candidate, the
- * branches. */
+ * branches, the record of the proof. */
 #ifndef SUNDER_I_INQUIRY_H
 #define SUNDER_I_INQUIRY_H
 
-#include "displacement/region.h"
+#include "displacement/certify.h"
+#include "displacement/ways.h"
 
+/* No deeper than this. */
+#define SUNDER_I_LEVELS 192
 /* Overlaps of a candidate that are weighed against each other. */
 #define SUNDER_I_CHOICES 8
-/* Overlaps and oversteps of no more than this share of the longest limit are left to the search; programs ask for as
- * much beyond the regions, so that their softness does not show in a candidate. */
-#define SUNDER_I_INQUIRY_TOLERANCE 1e-5
 
-/* Two bodies that came into each other's way. */
-typedef struct sunder_i_duo {
-    uint32_t i, j; /* places in sunder_i_inquiry.body */
-    sunder_i_obstruction obstruction;
-    sunder_i_region region;
-} sunder_i_duo;
+/* A set of levels. */
+typedef struct sunder_i_levels {
+    uint64_t bit[SUNDER_I_LEVELS / 64];
+} sunder_i_levels;
 
-/* A line that an obstacle may be passed by. */
-typedef struct sunder_i_passage {
-    double n[2], h; /* places beyond it have n.u >= h */
-    double at;      /* n.u - h of the candidate */
-} sunder_i_passage;
+/* What a branch of the tree says: that a pair is beyond a line, or behind it. */
+typedef struct sunder_i_claim {
+    uint32_t i, j;  /* places in sunder_i_inquiry.body */
+    double n[2], d; /* n.(t_j - t_i) >= d */
+    double force;   /* in the last program */
+    size_t node, way;
+    bool behind;
+    unsigned level; /* of the branch that says so */
+} sunder_i_claim;
 
-/* One choice: by which line a pair passes an obstacle. */
-typedef struct sunder_i_branch {
-    size_t pair;
-    sunder_i_region whole; /* the pair's region before */
-    sunder_i_region rest;  /* ... less what earlier lines let pass */
-    size_t edge, edges, next;
-} sunder_i_branch;
+/* A tangent of a body's limit. */
+typedef struct sunder_i_tangent {
+    uint32_t body;
+    double n[2], force;
+} sunder_i_tangent;
+
+/* A node of the tree, as of sunder_proof_node; its parts are pieces of the town. */
+typedef struct sunder_i_node {
+    uint32_t a, b; /* features */
+    const sunder_i_piece *part_a, *part_b;
+    double clearance;
+    size_t way, ways, force, forces;
+} sunder_i_node;
 
 typedef struct sunder_i_inquiry {
+    const sunder_i_question *question;
     const sunder_i_town *town;
-    uint32_t *body; /* ascending */
+    /* Those that take part so far, in the order in which they came in. */
+    uint32_t *body;
+    double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
     size_t bodies;
-    double *limit, *mass, *net; /* [bodies], [bodies], [2 * bodies] */
-    double longest;             /* limit */
-    sunder_i_duo *pair;
-    size_t pairs, pair_capacity;
-    sunder_i_branch *stack;
-    size_t depth, stack_capacity;
-    sunder_i_passage *edge; /* of all branches on the stack */
-    size_t edges, edge_capacity;
+    size_t body_capacity, limit_capacity, mass_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
+    double longest;  /* limit */
+    double hair;     /* a length far below the limits, and far above rounding */
+    uint64_t looked; /* work done besides the programs' */
+    sunder_i_claim *step;
+    size_t steps, step_capacity;
+    sunder_i_tangent *tangent;
+    size_t tangents, tangent_capacity;
     sunder_i_quadratic program;
-    sunder_i_scratch scratch;
+    /* The record. */
+    sunder_i_node *node;
+    size_t nodes, node_capacity;
+    sunder_i_way *way;
+    size_t ways, way_capacity;
+    sunder_proof_force *force;
+    size_t forces, force_capacity;
+    sunder_i_way *scratch;
+    size_t scratch_capacity;
+    sunder_i_list near;
+    bool failed; /* memory is out */
 } sunder_i_inquiry;
 
-/* ---- certificate.c ---- */
+/* ---- participants.c ---- */
 
-/* Solves the program of this node. *shown: it is void; else the program's solution is a candidate. */
-sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *inquiry, uint64_t most_work, bool *shown, sunder_error *err);
+/* The place of a body among those that take part; it is taken in if it was not there. */
+uint32_t sunder_i_inquiry_place(sunder_i_inquiry *inquiry, uint32_t body);
+/* Takes in those of the reserve that could meet one that takes part; false if there are none. */
+bool sunder_i_inquiry_widen(sunder_i_inquiry *inquiry);
+/* What features f and g of two bodies owe each other; false if nothing. */
+bool sunder_i_inquiry_owe(const sunder_i_inquiry *inquiry, uint32_t f, uint32_t g, double *clearance);
+
+/* ---- program.c ---- */
+
+typedef enum sunder_i_outcome {
+    SUNDER_I_VOID,      /* what the steps say contradicts the limits, proved by their forces */
+    SUNDER_I_CANDIDATE, /* t is as the steps say, up to a hair */
+    SUNDER_I_UNDECIDED  /* too near to call */
+} sunder_i_outcome;
+
+sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *inquiry, sunder_i_outcome *outcome, sunder_error *err);
+/* Is the last step alone more than the limits allow? Then the forces are set to say so. */
+bool sunder_i_inquiry_is_dead(sunder_i_inquiry *inquiry);
 
 /* ---- candidate.c ---- */
 
-/* Two convex pieces that the candidate has in each other. */
+/* Two convex pieces that the candidate has nearer than they owe. */
 typedef struct sunder_i_meeting {
-    uint32_t i, j;
-    double depth;
+    uint32_t p, q; /* bodies; p takes part */
     const sunder_i_piece *a, *b;
+    double clearance, depth;
 } sunder_i_meeting;
 
-/* Could members of the two get to where they have leave to overlap? */
-bool sunder_i_inquiry_may_overlap(const sunder_i_inquiry *inquiry, uint32_t i, uint32_t j);
-/* The deepest overlaps of the candidate, one of each pair, deepest first; returns how many. */
+/* The deepest of the candidate's, one of each pair of bodies, deepest first; returns how many. */
 size_t sunder_i_inquiry_meetings(sunder_i_inquiry *inquiry, sunder_i_meeting deepest[SUNDER_I_CHOICES]);
-/* The lines that the two pieces' difference can be passed by, the one nearest to the candidate first: into
- * inquiry->edge, from inquiry->edges on. Returns how many, 0 if memory is out. */
-size_t sunder_i_inquiry_passages(sunder_i_inquiry *inquiry, const sunder_i_meeting *meeting);
+/* The ways out of one, nearest to the candidate first: into inquiry->scratch. Returns how many. */
+size_t sunder_i_inquiry_ways(sunder_i_inquiry *inquiry, const sunder_i_meeting *meeting);
 
 /* ---- branches.c ---- */
 
-sunder_status sunder_i_inquiry_add_pair(sunder_i_inquiry *inquiry, uint32_t i, uint32_t j, sunder_error *err);
-/* Opens a choice between the ways out of one of the n meetings: the one that has the fewest. */
-sunder_status sunder_i_inquiry_open(sunder_i_inquiry *inquiry, const sunder_i_meeting *deepest, size_t n,
-                                    sunder_error *err);
-/* Goes on to the next way that is open; false where all are done. */
-bool sunder_i_inquiry_next(sunder_i_inquiry *inquiry);
+/* Goes through the branches below the steps as they are. levels: of those that the proof needs; *root: its node. */
+sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, unsigned level, sunder_i_verdict *verdict,
+                                      sunder_i_levels *levels, size_t *root, sunder_error *err);
+
+/* ---- proof.c ---- */
+
+/* The part of the record below a node, by itself. NULL if memory is out. */
+sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *inquiry, size_t root);
+
+/* Work done so far, and whether it is all that was allowed. */
+static inline uint64_t sunder_i_inquiry_work(const sunder_i_inquiry *c) { return c->looked + c->program.work; }
+static inline bool sunder_i_inquiry_is_over(const sunder_i_inquiry *c)
+{
+    return sunder_i_inquiry_work(c) > c->question->effort;
+}
 
 #endif

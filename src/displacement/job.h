@@ -11,8 +11,7 @@ typedef struct sunder_i_member {
 /* What is known of a component of the layer's conflicts. */
 typedef enum sunder_i_standing {
     SUNDER_I_UNASKED,
-    SUNDER_I_LEFT_OPEN, /* neither proof nor solution was found with the effort allowed */
-    SUNDER_I_NO_SOLUTION
+    SUNDER_I_LEFT /* asked about, and no solution was found */
 } sunder_i_standing;
 
 /* Features a and b, of which the one is to get inside the other: a move of b that brings them there. */
@@ -57,6 +56,8 @@ uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x);
 bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
 bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body);
+/* The members of the cluster of that root, ascending; none if it is no cluster's. */
+const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_t *n);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err);
 
@@ -119,7 +120,15 @@ sunder_status sunder_i_job_bound(sunder_i_job *w, sunder_error *err);
 
 /* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
 sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_error *err);
-/* Tells what cannot be resolved from what was not: the report's reasons "no_room" and "unresolved". */
-sunder_status sunder_i_job_name_reasons(sunder_i_job *w, sunder_error *err);
+
+/* ---- verdicts.c ---- */
+
+/* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
+sunder_status sunder_i_job_prove(sunder_i_job *w, sunder_error *err);
+
+/* ---- blockers.c ---- */
+
+/* Fills the conflicts' blocked_by. */
+sunder_status sunder_i_job_name_blockers(sunder_i_job *w, sunder_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* The report: what was done, feature by feature, and what remains. */
-#include "displacement/displacement.h"
+#include "displacement/certify.h"
 
 #include <string.h>
 
@@ -45,6 +45,8 @@ void sunder_report_free(sunder_report *r)
     sunder_i_free(r->block);
     sunder_i_free(r->conflict);
     sunder_i_free(r->blocker);
+    for (size_t k = 0; r->proof && k < r->conflicts; k++) sunder_i_proof_free(r->proof[k]);
+    sunder_i_free(r->proof);
     sunder_i_free(r->bound_pair);
     sunder_i_free(r);
 }
@@ -99,4 +101,9 @@ const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, 
 {
     *n = report->bound_pairs;
     return report->bound_pair;
+}
+
+const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)
+{
+    return report->proof && k < report->conflicts ? report->proof[k] : NULL;
 }

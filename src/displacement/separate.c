@@ -120,7 +120,8 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     sunder_i_count_relations(&w->town, &w->now, &report->summary.after);
     status = sunder_i_report_conflicts(report, &w->town, &w->scene, &w->now, true, err);
     if (!status) status = sunder_i_job_bound(w, err);
-    if (!status) status = sunder_i_job_name_reasons(w, err);
+    if (!status) status = sunder_i_job_prove(w, err);
+    if (!status) status = sunder_i_job_name_blockers(w, err);
     if (!status) status = sunder_i_job_is_upheld(w, &report->summary.verified, err);
     if (status) return status;
     fill_moves(w);

@@ -1,0 +1,30 @@
+/* By which lines a convex part of one feature may pass a convex part of another. */
+#ifndef SUNDER_I_WAYS_H
+#define SUNDER_I_WAYS_H
+
+#include <stddef.h>
+
+/* Two convex polygons, counter-clockwise, each relative to an origin, and what they owe each other: to be `clearance`
+ * apart or, if that is negative, to need a translation of no more than -clearance to be so with none. */
+typedef struct sunder_i_parting {
+    const double *a, *b;
+    size_t na, nb;
+    double offset[2]; /* the origin of B less that of A */
+    double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
+    double clearance;
+} sunder_i_parting;
+
+/* A half-plane of relative moves u of B. */
+typedef struct sunder_i_way {
+    double n[2], d; /* n.u >= d; n of length 1 within 2^-51 */
+    double at;      /* n.u - d where it matters */
+    size_t next;    /* in a proof: the node for this case */
+} sunder_i_way;
+
+#define SUNDER_I_WAYS_A_CORNER 5
+
+/* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for
+ * SUNDER_I_WAYS_A_CORNER (na + nb) of them. Returns how many; 0 where rounding hides the parts' own interior. */
+size_t sunder_i_ways_between(const sunder_i_parting *parting, sunder_i_way *out);
+
+#endif
