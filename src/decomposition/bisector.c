@@ -24,6 +24,7 @@
  * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
 #include "decomposition/maker.h"
 #include "number/sort.h"
+#include "number/watch.h"
 
 #include <math.h>
 #include <string.h>
@@ -205,10 +206,12 @@ static bool find_pairs(bisector *b)
     const uint32_t first = b->part->first;
     for (uint32_t v = first; v < first + b->part->n; v++) {
         sector s, t;
+        if (!sunder_i_step()) return false;
         if (!b->reflex[v - first] || !reflex_part(b, v, &s)) continue;
         if (!look_in_cone(b, v, &s)) return false;
         for (uint32_t i = 0; i < b->sight.seen_n; i++) {
             const uint32_t w = b->sight.seen[i];
+            if (!sunder_i_step()) return false;
             if (w < v || !b->reflex[w - first] || !resolves(l, &s, to_vertex(b, v, w))) continue;
             if (!reflex_part(b, w, &t) || !resolves(l, &t, to_vertex(b, w, v))) continue;
             if (!sunder_i_reserve(&b->pair, &b->pair_room, (size_t)b->pairs + 1, sizeof *b->pair)) return false;

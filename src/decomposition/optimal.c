@@ -30,6 +30,8 @@
  * n) at worst and far less as a rule; memory O(r n). */
 #include "decomposition/maker.h"
 
+#include "number/watch.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -306,6 +308,10 @@ static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
             p->tail[u] = head == SUNDER_I_NONE ? alone : tail;
         }
         uint32_t c = p->head[u], n = 0;
+        if (!sunder_i_steps(1 + (p->up_first[u + 1] - p->up_first[u]) / 4)) {
+            p->m->scratch.failed = true;
+            return SUNDER_I_NONE;
+        }
         for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1] && p->up[e] <= last; e++) {
             for (; c != SUNDER_I_NONE && p->chain[c].from < p->allowed[e]; c = p->chain[c].next) n = front_add(p, n, c);
             if (!extend(p, i, u, e, n)) return SUNDER_I_NONE;

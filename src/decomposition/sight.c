@@ -8,6 +8,8 @@
  * through several windows. */
 #include "decomposition/maker.h"
 
+#include "number/watch.h"
+
 #include <string.h>
 
 /* Through half-edge h (its origin on the right) one sees what lies between the vertices right and left. */
@@ -118,6 +120,6 @@ bool sunder_i_sight_look(sunder_i_sight *s, uint32_t v, const sunder_i_point *co
     }
     if (!see(s, s->r->prev[v])) return false;
     while (depth && !s->r->lattice->arena.failed)
-        if (!look_through(s, &depth, v, cone, s->stack[--depth])) return false;
+        if (!sunder_i_step() || !look_through(s, &depth, v, cone, s->stack[--depth])) return false;
     return !s->r->lattice->arena.failed;
 }

@@ -1,6 +1,8 @@
 /* Conflicts as they are reported: what kind, how bad, and why they remain. */
 #include "displacement/peace.h"
 
+#include "number/watch.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -114,7 +116,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     }
     for (uint32_t j = 0; j < b->pieces; j++) {
         const size_t sides = corners_of(b, j, origin, c);
-        for (uint32_t i = 0; i < a->pieces; i++) {
+        for (uint32_t i = 0; i < a->pieces && sunder_i_steps(4); i++) {
             size_t n = corners_of(a, i, origin, p);
             for (size_t k = 0; k < sides && n; k++) {
                 n = clip(p, n, c + 2 * k, c + 2 * (k + 1 < sides ? k + 1 : 0), q);
@@ -137,7 +139,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     sunder_i_free(p);
     sunder_i_free(q);
     sunder_i_free(c);
-    return SUNDER_OK;
+    return sunder_i_stopped() ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
 static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,

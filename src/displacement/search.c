@@ -1,6 +1,8 @@
 /* One cluster as the search sees it: which bodies stand near each other, which clash, and by how much. */
 #include "displacement/search.h"
 
+#include "number/watch.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -164,6 +166,7 @@ void sunder_i_search_visit(sunder_i_search *s, const sunder_i_piece *from, uint3
         const sunder_i_piece *a = &from[k];
         const double box[4] = {a->box[0] - v[0] - reach, a->box[1] - v[1] - reach, a->box[2] - v[0] + reach,
                                a->box[3] - v[1] + reach};
+        if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
         if (!sunder_i_box_meet(box, other->box)) continue;
         for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
             const sunder_i_piece *b = &town->piece[l];
@@ -211,7 +214,7 @@ size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_part *part, d
     const size_t n =
         sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
                             corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
-    if (n == 0) s->failed = true;
+    if (n == 0 || !sunder_i_steps(1 + n / 8)) s->failed = true;
     s->steps++;
     if (part->truce) {
         *gap = fmin(s->gap, sunder_i_search_shift(part->truce, part->b->feature, s->scratch.xy, n));

@@ -1,5 +1,7 @@
 #include "minkowski/cells_inner.h"
 
+#include "number/watch.h"
+
 #include <string.h>
 
 /* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than
@@ -350,6 +352,10 @@ static void split(builder *b, const cell *c)
     const double hy = most_of(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
     size_t from = c->run_from;
     for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
+        if ((i & 31) == 0 && !sunder_i_steps(32)) {
+            b->no_memory = true;
+            return;
+        }
         if (!keep_whole(b, h, b->runs + from, &b->entries[i]))
             filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
         from += b->entries[i].runs;

@@ -1,6 +1,7 @@
 /* The beginning: sides as doubles, and the lists of the root cell. */
 #include "minkowski/cells_inner.h"
 #include "number/sort.h"
+#include "number/watch.h"
 #include "predicate/predicate.h"
 
 /* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block
@@ -36,6 +37,7 @@ static bool approximate(builder *b, box *all)
     const bool narrow = l->narrow;
     for (size_t i = 0; i < s->n; i++) {
         const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
+        if (!sunder_i_step()) return false;
         box own = nothing;
         for (uint32_t k = first; k < end; k++) {
             const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
@@ -124,7 +126,10 @@ static bool list_all(builder *b, const box *all, cell *root)
         extent[i] = extent_of(b, i);
     }
     ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
-    for (size_t i = 0; ok && i < s->n; i++) add_runs(b, order[i]);
+    for (size_t i = 0; ok && i < s->n; i++) {
+        add_runs(b, order[i]);
+        ok = sunder_i_step();
+    }
     *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);

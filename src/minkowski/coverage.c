@@ -1,6 +1,7 @@
 #include "minkowski/coverage.h"
 
 #include "number/sort.h"
+#include "number/watch.h"
 #include "predicate/kernel.h"
 
 #include <string.h>
@@ -219,8 +220,10 @@ static void sweep(finder *f, uint32_t number)
 static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)
 {
     f->events_n = 0;
-    for (size_t i = 0; i < n && !f->no_memory; i++)
+    for (size_t i = 0; i < n && !f->no_memory; i++) {
+        if (!sunder_i_step()) f->no_memory = true;
         if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
+    }
     if (!sunder_i_reserve(&f->order, &f->order_capacity, f->events_n, sizeof *f->order)) f->no_memory = true;
     if (f->no_memory) return;
     for (uint32_t i = 0; i < f->events_n; i++) f->order[i] = i;
@@ -296,7 +299,7 @@ static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
         size_t j = i;
         while (j < pairing->n && pairing->pair[j] >> 32 == number) j++;
         sweep_line(f, number, pairing->pair + i, j - i);
-        ok = !f->no_memory;
+        ok = !f->no_memory && sunder_i_step();
         i = j;
     }
     for (size_t i = 0; ok && pairing->whole && i < f->subsums->n; i++) {

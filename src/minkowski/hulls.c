@@ -179,9 +179,9 @@ bool sunder_i_hulls_sum(sunder_i_lattice *lattice, const sunder_i_hulls *a, cons
     if (m && n && (m > UINT32_MAX / 2 / n || (size_t)a->corners * n + (size_t)b->corners * m > UINT32_MAX / 2))
         return sunder_i_too_many();
     if (!sunder_i_hulls_init(out, m * n, a->corners * n + b->corners * m)) return false;
-    for (uint32_t i = 0; i < m; i++)
+    for (uint32_t i = 0; i < m && sunder_i_steps(n); i++)
         for (uint32_t j = 0; j < n; j++) merge(lattice, a, i, b, j, out);
-    if (!lattice->arena.failed) return true;
+    if (!lattice->arena.failed && !sunder_i_stopped()) return true;
     sunder_i_hulls_free(out);
     return false;
 }

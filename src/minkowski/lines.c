@@ -1,5 +1,6 @@
 #include "minkowski/lines.h"
 
+#include "number/watch.h"
 #include "predicate/kernel.h"
 #include "predicate/vector.h"
 
@@ -111,9 +112,11 @@ sunder_status sunder_i_lines_group(const sunder_i_subsums *subsums, sunder_i_lin
     table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
     out->line = sunder_i_alloc(n, sizeof *out->line);
     out->of = sunder_i_alloc(subsums->sides, sizeof *out->of);
-    const bool ok = t.slot && t.keys && out->line && out->of;
-    for (uint32_t k = 0; ok && k < subsums->sides; k++)
+    bool ok = t.slot && t.keys && out->line && out->of;
+    for (uint32_t k = 0; ok && k < subsums->sides; k++) {
+        ok = sunder_i_step();
         out->of[k] = subsums->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
+    }
     sunder_i_free(t.slot);
     sunder_i_free(t.keys);
     if (ok && !subsums->lattice->arena.failed) return SUNDER_OK;

@@ -188,11 +188,13 @@ static bool merge_all(sunder_i_subsums *out, const operand *p, const operand *q)
     out->candidate = sunder_i_alloc(most, sizeof *out->candidate);
     if (!out->end || !out->corner || !out->rank || !out->candidate) return false;
     uint32_t at = 0;
-    for (uint32_t i = 0; i < m; i++)
+    for (uint32_t i = 0; i < m; i++) {
+        if (!sunder_i_steps(n)) return false;
         for (uint32_t j = 0; j < n; j++) {
             at += merge_pieces(out, at, p, i, q, j);
             out->end[out->n++] = at;
         }
+    }
     out->sides = at;
     return !out->lattice->arena.failed;
 }

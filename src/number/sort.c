@@ -1,5 +1,7 @@
 #include "number/sort.h"
 
+#include "number/watch.h"
+
 #include <string.h>
 
 #define RUN 8 /* insertion sort below this: measured fastest between 6 and 12 */
@@ -35,6 +37,10 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
         for (size_t left = 0; left < n; left += 2 * width) {
             const size_t middle = left + width < n ? left + width : n;
             const size_t right = left + 2 * width < n ? left + 2 * width : n;
+            if (!sunder_i_steps((right - left) / 8 + 1)) {
+                sunder_i_free(scratch);
+                return false;
+            }
             merge(from, to, left, middle, right, compare, context);
         }
         uint32_t *t = from;
@@ -65,6 +71,7 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
         uint64_t *t = from;
         from = to;
         to = t;
+        sunder_i_steps(n / 32);
     }
     if (from != key) memcpy(key, from, n * sizeof *key);
     sunder_i_free(scratch);

@@ -18,10 +18,12 @@
 
 #include "sunder.h"
 
+#include "number/watch.h"
+
 #include <pthread.h>
 #include <stdatomic.h>
 
-#define SUNDER_I_STEPS 1024
+#define SUNDER_I_STEPS 256
 
 typedef struct sunder_i_watch {
     sunder_progress progress; /* called by one thread at a time, which has the lock ... */

@@ -9,6 +9,8 @@
  * 0 towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should. */
 #include "planar_map/map.h"
 
+#include "number/watch.h"
+
 void sunder_i_map_settle_edge(sunder_i_planar_map *map, uint32_t e)
 {
     sunder_i_map_edge *edge = &map->edge[e];
@@ -27,7 +29,7 @@ bool sunder_i_map_remove_covered(sunder_i_planar_map *map)
     for (size_t i = 0; i < map->edges_inside.n; i++) {
         const uint32_t e = map->edges_inside.item[i];
         map->edge[e].sides[0] = map->edge[e].sides[1] = 0; /* so that the face that they leave is covered */
-        if (!sunder_i_edge_remove(map, e)) return false;
+        if (!sunder_i_step() || !sunder_i_edge_remove(map, e)) return false;
     }
     for (size_t i = 0; i < map->vertices_inside.n; i++) sunder_i_edge_drop_vertex(map, map->vertices_inside.item[i]);
     return true;
@@ -49,8 +51,8 @@ static bool list_covered(sunder_i_planar_map *map)
 {
     map->edges_inside.n = map->vertices_inside.n = 0;
     for (uint32_t e = 0; e < map->edges; e++)
-        if (map->edge[e].end[0] != NOWHERE && sunder_i_planar_map_edge_covered(map, e) > 0 &&
-            !sunder_i_map_push(map, &map->edges_inside, e))
+        if (!sunder_i_step() || (map->edge[e].end[0] != NOWHERE && sunder_i_planar_map_edge_covered(map, e) > 0 &&
+                                 !sunder_i_map_push(map, &map->edges_inside, e)))
             return false;
     for (uint32_t v = 0; v < map->vertices; v++)
         if (map->vertex[v].alive && sunder_i_planar_map_vertex_covered(map, v) > 0 &&
@@ -61,9 +63,9 @@ static bool list_covered(sunder_i_planar_map *map)
 
 static void settle_all(sunder_i_planar_map *map)
 {
-    for (uint32_t e = 0; e < map->edges; e++)
+    for (uint32_t e = 0; e < map->edges && sunder_i_step(); e++)
         if (map->edge[e].end[0] != NOWHERE) sunder_i_map_settle_edge(map, e);
-    for (uint32_t v = 0; v < map->vertices; v++)
+    for (uint32_t v = 0; v < map->vertices && sunder_i_step(); v++)
         if (map->vertex[v].alive) sunder_i_map_settle_vertex(map, v);
 }
 
@@ -97,7 +99,10 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
         return sunder_i_no_memory(err);
     }
     for (uint32_t v = 0; v < map->vertices; v++)
-        if (map->vertex[v].alive && sunder_i_planar_map_mergeable(map, v)) sunder_i_edge_merge(map, v);
+        if (!sunder_i_step())
+            map->failed = true;
+        else if (map->vertex[v].alive && sunder_i_planar_map_mergeable(map, v))
+            sunder_i_edge_merge(map, v);
     return sunder_i_map_status(map, err);
 }
 

@@ -3,6 +3,8 @@
  * trapezoids along one side of it are neighbours across walls. */
 #include "planar_map/map.h"
 
+#include "number/watch.h"
+
 size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t stop, uint32_t to[6], int64_t step[6])
 {
     const sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -36,6 +38,7 @@ sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *e
     if (!sunder_i_map_push(map, &map->stack, outermost)) return sunder_i_no_memory(err);
     while (map->stack.n) {
         const uint32_t t = map->stack.item[--map->stack.n];
+        if (!sunder_i_step()) return sunder_i_no_memory(err);
         uint32_t to[6];
         int64_t step[6];
         const size_t n = sunder_i_map_around(map, t, 0, to, step);

@@ -6,6 +6,7 @@
  * A vertex where rings touch, or a ring itself, does not see its true cone through its own ring: it is taken with every
  * edge. Diagonals of the decomposition lie inside an operand, so what they would carry is covered. */
 #include "separation/candidates.h"
+#include "number/watch.h"
 #include "separation/held.h"
 
 #include <math.h>
@@ -25,6 +26,7 @@ static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], x = xy[2 * v], y = xy[2 * v + 1], e = 2 * g->error;
+    sunder_i_steps((last - first) / 16);
     for (uint32_t a = first; a < last; a++) {
         const uint32_t b = s->next[a];
         const double ax = xy[2 * a], ay = xy[2 * a + 1], bx = xy[2 * b], by = xy[2 * b + 1];
@@ -60,6 +62,7 @@ static bool find_corners(sunder_i_pairing *g, int side, corners *c)
     for (uint32_t p = 0, v = 0; p < s->polygons; p++) {
         const uint32_t first = v, last = s->ring_end[s->poly_end[p] - 1];
         for (; v < last; v++) {
+            if (!sunder_i_step()) return false;
             const double *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
             double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
             const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
@@ -125,6 +128,7 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
     if (!met) return false;
     for (uint32_t e = 0; e < s->vertices; e++) {
         const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
+        if (!sunder_i_step()) return false;
         if (many && out_of_reach(a, b, g->box[!side], reach)) continue;
         const double dx = b[0] - a[0], dy = b[1] - a[1];
         const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
@@ -134,6 +138,7 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
             n += (uint32_t)((c->in_x[k] * dy - c->in_y[k] * dx >= bound) &
                             (dx * c->out_y[k] - dy * c->out_x[k] >= bound));
         }
+        if (!sunder_i_steps(c->n / 32 + n)) return false;
         if (n == 0) continue;
         const double inverse = 1 / (dx * dx + dy * dy);
         for (uint32_t m = 0; m < n; m++) {

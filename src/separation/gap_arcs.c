@@ -66,6 +66,9 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t i)
     p.y = length > 0 ? y - s->gap * (y / length) : 0;
     if (sunder_i_gap_cover(s, p.x, p.y, p.error) < 0)
         sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - p.error, &p);
-    for (size_t k = 0; k < s->arcs_n && !s->failed; k++) cross_arcs(s, s->arcs[k], i);
+    for (size_t k = 0; k < s->arcs_n && !s->failed; k++) {
+        s->failed = !sunder_i_step();
+        cross_arcs(s, s->arcs[k], i);
+    }
     s->arcs[s->arcs_n++] = i;
 }

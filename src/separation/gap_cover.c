@@ -145,6 +145,7 @@ long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
 {
     const size_t n = s->g->subsums;
+    s->failed = s->failed || !sunder_i_steps(n / 4);
     for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0) {
         if (!sunder_i_gap_near_box(s, k, x, y, 0)) continue;
         const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);

@@ -131,6 +131,7 @@ static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t
 static long too_near(sunder_i_gap_state *s, const question *q, sunder_i_gap_contact *contact, size_t *contacts)
 {
     if (contacts) *contacts = 0;
+    s->failed = s->failed || !sunder_i_steps(s->g->subsums / 4);
     for (size_t n = s->g->subsums, i = 0, of = s->hint; i < n && !s->failed; i++, of = of + 1 < n ? of + 1 : 0) {
         if (!sunder_i_gap_near_box(s, of, q->x, q->y, s->gap + q->doubt)) continue;
         uint32_t k = 0;

@@ -93,12 +93,14 @@ static void fill_heap(sunder_i_gap_state *s)
     const double far = s->best;
     for (size_t i = 0; i < s->p->segments && !s->failed; i++) {
         const double key = side_key(s, i);
+        s->failed = s->failed || !sunder_i_step();
         if (!(key > far)) push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_SEGMENT, i});
     }
     for (size_t i = 0; i < s->p->centers && !s->failed; i++) {
         const sunder_i_lattice *l = &s->g->placed.lattice;
         const double x = sunder_i_approx(l, s->p->center[i].x), y = sunder_i_approx(l, s->p->center[i].y);
         const double key = fabs(hypot(x, y) - s->p->gap_units) - 8 * s->g->error;
+        s->failed = s->failed || !sunder_i_step();
         push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_ARC, i});
     }
 }

@@ -164,6 +164,7 @@ static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool
 {
     const double x = m->ax + t * m->dx, y = m->ay + t * m->dy;
     long best = -1;
+    s->failed = s->failed || !sunder_i_steps(s->g->subsums / 4);
     for (size_t k = 0; k < s->g->subsums && !s->failed; k++) {
         if (!sunder_i_gap_covers(s, k, x, y, 0)) continue;
         const way_out w = leave(s, m, k, forwards);

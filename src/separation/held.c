@@ -87,6 +87,7 @@ static bool settle(board *b, const part *parent, part p, uint32_t *start)
     part_box(b->h, &p, box);
     const size_t most = b->near_n + (parent->to - parent->from);
     if (!sunder_i_reserve(&b->near, &b->near_capacity, most, sizeof *b->near)) return false;
+    if (!sunder_i_steps((parent->to - parent->from) / 8 + 1)) return false;
     p.from = b->near_n;
     uint32_t tries = 0;
     for (size_t i = parent->from; i < parent->to; i++) {

@@ -3,6 +3,7 @@
 #include "separation/pairing.h"
 
 #include "number/sort.h"
+#include "number/watch.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,14 +52,15 @@ bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
     size_t room = (size_t)m * n, count[3] = {0, 0, 0};
     const bool many = room > 64;
     if (many) {
-        for (uint32_t i = 0; i < m; i++)
+        for (uint32_t i = 0; i < m && sunder_i_steps(n / 8 + 1); i++)
             for (uint32_t j = 0; j < n; j++) count[nearness(g, i, j, reach, box)]++;
         room = count[1] + count[2];
     }
     g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, room + 1, sizeof *g->subsum);
     if (!g->subsum) return false;
     size_t near = 0, all = 0; /* those that may cover the origin come first */
-    for (uint32_t i = 0; i < m; i++)
+    for (uint32_t i = 0; i < m; i++) {
+        if (!sunder_i_steps(n / 8 + 1)) return false;
         for (uint32_t j = 0; j < n; j++) {
             const int how = nearness(g, i, j, reach, box);
             if (how == 0) continue;
@@ -72,6 +74,7 @@ bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
             s->sides = 0;
             memcpy(s->box, box, sizeof box);
         }
+    }
     g->subsums = all;
     return !many || sort_by_size(g);
 }

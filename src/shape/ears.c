@@ -21,6 +21,8 @@
  * candidates too. */
 #include "shape/ears.h"
 
+#include "number/watch.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -217,6 +219,10 @@ static void cut_all(cutter *c)
         c->round++;
         for (uint32_t i = 0; i < n; i++) {
             const uint32_t node = now[i];
+            if (!sunder_i_steps(4)) {
+                c->r->lattice->arena.failed = true;
+                return;
+            }
             if (left > 3 && c->stamp[node] != c->round && is_ear(c, node)) {
                 last = c->walk->prev[node];
                 cut(c, node);
