@@ -9,6 +9,7 @@
  * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/displacement.h"
 
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -178,6 +179,7 @@ static void offer(harvest *h, const double x[2])
 {
     const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
     if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
+    if (!sunder_i_steps(1 + h->obstacles->n / 16)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
     if (!free_at(h->obstacles, x, h->order)) return;
@@ -246,6 +248,7 @@ static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
     size_t bare = 0;
     for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
         double x[2];
+        if (!sunder_i_steps(1 + h->obstacles->n / 16)) return;
         if (is_covered(h, &sorted[k])) continue;
         nearest_on(&sorted[k], h->target, x);
         offer(h, x);
@@ -281,6 +284,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
             if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
             search(&h, sorted, walls);
         }
+        *failed = *failed || sunder_i_stopped();
     }
     sunder_i_free(order);
     sunder_i_free(sorted);
