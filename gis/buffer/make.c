@@ -59,6 +59,7 @@ static void *work(void *argument)
 {
     making *m = argument;
     gis_error error;
+    gis_watch();
     const sunder_sum_options how = {.progress = tell_inside,
                                     .progress_user = m,
                                     .threads = m->buffer->sets == 1 ? m->threads : 1};

@@ -1,6 +1,8 @@
 /* progress.c: see progress.h. */
 #include "options/progress.h"
 
+#include "sunder.h"
+
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -22,6 +24,18 @@ void gis_catch_signals(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    gis_watch();
+}
+
+static bool go_on(void *user)
+{
+    (void)user;
+    return !gis_interrupted();
+}
+
+void gis_watch(void)
+{
+    sunder_watch(go_on, NULL);
 }
 
 bool gis_interrupted(void)
