@@ -103,9 +103,10 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gi
     const char *column = OGR_L_GetGeometryColumn(layer);
     if (!column || !column[0])
         return true;
+    if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create tables and indexes that it had put off */
+        return false;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = CPLStrdup(CPLSPrintf("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal));
-    CPLFree(gis_sql_ask(dataset, "SELECT 1")); /* any SQL makes GDAL create tables and indexes that it had put off */
     boxes->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
