@@ -206,7 +206,8 @@ static void try_disjoint(sunder_i_search *s, const suit *x, double *stand)
         const uint32_t i = town->body_of[t.a], j = town->body_of[t.b];
         if ((i < j ? i : j) != x->body.a || (i < j ? j : i) != x->body.b || (t.shift[0] == 0 && t.shift[1] == 0))
             continue;
-        t.shift[0] = t.shift[1] = t.gap = 0;
+        t.shift[0] = t.shift[1] = 0;
+        t.gap = s->gap - town->rules.gap; /* so that no rounding makes them overlap again */
         if (!sunder_i_truces_add(&s->truces, &t)) s->failed = true;
     }
     if (s->failed || !sunder_i_truces_index(&s->truces, town)) {
