@@ -39,6 +39,36 @@ static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint
     return false;
 }
 
+static inline bool look_at_corner(const sunder_i_pairing *g, int side, uint32_t v, uint32_t first, uint32_t last,
+                                  sunder_i_corner *out)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side], *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
+    double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
+    const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
+    const bool convex = in_x * out_y - in_y * out_x > -bound;
+    const bool shared = s->shared[v] || (!convex && may_touch_edge(g, side, v, first, last));
+    if (!convex && !shared) return false;
+    if (shared) in_x = in_y = out_x = out_y = 0;
+    *out = (sunder_i_corner){b[0], b[1], in_x, in_y, out_x, out_y};
+    return true;
+}
+
+bool sunder_i_corner_of(const sunder_i_pairing *g, int side, uint32_t v, sunder_i_corner *out)
+{
+    const sunder_shape *s = g->shape[side];
+    uint32_t low = 0, high = s->polygons - 1; /* the polygon that v is of */
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (v < s->ring_end[s->poly_end[middle] - 1])
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    const uint32_t first = low ? (uint32_t)s->ring_end[s->poly_end[low - 1] - 1] : 0;
+    return look_at_corner(g, side, v, first, (uint32_t)s->ring_end[s->poly_end[low] - 1], out);
+}
+
 static bool make_room(sunder_i_pairing *g, uint32_t n, corners *c)
 {
     double *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 6 * sizeof *block + sizeof *c->vertex);
@@ -57,43 +87,27 @@ static bool make_room(sunder_i_pairing *g, uint32_t n, corners *c)
 static bool find_corners(sunder_i_pairing *g, int side, corners *c)
 {
     const sunder_shape *s = g->shape[side];
-    const double *xy = g->xy[side];
     if (!make_room(g, s->vertices, c)) return false;
     for (uint32_t p = 0, v = 0; p < s->polygons; p++) {
         const uint32_t first = v, last = s->ring_end[s->poly_end[p] - 1];
         for (; v < last; v++) {
             if (!sunder_i_step()) return false;
-            const double *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
-            double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
-            const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
-            const bool convex = in_x * out_y - in_y * out_x > -bound;
-            const bool shared = s->shared[v] || (!convex && may_touch_edge(g, side, v, first, last));
-            if (!convex && !shared) continue;
-            if (shared) in_x = in_y = out_x = out_y = 0;
+            sunder_i_corner at;
+            if (!look_at_corner(g, side, v, first, last, &at)) continue;
             const uint32_t k = c->n++;
             c->vertex[k] = v;
-            c->x[k] = b[0];
-            c->y[k] = b[1];
-            c->in_x[k] = in_x;
-            c->in_y[k] = in_y;
-            c->out_x[k] = out_x;
-            c->out_y[k] = out_y;
+            c->x[k] = at.x;
+            c->y[k] = at.y;
+            c->in_x[k] = at.in_x;
+            c->in_y[k] = at.in_y;
+            c->out_x[k] = at.out_x;
+            c->out_y[k] = at.out_y;
         }
     }
     return true;
 }
 
-/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
- * distance itself is good to 4 times the pairing's error. */
-static inline double segment_square(double ax, double ay, double dx, double dy, double inverse)
-{
-    double t = -(ax * dx + ay * dy) * inverse;
-    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
-    const double x = ax + t * dx, y = ay + t * dy;
-    return x * x + y * y;
-}
-
-static bool push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate c)
+bool sunder_i_candidates_push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate c)
 {
     if (h->n == h->capacity) {
         const size_t capacity = h->capacity ? 2 * h->capacity : 64;
@@ -143,12 +157,11 @@ static bool pair_edges(sunder_i_pairing *g, int side, const corners *c, double l
         const double inverse = 1 / (dx * dx + dy * dy);
         for (uint32_t m = 0; m < n; m++) {
             const uint32_t k = met[m];
-            const double square = segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
+            const double square = sunder_i_segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
             if (square > reach * reach ||
                 (g->held && sunder_i_held_segment(g->held, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
                 continue;
-            if (!push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side}))
-                return false;
+            if (!sunder_i_candidates_push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
         }
     }
     g->placed.lattice.operations.orientation_tests += 2 * (uint64_t)c->n * s->vertices;
@@ -169,13 +182,18 @@ static void sink(sunder_i_candidates *h, size_t i)
     h->item[i] = c;
 }
 
+void sunder_i_candidates_order(sunder_i_candidates *h)
+{
+    for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
+}
+
 bool sunder_i_candidates_find(sunder_i_pairing *g, double limit, sunder_i_candidates *h)
 {
     corners p, q;
     *h = (sunder_i_candidates){NULL, 0, 0};
     if (!find_corners(g, 0, &p) || !find_corners(g, 1, &q)) return false;
     if (!pair_edges(g, 0, &q, limit, h) || !pair_edges(g, 1, &p, limit, h)) return false;
-    for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
+    sunder_i_candidates_order(h);
     return true;
 }
 

@@ -15,6 +15,29 @@ typedef struct sunder_i_candidates {
     size_t n, capacity;
 } sunder_i_candidates;
 
+/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
+ * distance itself is good to 4 times the pairing's error. */
+static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
+{
+    double t = -(ax * dx + ay * dy) * inverse;
+    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
+    const double x = ax + t * dx, y = ay + t * dy;
+    return x * x + y * y;
+}
+
+/* A vertex as edges of the other operand see it, in doubles: convex, or one where rings touch (then `in` and `out`, the
+ * edges that arrive and leave, are zero, which every edge passes). */
+typedef struct sunder_i_corner {
+    double x, y, in_x, in_y, out_x, out_y;
+} sunder_i_corner;
+
+/* False: no edge that passes the vertex can be boundary there. */
+bool sunder_i_corner_of(const sunder_i_pairing *pairing, int side, uint32_t vertex, sunder_i_corner *out);
+
+/* Adds a candidate; order() then makes a heap of them all. */
+bool sunder_i_candidates_push(sunder_i_pairing *pairing, sunder_i_candidates *heap, sunder_i_candidate candidate);
+void sunder_i_candidates_order(sunder_i_candidates *heap);
+
 /* All segments nearer than `limit` units, as a heap with the nearest on top. Memory: the lattice's arena. */
 bool sunder_i_candidates_find(sunder_i_pairing *pairing, double limit, sunder_i_candidates *out);
 /* Takes the top off. n > 0. */

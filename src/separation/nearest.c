@@ -4,6 +4,7 @@
 #include "separation/nearest.h"
 #include "separation/candidates.h"
 #include "separation/held.h"
+#include "separation/squares.h"
 
 #include <math.h>
 
@@ -12,9 +13,12 @@ typedef struct search {
     sunder_i_nearest best;
     sunder_i_hpoint best_point;
     bool best_point_known;
+    size_t found; /* how often a better one was */
     double limit;
     size_t first; /* the subsum that covered the last foot: often it covers the next one too */
     sunder_i_fraction zero, one;
+    const double *square; /* what is searched: a square, or NULL: everything */
+    double from, to;      /* the part of the line at hand that is in the square, or all of it */
 } search;
 
 static sunder_i_big square_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big y)
@@ -63,6 +67,7 @@ static void offer(search *s, const sunder_i_line *line, const sunder_i_fraction 
     bool known;
     if (!better(s, line, t, distance, &point, &known)) return;
     s->best = (sunder_i_nearest){true, false, *line, *t, x, y, distance};
+    s->found++;
     s->best_point_known = known;
     if (known) s->best_point = point;
     if (distance + 8 * s->g->error < s->limit) s->limit = distance + 8 * s->g->error;
@@ -75,6 +80,7 @@ static void walk(search *s, const sunder_i_line *line, long cover, bool forwards
     for (;;) {
         const sunder_i_fraction t = sunder_i_line_exit(g, line, g->subsum + cover, forwards);
         if (forwards ? sunder_i_line_cmp(g, &t, &s->one) > 0 : sunder_i_line_cmp(g, &t, &s->zero) < 0) return;
+        if (s->square && (forwards ? t.value > s->to : t.value < s->from)) return;
         double x, y;
         sunder_i_line_at(line, &t, &x, &y);
         const double distance = sqrt(x * x + y * y);
@@ -89,10 +95,39 @@ static void walk(search *s, const sunder_i_line *line, long cover, bool forwards
     }
 }
 
+/* The part of the line in the square, with room for what points may be off by; false if there is none. */
+static bool enter_square(search *s, const sunder_i_line *line)
+{
+    const double e = 32 * s->g->error, a[2] = {line->ax, line->ay}, d[2] = {line->dx, line->dy};
+    s->from = 0;
+    s->to = 1;
+    for (int k = 0; k < 2; k++) {
+        const double low = s->square[k] - e - a[k], high = s->square[k + 2] + e - a[k];
+        if (d[k] == 0) {
+            if (low > 0 || high < 0) return false;
+            continue;
+        }
+        s->from = fmax(s->from, (d[k] > 0 ? low : high) / d[k]);
+        s->to = fmin(s->to, (d[k] > 0 ? high : low) / d[k]);
+    }
+    return s->from <= s->to;
+}
+
+/* The point of the square nearest to the foot, if the foot is not in it. It is none of the points where anything begins
+ * or ends on the line, and if it is free a nearer one is, in another square. On a narrow lattice. */
+static sunder_i_fraction foot_in_square(const search *s, sunder_i_fraction foot)
+{
+    if (!s->square || (foot.value >= s->from && foot.value <= s->to)) return foot;
+    const double at = foot.value < s->from ? s->from : s->to;
+    const int64_t n = (int64_t)(at * 0x1p50);
+    return (sunder_i_fraction){n, (int64_t)1 << 50, (double)n * 0x1p-50};
+}
+
 static void try_candidate(search *s, const sunder_i_line *line)
 {
     sunder_i_pairing *g = s->g;
-    const sunder_i_fraction foot = sunder_i_line_foot(g, line);
+    if (s->square && !enter_square(s, line)) return;
+    const sunder_i_fraction foot = foot_in_square(s, sunder_i_line_foot(g, line));
     double x, y;
     sunder_i_line_at(line, &foot, &x, &y);
     const double distance = sqrt(x * x + y * y);
@@ -150,8 +185,87 @@ static bool nearest_within(search *s)
     return ok;
 }
 
-/* Large operands often overlap by little, as neighbouring countries do, and all their pairs of pieces would fill
- * the memory: so the search begins in a small disc, and in a larger one where that holds no free point. */
+/* The candidates of one square. Its subsums are forgotten again, but where they hold the answer. */
+static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark mark, sunder_i_subsum **list, size_t *n)
+{
+    sunder_i_pairing *g = s->g;
+    const size_t before = s->found;
+    s->first = 0;
+    while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
+        const sunder_i_candidate c = sunder_i_candidates_pop(heap);
+        const sunder_i_line line = sunder_i_candidate_line(g, &c);
+        try_candidate(s, &line);
+    }
+    if (s->found > before) {
+        *list = g->subsum;
+        *n = g->subsums;
+    } else if (!g->placed.lattice.arena.failed)
+        sunder_i_arena_release(&g->placed.lattice.arena, mark);
+}
+
+static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares)
+{
+    sunder_i_pairing *g = s->g;
+    sunder_i_subsum *list = NULL;
+    size_t n = 0;
+    double box[4];
+    sunder_i_mark mark;
+    sunder_i_candidates heap;
+    sunder_i_squares_next next;
+    bool covered;
+    if (!sunder_i_pairing_turn(g) || !sunder_i_squares_take_origin(squares, &covered))
+        return SUNDER_I_SQUARES_NO_MEMORY;
+    if (!covered && !origin_covered(g, &s->zero)) {
+        s->best.found = s->best.origin = true;
+        return SUNDER_I_SQUARES_END;
+    }
+    s->square = box;
+    while ((next = sunder_i_squares_pop(squares, s->limit, box, &mark, &heap)) == SUNDER_I_SQUARES_OPEN)
+        search_square(s, &heap, mark, &list, &n);
+    s->square = NULL;
+    g->subsum = list; /* near the answer: how it touches is asked of them */
+    g->subsums = n;
+    return next;
+}
+
+/* *done: it is searched; else it has to be done otherwise. False if memory is out. */
+static bool by_squares(search *s, bool *done)
+{
+    const double limit = s->limit;
+    sunder_i_squares *squares = sunder_i_squares_new(s->g, limit);
+    if (!squares) return false;
+    const sunder_i_squares_next end = search_squares(s, squares);
+    sunder_i_squares_free(squares);
+    *done = end == SUNDER_I_SQUARES_END;
+    if (!*done) { /* what was found so far is not known to be nearest */
+        s->best = (sunder_i_nearest){.found = false};
+        s->best_point_known = false;
+        s->limit = limit;
+    }
+    return end != SUNDER_I_SQUARES_NO_MEMORY && !s->g->placed.lattice.arena.failed;
+}
+
+static search begin(sunder_i_pairing *g, double limit)
+{
+    return (search){.g = g,
+                    .limit = fmin(way_out(g), limit + 8 * g->error),
+                    .zero = sunder_i_fraction_int(&g->placed.lattice, 0),
+                    .one = sunder_i_fraction_int(&g->placed.lattice, 1)};
+}
+
+sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *g, double limit, bool *done, sunder_i_nearest *out,
+                                          sunder_error *err)
+{
+    search s = begin(g, limit);
+    *done = false;
+    if (g->placed.lattice.narrow && !by_squares(&s, done)) return sunder_i_no_memory(err);
+    *out = s.best;
+    return SUNDER_OK;
+}
+
+/* Operands of so many pairs of pieces are searched square by square. Where that is not the way, most of their pairs may
+ * still be far off, as of neighbouring countries, and would fill the memory: so the search begins in a small disc then,
+ * and in a larger one where that holds no free point. */
 #define WIDEN_FROM 65536 /* pairs of pieces */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
@@ -159,11 +273,14 @@ static bool nearest_within(search *s)
 sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const double whole = fmin(way_out(g), limit + 8 * g->error);
     const bool many = (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_FROM;
-    search s = {.g = g};
-    s.zero = sunder_i_fraction_int(l, 0);
-    s.one = sunder_i_fraction_int(l, 1);
+    if (many) {
+        bool done;
+        const sunder_status status = sunder_i_nearest_by_squares(g, limit, &done, out, err);
+        if (status || done) return status;
+    }
+    search s = begin(g, limit);
+    const double whole = s.limit;
     for (int times = many ? WIDEN_TIMES : 0; times >= 0 && !s.best.found; times--) {
         double disc = whole;
         for (int k = 0; k < times; k++) disc /= WIDEN_BY;

@@ -17,6 +17,11 @@ typedef struct sunder_i_nearest {
  * has Q reflected. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_nearest_free(sunder_i_pairing *pairing, double limit, sunder_i_nearest *out, sunder_error *err);
 
+/* The same square by square (squares.h), which the function above does where there are many pairs of pieces. Not *done:
+ * too many squares, or a wide lattice; *out says nothing then. */
+sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *pairing, double limit, bool *done, sunder_i_nearest *out,
+                                          sunder_error *err);
+
 /* How the placement touches: for a point that the search found. */
 sunder_contact sunder_i_nearest_contact(sunder_i_pairing *pairing, const sunder_i_nearest *nearest);
 

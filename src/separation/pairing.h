@@ -69,6 +69,8 @@ bool sunder_i_pieces_overlap(sunder_i_pairing *pairing, uint32_t i, uint32_t j);
 
 /* Lists the subsums whose boxes come within `radius` units of the origin (none is made yet). False if memory is out. */
 bool sunder_i_pairing_reach(sunder_i_pairing *pairing, double radius);
+/* Turns all pieces at once, which is done for each when it is wanted else; false if memory is out. */
+bool sunder_i_pairing_turn(sunder_i_pairing *pairing);
 /* Makes the corners of one; false if memory is out. */
 bool sunder_i_subsum_make(sunder_i_pairing *pairing, sunder_i_subsum *subsum);
 

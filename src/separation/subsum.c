@@ -121,6 +121,14 @@ static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece
     return r;
 }
 
+bool sunder_i_pairing_turn(sunder_i_pairing *g)
+{
+    for (int side = 0; side < 2; side++)
+        for (uint32_t i = 0; i < g->shape[side]->pieces; i++)
+            if (!turned(g, side, i)) return false;
+    return true;
+}
+
 /* ---- The merge ---- */
 
 /* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand

@@ -1,0 +1,162 @@
+/* The nearest free placement, searched square by square as for large operands, and in one go: the same point, the same
+ * contact, on pairs of all kinds of trouble, also translated so that they overlap by little; and of ragged outlines
+ * that are large enough for the squares to matter. */
+#include "failing.h"
+#include "generate.h"
+#include "separation/nearest.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+typedef struct result {
+    bool done;
+    sunder_i_nearest nearest;
+    sunder_contact contact;
+} result;
+
+static sunder_i_pairing pair_up(const sunder_shape *p, const sunder_shape *q, const double *move)
+{
+    sunder_i_pairing g;
+    const sunder_i_pairing_options how = {.tq = move, .reflect_q = true};
+    assert_int_equal(sunder_i_pairing_init(&g, p, q, &how, NULL), SUNDER_OK);
+    return g;
+}
+
+static result look(sunder_i_pairing *g, bool squares)
+{
+    result r = {.done = true};
+    assert_int_equal(squares ? sunder_i_nearest_by_squares(g, INFINITY, &r.done, &r.nearest, NULL)
+                             : sunder_i_nearest_free(g, INFINITY, &r.nearest, NULL),
+                     SUNDER_OK);
+    if (r.done && !r.nearest.origin) {
+        assert_true(r.nearest.found);
+        assert_true(sunder_i_nearest_verify(g, &r.nearest));
+        r.contact = sunder_i_nearest_contact(g, &r.nearest);
+    }
+    return r;
+}
+
+/* Both ways; whether the squares led there. */
+static bool compare(const polyset *p, const polyset *q, const double *move, bool *same)
+{
+    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
+    sunder_i_pairing g = pair_up(a, b, move), h = pair_up(a, b, move);
+    const result r = look(&g, true), s = look(&h, false);
+    *same = !r.done || r.nearest.origin == s.nearest.origin;
+    if (r.done && *same && !r.nearest.origin) {
+        sunder_i_lattice *l = &g.placed.lattice;
+        const sunder_i_hpoint x = sunder_i_hpoint_at(l, r.nearest.line.a, r.nearest.line.b, &r.nearest.t);
+        const sunder_i_hpoint y = sunder_i_hpoint_at(l, s.nearest.line.a, s.nearest.line.b, &s.nearest.t);
+        *same = sunder_i_hpoint_equal(l, &x, &y) && r.contact == s.contact;
+    }
+    sunder_i_pairing_free(&g);
+    sunder_i_pairing_free(&h);
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    return r.done;
+}
+
+static void expect_same(const polyset *p, const polyset *q, const double *move, size_t *done, uint64_t seed, size_t i)
+{
+    bool same;
+    *done += compare(p, q, move, &same);
+    if (same) return;
+    char *x = polyset_wkt(p), *y = polyset_wkt(q);
+    print_message("SUNDER_SEED=%llu, case %zu\n%.3000s\n%.3000s\nmoved by %g %g\n", (unsigned long long)seed, i, x, y,
+                  move[0], move[1]);
+    free(x);
+    free(y);
+    fail();
+}
+
+static void test_kinds(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(60);
+    size_t done = 0;
+    print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
+    for (int kind = 0; kind < PAIR_HUGE; kind++)
+        for (size_t i = 0; i < n; i++) {
+            rng r = rng_start(seed * 41 + (uint64_t)kind, i);
+            polyset p, q;
+            random_pair(&p, &q, &r, (pair_kind)kind);
+            const double move[2] = {(double)rng_int(&r, -4, 4), (double)rng_int(&r, -4, 4)};
+            expect_same(&p, &q, move, &done, seed, i);
+            polyset_free(&p);
+            polyset_free(&q);
+        }
+    assert_true(done > n * PAIR_HUGE / 2);
+}
+
+/* Outlines along pixels, ragged stars and combs: exact coincidences, spikes that overlap in crowds, exact fits. */
+static void random_large(polyset *p, rng *r, size_t kind, int n)
+{
+    cells board;
+    polyset_init(p);
+    switch (kind % 3) {
+    case 0: random_star(p, r, n, 2000); return;
+    case 1: random_comb(p, r, n / 4, 2000, rng_once_in(r, 2)); return;
+    default:
+        random_cells(&board, r, CELLS_MAX, CELLS_MAX, SPACING_SMALL, false, 75);
+        cells_outline(p, &board, false, true);
+    }
+}
+
+static void test_large(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(45);
+    size_t done = 0;
+    for (size_t i = 0; i < n; i++) {
+        rng r = rng_start(seed * 43, i);
+        polyset p, q;
+        random_large(&p, &r, i, (int)rng_int(&r, 20, 240));
+        random_large(&q, &r, i + (i / 3) % 2, (int)rng_int(&r, 20, 240));
+        const double far = rng_once_in(&r, 2) ? 20 : 1200;
+        const double move[2] = {rint(far * rng_unit(&r)), rint(far * rng_unit(&r))};
+        expect_same(&p, &q, move, &done, seed, i);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+    assert_true(done > n / 2);
+}
+
+static bool search_once(void *context)
+{
+    const sunder_shape *const *shape = context;
+    const sunder_i_pairing_options how = {.reflect_q = true};
+    sunder_i_pairing g;
+    sunder_i_nearest nearest;
+    bool done;
+    if (sunder_i_pairing_init(&g, shape[0], shape[1], &how, NULL) != SUNDER_OK) return false;
+    const bool ok = sunder_i_nearest_by_squares(&g, INFINITY, &done, &nearest, NULL) == SUNDER_OK;
+    sunder_i_pairing_free(&g);
+    return ok;
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    rng r = rng_start(5, 0);
+    polyset p, q;
+    random_large(&p, &r, 0, 40);
+    random_large(&q, &r, 1, 40);
+    sunder_shape *shape[2] = {polyset_shape(&p), polyset_shape(&q)};
+    assert_true(failing_loop(search_once, shape, false));
+    for (int k = 0; k < 2; k++) sunder_shape_free(shape[k]);
+    polyset_free(&p);
+    polyset_free(&q);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_large),
+                                       cmocka_unit_test(test_memory)};
+    return cmocka_run_group_tests_name("square by square", tests, NULL, NULL);
+}
