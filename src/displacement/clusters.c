@@ -29,6 +29,10 @@ void sunder_i_job_free(sunder_i_job *w)
     sunder_i_free(w->widened);
     sunder_i_free(w->changed);
     sunder_i_free(w->standing);
+    sunder_i_free(w->improved);
+    sunder_i_free(w->limit);
+    sunder_i_free(w->aside);
+    sunder_i_truces_free(&w->waiting);
     sunder_i_free(w->carrier);
     sunder_i_free(w->member);
     sunder_i_free(w->body);
@@ -45,8 +49,9 @@ sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)
     w->widened = sunder_i_calloc(n, sizeof *w->widened);
     w->changed = sunder_i_calloc(w->town.features, sizeof *w->changed);
     w->standing = sunder_i_calloc(n, sizeof *w->standing);
+    w->improved = sunder_i_calloc(n, sizeof *w->improved);
     w->carrier = sunder_i_alloc(n, sizeof *w->carrier);
-    if (!w->parent || !w->dirty || !w->widened || !w->changed || !w->standing || !w->carrier)
+    if (!w->improved || !w->parent || !w->dirty || !w->widened || !w->changed || !w->standing || !w->carrier)
         return sunder_i_no_memory(err);
     for (size_t b = 0; b < n; b++) {
         w->parent[b] = (uint32_t)b;

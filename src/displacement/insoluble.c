@@ -7,12 +7,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool is_settled(const sunder_i_job *w, const sunder_i_relation *r)
+{
+    return w->improved[w->town.body_of[r->a]] || w->improved[w->town.body_of[r->b]];
+}
+
 sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err)
 {
     if (w->town.kept_n == 0) return SUNDER_OK;
     bool *conflict = sunder_i_calloc(w->start.n, sizeof *conflict);
     if (!conflict) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < w->start.n; k++) conflict[k] = sunder_i_job_is_between(&w->town, &w->start.pair[k]);
+    for (size_t k = 0; k < w->start.n; k++)
+        conflict[k] = !is_settled(w, &w->start.pair[k]) && sunder_i_job_is_between(&w->town, &w->start.pair[k]);
     const sunder_status status = sunder_i_keep_choose(&w->town, &w->start, conflict, err);
     sunder_i_free(conflict);
     return status;

@@ -34,6 +34,10 @@ typedef struct sunder_i_job {
     unsigned char *widened;  /* [bodies] how often the margin grew */
     bool *changed;           /* [features] moved in this round */
     unsigned char *standing; /* [bodies] a sunder_i_standing, by the least of a component of conflicts */
+    bool *improved;          /* [bodies] better sides were looked for since the body's cluster was solved */
+    double *limit;           /* [bodies] the limits, while they are lifted */
+    bool *aside;             /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    sunder_i_truces waiting; /* of what was set aside */
     uint32_t *carrier;       /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_member *member; /* cluster after cluster, bodies ascending */
     size_t members;
@@ -101,6 +105,13 @@ sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err);
 
 /* Sends those there that cannot be parted, but go inside. */
 sunder_status sunder_i_job_enter(sunder_i_job *w, sunder_error *err);
+
+/* ---- limits.c ---- */
+
+/* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */
+sunder_status sunder_i_job_lift_limits(sunder_i_job *w, bool *lifted, sunder_error *err);
+/* What went too far goes back where it came from, to be solved within its limits: *any, if there is such. */
+sunder_status sunder_i_job_restore_limits(sunder_i_job *w, bool *any, sunder_error *err);
 
 /* ---- uphold.c ---- */
 

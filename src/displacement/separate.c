@@ -76,11 +76,32 @@ static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sun
     return SUNDER_OK;
 }
 
+/* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to `to`.
+ * known: nothing is to be solved but what comes of looking again. */
+static sunder_status seek(sunder_i_job *w, bool known, double from, double to, sunder_error *err)
+{
+    const double step = (to - from) / 7;
+    bool again = true;
+    sunder_status status = known ? SUNDER_OK : sunder_i_job_choose_holders(w, err);
+    if (!status && !known) status = sunder_i_job_settle(w, from, from + 3 * step, err);
+    for (int round = 0; round < RECONSIDERED && again && !status; round++) {
+        status = sunder_i_job_reconsider(w, &again, err);
+        if (!status && again) status = sunder_i_job_settle(w, from + 3 * step, from + 4 * step, err);
+        known = known && !again;
+    }
+    if (status || known) return status;
+    status = sunder_i_job_retry(w, err);
+    if (!status) status = sunder_i_job_settle(w, from + 4 * step, from + 5 * step, err);
+    if (!status) status = sunder_i_job_improve(w, err);
+    if (!status) status = sunder_i_job_settle(w, from + 5 * step, to, err);
+    return status;
+}
+
 static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
                               sunder_error *err)
 {
     const double began = seconds();
-    bool again = true;
+    bool lifted = false, back = false;
     sunder_status status = start(w, layer, options, err);
     if (!status) status = sunder_i_job_judge(w, err);
     if (!status) status = sunder_i_town_cut(&w->town, err);
@@ -91,17 +112,12 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
     w->now.n = w->start.n;
     if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_no_memory(err);
-    status = sunder_i_job_choose_holders(w, err);
-    if (!status) status = sunder_i_job_enter(w, err);
-    if (!status) status = sunder_i_job_settle(w, 0.1, 0.4, err);
-    for (int round = 0; round < RECONSIDERED && again && !status; round++) {
-        status = sunder_i_job_reconsider(w, &again, err);
-        if (!status && again) status = sunder_i_job_settle(w, 0.4, 0.5, err);
-    }
-    if (!status) status = sunder_i_job_retry(w, err);
-    if (!status) status = sunder_i_job_settle(w, 0.5, 0.6, err);
-    if (!status) status = sunder_i_job_improve(w, err);
-    if (!status) status = sunder_i_job_settle(w, 0.6, 0.8, err);
+    status = sunder_i_job_lift_limits(w, &lifted, err);
+    if (!status && !lifted) status = sunder_i_job_enter(w, err);
+    if (!status) status = seek(w, false, 0.1, lifted ? 0.4 : 0.8, err);
+    if (!status && lifted) status = sunder_i_job_restore_limits(w, &back, err);
+    if (!status && lifted) status = sunder_i_job_enter(w, err);
+    if (!status && lifted) status = seek(w, !back, 0.4, 0.8, err);
     if (!status) status = sunder_i_job_uphold(w, err);
     if (!status) status = sunder_i_job_gather(w, err);
     if (status) return status;

@@ -37,6 +37,23 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     return SUNDER_OK;
 }
 
+static bool is_improved(const sunder_i_job *w, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++)
+        if (!w->improved[c->body[k]] && !w->town.body[c->body[k]].fixed) return false;
+    return true;
+}
+
+/* What was solved again is to be improved again. */
+static void note_solved(sunder_i_job *w)
+{
+    for (size_t k = 0; k < w->clusters; k++) {
+        const sunder_i_cluster *c = &w->cluster[k];
+        if (!sunder_i_job_is_dirty(w, c)) continue;
+        for (size_t m = 0; m < c->n; m++) w->improved[c->body[m]] = false;
+    }
+}
+
 static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_job *w = context;
@@ -44,6 +61,7 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
         const sunder_i_cluster *c = &w->cluster[k];
         double *move = w->move + 2 * (size_t)(c->body - w->body);
         sunder_i_job_load_moves(w, c, move);
+        if (is_improved(w, c)) continue;
         const sunder_status status = sunder_i_cluster_improve(&w->town, c, move, err);
         if (status) return status;
     }
@@ -142,6 +160,7 @@ static sunder_status find_work(sunder_i_job *w, bool *any, sunder_error *err)
         const sunder_i_relation *r = &w->now.pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         const bool fi = town->body[i].fixed, fj = town->body[j].fixed;
+        if (w->aside && (w->aside[i] || w->aside[j])) continue;
         if (sunder_i_is_at_peace(r) || i == j) continue;
         if ((fi || town->body[i].pinned) && (fj || town->body[j].pinned)) continue;
         if (sunder_i_truces_find(&town->truces, r->a, r->b)) {
@@ -199,6 +218,7 @@ sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunde
         if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, solve_clusters, w, err);
         if (status) return status;
         sunder_i_job_commit(w);
+        note_solved(w);
         for (size_t k = 0; k < w->members; k++) w->carrier[w->body[k]] = SUNDER_I_NOBODY;
         status = sunder_i_job_note_truces(w, err);
         if (!status) status = sunder_i_job_check(w, err);
@@ -213,5 +233,6 @@ sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err)
     if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, improve_clusters, w, err);
     if (status) return status;
     sunder_i_job_commit(w);
+    for (size_t k = 0; k < w->members; k++) w->improved[w->body[k]] = true;
     return sunder_i_job_check(w, err);
 }
