@@ -12,6 +12,11 @@
 #define EFFORT 400000u
 /* The same for asking pairs that were given up once more, for a whole cluster: a second or so. */
 #define RETRY_EFFORT 30000000u
+/* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
+ * nothing was ever gained below. */
+#define FAR 1.5
+/* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
+#define PATIENCE 10000
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
 {
@@ -183,6 +188,39 @@ static bool attempt(sunder_i_search *s, double *best, double *cost)
     return false;
 }
 
+/* The longest move, and the power of two below it. */
+static double longest_move(const sunder_i_search *s, double *below)
+{
+    double longest = 0;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) longest = fmax(longest, hypot(s->t[2 * k], s->t[2 * k + 1]));
+    int exponent;
+    frexp(longest, &exponent);
+    *below = ldexp(1, exponent - 1);
+    return longest;
+}
+
+/* Once more from where everything came from, with no move longer than the power of two below the longest. Where sides
+ * contradict each other the search ends elsewhere then: bodies that were sent far are kept near if that is possible.
+ * Only where one has gone much farther than any pair was in conflict by is there anything to be gained. */
+static void try_near(sunder_i_search *s, double *best, double *cost)
+{
+    double below;
+    const double longest = longest_move(s, &below);
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
+    if (longest > FAR * sunder_i_search_look(s, s->t) && !s->failed) {
+        s->cap = below;
+        s->patience = s->steps + s->program.work + PATIENCE + (s->steps + s->program.work) / 4;
+        s->program.n = 0;
+        const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
+        s->cap = INFINITY;
+        s->patience = UINT64_MAX;
+        if (found && attempt(s, best, cost)) return;
+    }
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+}
+
 /* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
 static void try_places(sunder_i_search *s, rank *order, double *best, double *cost)
 {
@@ -263,11 +301,22 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
     sunder_i_free(order);
 }
 
+/* Places and sides in turn, until a round of both gains little. */
+static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    for (int round = 0; round < 4 && has_time(s) && !s->failed; round++) {
+        const double start = *cost;
+        try_places(s, order, best, cost);
+        try_sides(s, best, cost);
+        if (!(*cost < start * (1 - 1e-3))) break;
+    }
+}
+
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
     uint32_t *body = NULL;
-    double *all = NULL, *best = NULL;
+    double *all = NULL, *best = NULL, *near = NULL;
     size_t n = 0;
     rank *order = NULL;
     sunder_i_search s;
@@ -275,8 +324,9 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     bool ok = add_strangers(town, cluster, &body, &all, &n, move);
     if (ok) {
         best = sunder_i_alloc(2 * n, sizeof *best);
+        near = sunder_i_alloc(2 * n, sizeof *near);
         order = sunder_i_alloc(n, sizeof *order);
-        ok = best && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        ok = best && near && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
         s.settled = 1e-5;
@@ -289,11 +339,17 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
             const double before = sunder_i_search_cost(&s, s.t);
             double cost = before;
             attempt(&s, best, &cost); /* what the first solution left when it was good enough */
-            for (int round = 0; round < 4 && has_time(&s) && !s.failed; round++) {
-                const double start = cost;
-                try_places(&s, order, best, &cost);
-                try_sides(&s, best, &cost);
-                if (!(cost < start * (1 - 1e-3))) break;
+            /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
+            memcpy(near, best, 2 * n * sizeof *near);
+            double near_cost = cost;
+            const double start = cost;
+            try_all(&s, order, best, &cost);
+            memcpy(s.t, near, 2 * n * sizeof *near);
+            try_near(&s, near, &near_cost);
+            if (near_cost < start) try_all(&s, order, near, &near_cost);
+            if (near_cost < cost) {
+                memcpy(best, near, 2 * n * sizeof *near);
+                cost = near_cost;
             }
             memcpy(s.t, best, 2 * n * sizeof *best);
             s.n = cluster->n;
@@ -305,6 +361,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_free(body);
     sunder_i_free(all);
     sunder_i_free(best);
+    sunder_i_free(near);
     sunder_i_free(order);
     return ok ? SUNDER_OK : sunder_i_broken_off(&town->rules, err);
 }

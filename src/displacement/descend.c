@@ -165,7 +165,7 @@ static bool constrain_limits(sunder_i_search *s)
 {
     bool any = false;
     for (uint32_t k = 0; k < s->n; k++) {
-        const double limit = s->town->body[s->body[k]].limit, *t = s->next + 2 * k, length = hypot(t[0], t[1]);
+        const double limit = sunder_i_search_limit(s, k), *t = s->next + 2 * k, length = hypot(t[0], t[1]);
         if (!(s->mass[k] > 0) || length <= limit * (1 + 1e-12)) continue;
         any = true;
         const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
@@ -201,6 +201,8 @@ static void keep_still(sunder_i_search *s)
         if (!(s->mass[k] > 0)) memcpy(s->next + 2 * k, s->t + 2 * k, 2 * sizeof *s->next);
 }
 
+static bool is_out_of_patience(const sunder_i_search *s) { return s->steps + s->program.work >= s->patience; }
+
 /* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the
  * violation left. */
 static double solve(sunder_i_search *s, double softness)
@@ -208,6 +210,7 @@ static double solve(sunder_i_search *s, double softness)
     sunder_i_quadratic *p = &s->program;
     /* A compromise need not be found to the last digit. */
     const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
+    p->most_work = s->patience < UINT64_MAX ? (s->patience > s->steps ? s->patience - s->steps : 1) : 0;
     double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent);
     if (v < 0 || sunder_i_is_stopped(&s->town->rules)) s->failed = true;
     keep_still(s);
@@ -229,7 +232,8 @@ static double solve(sunder_i_search *s, double softness)
 static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
-    for (int k = 0; k < (softness > 0 ? MOST_ADDITIONS / 6 : MOST_ADDITIONS) && !s->failed; k++) {
+    const int most = softness > 0 ? MOST_ADDITIONS / 6 : MOST_ADDITIONS;
+    for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
         v = solve(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
         if (softness == 0 && v > 1e-3 * (s->extent + s->gap)) break;
@@ -315,7 +319,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
     double least_missed = INFINITY, least_left = INFINITY;
     double *best = sunder_i_alloc(2 * s->n, sizeof *best);
     if (!best) s->failed = true;
-    for (int round = 0; round < MOST_ROUNDS && !s->failed; round++) {
+    for (int round = 0; round < MOST_ROUNDS && !is_out_of_patience(s) && !s->failed; round++) {
         const bool clashing = constrain_all(s, reach);
         if (s->failed) break;
         double v;
@@ -369,7 +373,7 @@ static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool 
     for (int e = 0; e < 2 && !s->failed; e++) {
         const uint32_t i = pair[e];
         if (!(s->mass[i] > 0) || stuck[i]) continue;
-        if (sunder_i_search_free_body(s, i, s->town->body[s->body[i]].limit, place)) return i;
+        if (sunder_i_search_free_body(s, i, sunder_i_search_limit(s, i), place)) return i;
         stuck[i] = true;
     }
     return SUNDER_I_NOBODY;

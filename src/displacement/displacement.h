@@ -385,6 +385,7 @@ typedef struct sunder_i_quadratic {
     size_t n, capacity;
     double *t;                   /* [2 * bodies] out */
     uint64_t work;               /* done so far, roughly in constraints looked at */
+    uint64_t most_work;          /* 0, or how much may be: then what is done by then is the solution, such as it is */
     const sunder_i_rules *rules; /* NULL, or whom to ask whether to stop; then the solution is of no use */
 } sunder_i_quadratic;
 

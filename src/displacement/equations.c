@@ -92,7 +92,7 @@ static bool descend(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
     for (int hasty = 12; e->n; hasty--) {
-        if (e->factors++ >= MOST_FACTORS) return false;
+        if (e->factors++ >= MOST_FACTORS || sunder_i_quadratic_is_done(p)) return false;
         if (!solve_equations(p, e, from, softness)) return false;
         double step = 1;
         size_t first = SIZE_MAX, least = SIZE_MAX;

@@ -146,7 +146,7 @@ static void iterate(dual *q, double tolerance, unsigned steps)
     gradient(q);
     const double short_step = 1.9 / largest(q);
     restart(q);
-    for (unsigned k = 0; k < steps; k++) {
+    for (unsigned k = 0; k < steps && !sunder_i_quadratic_is_done(q->p); k++) {
         const imbalance i = look(q, short_step);
         if (i.worst <= tolerance) break;
         if (i.zero <= i.cut)

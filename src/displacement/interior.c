@@ -198,7 +198,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
             q.s[c] = fmax(stretch(&q, c, q.x) - k->d, 0.1 * scale);
             q.f[c] = 0.1 * mean * scale * scale / q.s[c];
         }
-        for (int k = 0; k < MOST_STEPS && advance(&q, tolerance, &mu); k++)
+        for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
             if (p->rules && sunder_i_is_stopped(p->rules)) break;
         for (size_t b = 0; b < p->bodies; b++)
             for (size_t e = 0; e < 2; e++)

@@ -86,7 +86,9 @@ void sunder_i_job_commit(sunder_i_job *w);
 sunder_status sunder_i_job_check(sunder_i_job *w, sunder_error *err);
 /* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
 sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunder_error *err);
-/* Better sides, for every cluster. */
+/* Were better sides looked for since any cluster was last solved? */
+bool sunder_i_job_is_improved(const sunder_i_job *w);
+/* Better sides, for every cluster that was solved since they were last looked for. */
 sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err);
 
 /* ---- insoluble.c ---- */

@@ -82,6 +82,7 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double t
         if (sunder_i_quadratic_worst(p, softness) <= tolerance) return fmax(0, sunder_i_quadratic_worst(p, 0));
     }
     sunder_i_quadratic_place(p);
+    if (sunder_i_quadratic_is_done(p)) return fmax(0, sunder_i_quadratic_worst(p, 0));
     if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
     return fmax(0, sunder_i_quadratic_worst(p, 0));
 }

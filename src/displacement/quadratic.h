@@ -4,6 +4,12 @@
 
 #include "displacement/displacement.h"
 
+/* Is it time to stop, solved or not? */
+static inline bool sunder_i_quadratic_is_done(const sunder_i_quadratic *p)
+{
+    return p->most_work && p->work >= p->most_work;
+}
+
 static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i)
 {
     return i == SUNDER_I_NOBODY ? 0 : p->mass[i];

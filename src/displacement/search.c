@@ -17,6 +17,8 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->gap = town->rules.gap + margin;
     s->tolerance = margin / 4;
     s->settled = 1e-3;
+    s->cap = INFINITY;
+    s->patience = UINT64_MAX;
     s->mass = sunder_i_alloc(n, sizeof *s->mass);
     s->t = sunder_i_alloc(2 * n, sizeof *s->t);
     s->next = sunder_i_alloc(2 * n, sizeof *s->next);
@@ -50,6 +52,11 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->ended);
     sunder_i_free(s->scratch.xy);
     memset(s, 0, sizeof *s);
+}
+
+double sunder_i_search_limit(const sunder_i_search *s, uint32_t i)
+{
+    return fmin(s->cap, s->town->body[s->body[i]].limit);
 }
 
 double sunder_i_search_cost(const sunder_i_search *s, const double *t)
@@ -282,7 +289,7 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     s->clashes = 0;
     sunder_i_search_near(s, t, s->gap, look_at, &l);
     for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) l.worst = fmax(l.worst, hypot(t[2 * k], t[2 * k + 1]) - s->town->body[s->body[k]].limit);
+        if (s->mass[k] > 0) l.worst = fmax(l.worst, hypot(t[2 * k], t[2 * k + 1]) - sunder_i_search_limit(s, (uint32_t)k));
     return l.worst;
 }
 

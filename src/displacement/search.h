@@ -29,10 +29,12 @@ typedef struct sunder_i_search {
     sunder_i_truces truces; /* of pairs that this search has given up; they come before those of the town */
     sunder_i_couple *ended; /* pairs of bodies for which those of the town do not count; sorted */
     size_t ended_n, ended_capacity;
+    double cap;             /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     sunder_i_scratch scratch;
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
+    uint64_t patience;      /* a descent gives up when so much has been done */
     bool failed;            /* memory is out */
 } sunder_i_search;
 
@@ -98,6 +100,8 @@ bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
+/* How far body i may be sent. */
+double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* Shortens moves to their limits. */
 void sunder_i_search_clip(sunder_i_search *search);
 

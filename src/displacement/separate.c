@@ -18,6 +18,8 @@
 
 /* What was given up is looked at again, each time with what the search ran into since. */
 #define RECONSIDERED 4
+/* Better sides are looked for so often, where clusters joined since the last time. */
+#define IMPROVED 3
 
 static double seconds(void)
 {
@@ -92,8 +94,11 @@ static sunder_status seek(sunder_i_job *w, bool known, double from, double to, s
     if (status || known) return status;
     status = sunder_i_job_retry(w, err);
     if (!status) status = sunder_i_job_settle(w, from + 4 * step, from + 5 * step, err);
-    if (!status) status = sunder_i_job_improve(w, err);
-    if (!status) status = sunder_i_job_settle(w, from + 5 * step, to, err);
+    /* What ran into others while it was improved is another cluster then. */
+    for (int round = 0; round < IMPROVED && !status && !sunder_i_job_is_improved(w); round++) {
+        status = sunder_i_job_improve(w, err);
+        if (!status) status = sunder_i_job_settle(w, from + (5 + round / 2.0) * step, to, err);
+    }
     return status;
 }
 

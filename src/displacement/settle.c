@@ -44,6 +44,16 @@ static bool is_improved(const sunder_i_job *w, const sunder_i_cluster *c)
     return true;
 }
 
+bool sunder_i_job_is_improved(const sunder_i_job *w)
+{
+    for (size_t e = 0; e < w->edges; e++)
+        for (int k = 0; k < 2; k++) {
+            const uint32_t b = k ? w->edge[e].b : w->edge[e].a;
+            if (!w->improved[b] && !w->town.body[b].fixed) return false;
+        }
+    return true;
+}
+
 /* What was solved again is to be improved again. */
 static void note_solved(sunder_i_job *w)
 {

@@ -16,7 +16,7 @@
 void sunder_i_search_clip(sunder_i_search *s)
 {
     for (size_t k = 0; k < s->n; k++) {
-        const double limit = s->town->body[s->body[k]].limit, length = hypot(s->t[2 * k], s->t[2 * k + 1]);
+        const double limit = sunder_i_search_limit(s, (uint32_t)k), length = hypot(s->t[2 * k], s->t[2 * k + 1]);
         if (!(s->mass[k] > 0) || !(length > limit)) continue;
         s->t[2 * k] *= limit / length;
         s->t[2 * k + 1] *= limit / length;
