@@ -85,6 +85,18 @@ static square least_square(sunder_i_pairing *g)
     return best;
 }
 
+/* No coordinate of the pair is larger. */
+static double size_of(const sunder_i_pair *pair)
+{
+    double size = 0, box[4];
+    for (int e = 0; e < 2; e++) {
+        const double *t = e ? pair->tq : pair->tp;
+        sunder_shape_box(e ? pair->q : pair->p, box);
+        for (int c = 0; c < 4; c++) size = fmax(size, fabs(box[c]) + (t ? fabs(t[c & 1]) : 0));
+    }
+    return size;
+}
+
 static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse,
                                        sunder_error *err)
 {
@@ -93,8 +105,8 @@ static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_
     if (!status) status = sunder_i_distance(is->p, is->tp, is->q, is->tq, &now, on, on + 2, err);
     if (status) return status;
     *worse = now < before;
-    /* Each is right to about an ulp. */
-    if (fabs(now - before) > 0x1p-46 * fmax(now, before)) return SUNDER_OK;
+    /* Each is right to some ulps of the coordinates: on a wide lattice the cross product that it comes from cancels. */
+    if (fabs(now - before) > 0x1p-40 * (now + before + size_of(was) + size_of(is))) return SUNDER_OK;
     sunder_i_pairing g, h;
     status = sunder_i_pairing_init(&g, was->p, was->q, &(sunder_i_pairing_options){.tp = was->tp, .tq = was->tq}, err);
     if (status) return status;
