@@ -89,12 +89,19 @@ if (ulimit -v 4000000) 2>/dev/null && ! "$SUNDER" --version | grep -q sanit && !
     literal=$(awk 'BEGIN { printf "POLYGON((0 0"; for (i = 1; i < 6000; i++) printf ",%d %d", i, i % 2 ? i * 7 % 100 : 200 + i % 50;
         print ",6000 -1000))" }')
     starved=0
-    for limit in $(seq 60000 35000 400000); do
+    starve() { # limit: the status with so many KB of addresses
         status=0
-        (ulimit -c 0; ulimit -v "$limit"; exec "$SUNDER" pair "$literal" "$literal" >/dev/null 2>err) || status=$?
-        [ "$status" -ne 2 ] || fail "with $limit KB: status 2, $(cat err)"
+        (ulimit -c 0; ulimit -v "$1"; exec "$SUNDER" pair "$literal" "$literal" >/dev/null 2>err) || status=$?
+    }
+    few=60000 enough=4000000 # libraries alone take some of it: what is enough is sought, and less by a little looked at
+    while [ $((enough - few)) -gt 500 ]; do
+        starve $(((few + enough) / 2))
+        if [ "$status" -eq 0 ]; then enough=$(((few + enough) / 2)); else few=$(((few + enough) / 2)); fi
+    done
+    for less in 500 1000 2000 3000 5000 8000 12000 20000; do
+        starve $((enough - less))
+        [ "$status" -ne 2 ] || fail "with $((enough - less)) KB: status 2, $(cat err)"
         [ "$status" -ne 1 ] || starved=$((starved + 1))
-        [ "$status" -ne 0 ] || break
     done
     [ "$starved" -gt 1 ] || fail "memory did not run out: the test proves nothing"
 fi
