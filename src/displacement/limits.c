@@ -147,6 +147,7 @@ sunder_status sunder_i_job_restore_limits(sunder_i_job *w, bool *any, sunder_err
             *any = *any || back[b];
         }
         send_home(w, back);
+        if (*any) w->members = 0; /* else who once was in a cluster with a fixed body would pass for known to it */
         memset(w->aside, 0, town->bodies * sizeof *w->aside);
         status = forget(w, back) ? sunder_i_job_check(w, err) : sunder_i_no_memory(err);
     }
