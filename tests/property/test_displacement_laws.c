@@ -1,0 +1,405 @@
+/* Laws over whole layers: how the answers to related questions are related.
+ *
+ * Without a proof of its optimum a search can only be good, so two of them are counted, not demanded:
+ *
+ *   (a) a looser limit leaves no more conflicts and, where none are left, costs no more
+ *   (c) a smaller gap costs no more where none are left
+ *
+ * by groups of features that could meet in either run; few may break them. The aim is one in a hundred; 1.3 (a) and 0.8 (c)
+ * were measured over four seeds, and what is asserted keeps them from growing. The rest holds always:
+ *
+ *   (b) a limit longer than the longest move without one changes nothing, to the byte
+ *   (d) a feature farther than anything can reach changes no other's move
+ *   (e) a layer scaled by a power of two, lengths too, has its moves scaled, to the byte
+ *
+ * (f) Features in another order, or shifted by what all coordinates hold exactly, are counted by towns. Breaches are shown
+ * where SUNDER_LAWS_SHOW is set. */
+#include "random.h"
+
+#include "sunder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 48, CORNERS = 8 };
+
+typedef struct house {
+    double xy[2 * CORNERS];
+    size_t corners;
+    double weight, limit;
+    bool fixed;
+} house;
+
+typedef struct town {
+    house house[MOST];
+    size_t n;
+    double gap, tolerance;
+    sunder_containment contained;
+} town;
+
+typedef struct outcome {
+    double move[2 * MOST], cost, longest;
+    size_t conflicts, clusters;
+    size_t conflict[2 * MOST * MOST]; /* pairs of features */
+} outcome;
+
+/* ---- Towns */
+
+/* An L whose arms end at (w, d), cut to a box if they are as wide; or a slanted quadrangle. Eighths. */
+static void build(rng *r, house *h, double x, double y)
+{
+    const double w = (double)rng_int(r, 24, 100) / 8, d = (double)rng_int(r, 24, 100) / 8;
+    const double a = floor(8 * w / 3) / 8, b = floor(8 * d / 3) / 8;
+    const int kind = (int)rng_int(r, 0, 3);
+    const double box[] = {x, y, x + w, y, x + w, y + d, x, y + d};
+    const double l[] = {x, y, x + w, y, x + w, y + b, x + a, y + b, x + a, y + d, x, y + d};
+    const double slanted[] = {x, y, x + w, y + a, x + w - a, y + a + d, x - a, y + d};
+    *h = (house){.corners = kind == 1 ? 6 : 4, .weight = 1, .limit = INFINITY};
+    memcpy(h->xy, kind == 1 ? l : kind == 2 ? slanted : box, 2 * h->corners * sizeof *h->xy);
+}
+
+/* Scattered, or in rows along streets with some pushed into their neighbours. */
+static void found(rng *r, town *t)
+{
+    const bool rows = rng_once_in(r, 2), weights = rng_once_in(r, 3), fixed = rng_once_in(r, 4);
+    t->n = (size_t)rng_int(r, 2, 32);
+    t->gap = rng_once_in(r, 3) ? 0 : (double)rng_int(r, 1, 24) / 8;
+    t->tolerance = t->gap > 0 ? 0x1p-6 * (double)rng_int(r, 0, 7) : 0;
+    t->contained = SUNDER_CONTAINED_SEPARATE;
+    const double wide = sqrt((double)t->n) * (double)rng_int(r, 8, 18);
+    double x = 400000, y = 5400000;
+    for (size_t k = 0; k < t->n; k++) {
+        house *h = &t->house[k];
+        if (rows)
+            build(r, h, x, y + (double)rng_int(r, 0, 8) / 8);
+        else
+            build(r, h, x + floor(8 * rng_unit(r) * wide) / 8, y + floor(8 * rng_unit(r) * wide) / 8);
+        if (weights) h->weight = (double)rng_int(r, 1, 32) / 8;
+        h->fixed = fixed && rng_once_in(r, 8);
+        if (!rows) continue;
+        x = h->xy[2] + (double)rng_int(r, rng_once_in(r, 4) ? -16 : 0, 40) / 8;
+        if (x > 400000 + wide) {
+            x = 400000;
+            y += (double)rng_int(r, 80, 130) / 8;
+        }
+    }
+}
+
+static void separate(const town *t, outcome *o)
+{
+    sunder_shape *shape[MOST];
+    sunder_feature feature[MOST];
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    sunder_layer_options options;
+    sunder_layer_summary summary;
+    const size_t rings = 1;
+    sunder_layer_options_init(&options);
+    options.gap = t->gap;
+    options.touch_tolerance = t->tolerance;
+    options.contained = t->contained;
+    for (size_t k = 0; k < t->n; k++) {
+        const house *h = &t->house[k];
+        if (sunder_shape_from_rings(h->xy, &h->corners, &rings, 1, SUNDER_STRICT, &shape[k], &err))
+            fail_msg("%s", err.message);
+        feature[k] = (sunder_feature){
+            .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = -1, .fixed = h->fixed};
+    }
+    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
+        fail_msg("%s", err.message);
+    sunder_report_summary(report, &summary);
+    *o = (outcome){.cost = summary.cost, .longest = summary.max, .clusters = summary.clusters};
+    for (size_t k = 0; k < t->n; k++) sunder_report_move(report, k, &o->move[2 * k], &o->move[2 * k + 1]);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(report, &n);
+    for (size_t k = 0; k < n; k++) {
+        if (c[k].inside_block || c[k].reason == SUNDER_REASON_KEPT) continue;
+        o->conflict[2 * o->conflicts] = c[k].a;
+        o->conflict[2 * o->conflicts++ + 1] = c[k].b;
+    }
+    sunder_report_free(report);
+    sunder_layer_free(layer);
+    for (size_t k = 0; k < t->n; k++) sunder_shape_free(shape[k]);
+}
+
+static void limit_all(town *t, double limit)
+{
+    for (size_t k = 0; k < t->n; k++) t->house[k].limit = limit;
+}
+
+/* ---- Groups */
+
+static size_t find(size_t *parent, size_t x)
+{
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+/* The box of all that the house sweeps in either run, were it to move straight. */
+static void swept(const house *h, const double *p, const double *q, double box[4])
+{
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+    for (size_t k = 0; k < 2 * h->corners; k++) {
+        const double at[3] = {h->xy[k], h->xy[k] + p[k & 1], h->xy[k] + q[k & 1]};
+        for (int i = 0; i < 3; i++) {
+            box[k & 1] = fmin(box[k & 1], at[i]);
+            box[2 + (k & 1)] = fmax(box[2 + (k & 1)], at[i]);
+        }
+    }
+}
+
+/* Features whose boxes in either run come near each other belong together. */
+static void group(const town *t, double gap, const outcome *p, const outcome *q, size_t root[MOST])
+{
+    double box[MOST][4];
+    for (size_t k = 0; k < t->n; k++) {
+        root[k] = k;
+        swept(&t->house[k], p->move + 2 * k, q->move + 2 * k, box[k]);
+    }
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t j = 0; j < i; j++)
+            if (box[i][0] <= box[j][2] + gap && box[j][0] <= box[i][2] + gap && box[i][1] <= box[j][3] + gap &&
+                box[j][1] <= box[i][3] + gap)
+                root[find(root, i)] = find(root, j);
+    for (size_t k = 0; k < t->n; k++) root[k] = find(root, k);
+}
+
+typedef struct account {
+    double cost;
+    size_t conflicts;
+} account;
+
+static void settle_accounts(const town *t, const outcome *o, const size_t root[MOST], account sum[MOST])
+{
+    memset(sum, 0, MOST * sizeof *sum);
+    for (size_t k = 0; k < t->n; k++) {
+        const double *m = o->move + 2 * k;
+        sum[root[k]].cost += t->house[k].weight * (m[0] * m[0] + m[1] * m[1]);
+    }
+    for (size_t k = 0; k < o->conflicts; k++) sum[root[o->conflict[2 * k]]].conflicts++;
+}
+
+/* What rounding and its margin may add to the cost of moves: each keeps within 2^-47 of its coordinates, a millionth of
+ * a millimetre here, of what it was asked for. */
+static double slack(const town *t, const outcome *o)
+{
+    double sum = 0;
+    for (size_t k = 0; k < t->n; k++)
+        sum += 2 * t->house[k].weight * hypot(o->move[2 * k], o->move[2 * k + 1]) * 5400000 * 0x1p-47;
+    return sum;
+}
+
+typedef struct tally {
+    const char *law;
+    size_t groups, more_conflicts, dearer;
+} tally;
+
+/* `easy` was asked for less than `hard`. */
+static void compare(tally *sum, size_t i, const town *t, double gap, const outcome *easy, const outcome *hard)
+{
+    size_t root[MOST] = {0};
+    account p[MOST], q[MOST];
+    group(t, gap, easy, hard, root);
+    settle_accounts(t, easy, root, p);
+    settle_accounts(t, hard, root, q);
+    for (size_t k = 0; k < t->n; k++) {
+        if (root[k] != k || (p[k].cost == 0 && q[k].cost == 0 && p[k].conflicts + q[k].conflicts == 0)) continue;
+        const bool more = p[k].conflicts > q[k].conflicts;
+        const bool dearer = p[k].conflicts + q[k].conflicts == 0 && p[k].cost > q[k].cost * (1 + 1e-9) + slack(t, easy);
+        sum->groups++;
+        sum->more_conflicts += more;
+        sum->dearer += dearer;
+        if ((more || dearer) && getenv("SUNDER_LAWS_SHOW"))
+            printf("%s, case %zu: %zu conflicts, cost %.9g; asked for more %zu, %.9g\n", sum->law, i, p[k].conflicts,
+                   p[k].cost, q[k].conflicts, q[k].cost);
+    }
+}
+
+/* At most `percent` of the groups, and of few groups two. */
+static void judge(const tally *t, size_t percent)
+{
+    const size_t breaches = t->more_conflicts + t->dearer;
+    printf("%s: %zu groups, %zu with more conflicts, %zu dearer\n", t->law, t->groups, t->more_conflicts, t->dearer);
+    assert_true(breaches <= 2 || 100 * breaches <= percent * t->groups);
+}
+
+/* ---- Laws */
+
+static void test_limits(void **state)
+{
+    (void)state;
+    tally sum = {.law = "looser limits"};
+    outcome *run = calloc(3, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++) {
+        rng r = rng_start(test_seed(), i);
+        town t = {0};
+        found(&r, &t);
+        separate(&t, run);
+        if (run->longest == 0) continue;
+        /* Now and then hardly longer. */
+        limit_all(&t, run->longest * (1 + (rng_once_in(&r, 3) ? 0x1p-40 : rng_unit(&r))));
+        separate(&t, run + 1);
+        if (memcmp(run->move, run[1].move, sizeof run->move))
+            fail_msg("seed %llu, case %zu: a limit that nothing oversteps makes a difference",
+                     (unsigned long long)test_seed(), i);
+        const double loose = run->longest * rng_unit(&r), tight = loose * rng_unit(&r);
+        limit_all(&t, loose);
+        separate(&t, run + 1);
+        compare(&sum, i, &t, t.gap, run, run + 1);
+        limit_all(&t, tight);
+        separate(&t, run + 2);
+        compare(&sum, i, &t, t.gap, run + 1, run + 2);
+    }
+    free(run);
+    judge(&sum, 4);
+}
+
+static void test_gaps(void **state)
+{
+    (void)state;
+    tally sum = {.law = "smaller gaps"};
+    outcome *run = calloc(2, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++) {
+        rng r = rng_start(test_seed() + 1, i);
+        town t = {0};
+        found(&r, &t);
+        t.gap = (double)rng_int(&r, 2, 24) / 8;
+        t.tolerance = rng_once_in(&r, 2) ? 0 : 0x1p-6;
+        const double wide = t.gap;
+        separate(&t, run);
+        t.gap = rng_once_in(&r, 2) ? wide * 0.75 : wide / 2;
+        separate(&t, run + 1);
+        compare(&sum, i, &t, wide, run + 1, run);
+    }
+    free(run);
+    judge(&sum, 2);
+}
+
+static void test_far_feature(void **state)
+{
+    (void)state;
+    outcome *run = calloc(2, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++) {
+        rng r = rng_start(test_seed() + 2, i);
+        town t = {0}, u = {0};
+        found(&r, &t);
+        if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
+        separate(&t, run);
+        /* Before the others and behind them: a pair that has to part, and one that stands alone. */
+        u = t;
+        const size_t before = rng_once_in(&r, 2) ? 2 : 0;
+        memmove(u.house + before, t.house, t.n * sizeof *t.house);
+        for (size_t k = 0; k < 3; k++) {
+            house *h = &u.house[before ? (k == 2 ? t.n + 2 : k) : t.n + k];
+            const double s = k == 2 ? 1 : 1000, x = 400000 + (k == 2 ? -1e5 : 1e5), y = 5400000 + 1e5 + (double)k / 4;
+            const double xy[8] = {x, y, x + s, y, x + s, y + s, x, y + s};
+            *h = (house){.corners = 4, .weight = 1, .limit = INFINITY};
+            memcpy(h->xy, xy, sizeof xy);
+        }
+        u.n = t.n + 3;
+        separate(&u, run + 1);
+        if (memcmp(run->move, run[1].move + 2 * before, 2 * t.n * sizeof *run->move))
+            fail_msg("seed %llu, case %zu: features out of reach make a difference",
+                     (unsigned long long)test_seed(), i);
+    }
+    free(run);
+}
+
+static void test_scale(void **state)
+{
+    (void)state;
+    outcome *run = calloc(2, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++) {
+        rng r = rng_start(test_seed() + 3, i);
+        town t = {0};
+        found(&r, &t);
+        if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
+        separate(&t, run);
+        const int k = (int)rng_int(&r, -60, 60);
+        town u = t;
+        u.gap = ldexp(t.gap, k);
+        u.tolerance = ldexp(t.tolerance, k);
+        for (size_t h = 0; h < t.n; h++) {
+            u.house[h].limit = ldexp(t.house[h].limit, k);
+            for (size_t c = 0; c < 2 * t.house[h].corners; c++) u.house[h].xy[c] = ldexp(t.house[h].xy[c], k);
+        }
+        separate(&u, run + 1);
+        for (size_t c = 0; c < 2 * MOST; c++) run->move[c] = ldexp(run->move[c], k);
+        if (memcmp(run->move, run[1].move, sizeof run->move) || run->conflicts != run[1].conflicts)
+            fail_msg("seed %llu, case %zu: scaled by 2^%d it is another layer", (unsigned long long)test_seed(), i, k);
+    }
+    free(run);
+}
+
+/* The same town shifted by a multiple of 1/8, or in another order; to[k]: where feature k went. */
+static void alter(rng *r, const town *t, town *u, size_t to[MOST], bool shift)
+{
+    double by[2] = {0, 0};
+    for (int c = 0; shift && c < 2; c++) by[c] = (double)rng_int(r, -800000, 800000) / 8;
+    *u = *t;
+    for (size_t k = 0; k < t->n; k++) to[k] = k;
+    for (size_t k = t->n; !shift && k-- > 1;) {
+        const size_t with = (size_t)rng_int(r, 0, (int64_t)k), swap = to[k];
+        to[k] = to[with];
+        to[with] = swap;
+    }
+    for (size_t k = 0; k < t->n; k++) {
+        house *h = &u->house[to[k]];
+        *h = t->house[k];
+        for (size_t c = 0; c < 2 * h->corners; c++) h->xy[c] += by[c & 1];
+    }
+}
+
+static void test_order_and_place(void **state)
+{
+    (void)state;
+    size_t towns = 0, conflicts[2] = {0, 0}, percent[2] = {0, 0};
+    outcome *run = calloc(2, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++, towns++) {
+        rng r = rng_start(test_seed() + 4, i);
+        town t = {0}, u;
+        size_t to[MOST];
+        found(&r, &t);
+        if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
+        separate(&t, run);
+        for (int shift = 0; shift < 2; shift++) {
+            alter(&r, &t, &u, to, shift);
+            separate(&u, run + 1);
+            if (run->conflicts != run[1].conflicts)
+                conflicts[shift]++;
+            else if (fabs(run->cost - run[1].cost) > 0.01 * run->cost + slack(&t, run))
+                percent[shift]++;
+        }
+    }
+    free(run);
+    for (int shift = 0; shift < 2; shift++)
+        printf("%s: %zu towns, other conflicts in %zu, costs that differ by over 1 %% in %zu\n",
+               shift ? "another place" : "another order", towns, conflicts[shift], percent[shift]);
+    /* Of whole towns, of which one has a dozen groups: four in a hundred and eight in a hundred were seen. */
+    for (int shift = 0; shift < 2; shift++)
+        assert_true(100 * (conflicts[shift] + percent[shift]) <= 10 * towns + 200);
+}
+
+int main(void)
+{
+    printf("seed %llu\n", (unsigned long long)test_seed());
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_limits), cmocka_unit_test(test_gaps),
+                                       cmocka_unit_test(test_far_feature), cmocka_unit_test(test_scale),
+                                       cmocka_unit_test(test_order_and_place)};
+    return cmocka_run_group_tests_name("laws over whole layers", tests, NULL, NULL);
+}
