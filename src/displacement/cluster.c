@@ -20,7 +20,7 @@
 
 static sunder_status finish(sunder_i_search *s, double *move, sunder_status status, sunder_error *err)
 {
-    if (!status && s->failed) status = sunder_i_broken_off(&s->town->rules, err);
+    if (!status && s->failed) status = sunder_i_no_memory(err);
     if (!status)
         for (size_t k = 0; k < s->n; k++)
             if (s->mass[k] > 0) sunder_i_round_move(s->town, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
@@ -145,7 +145,7 @@ sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster
     sunder_i_search_free(&s);
     sunder_i_free(body);
     sunder_i_free(all);
-    return ok ? SUNDER_OK : sunder_i_broken_off(&town->rules, err);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* ---- From start to moves --------------------------------------------------------------------------------------- */
@@ -363,5 +363,5 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_free(best);
     sunder_i_free(near);
     sunder_i_free(order);
-    return ok ? SUNDER_OK : sunder_i_broken_off(&town->rules, err);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

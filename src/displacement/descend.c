@@ -212,7 +212,7 @@ static double solve(sunder_i_search *s, double softness)
     const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
     p->most_work = s->patience < UINT64_MAX ? (s->patience > s->steps ? s->patience - s->steps : 1) : 0;
     double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent);
-    if (v < 0 || sunder_i_is_stopped(&s->town->rules)) s->failed = true;
+    if (v < 0 || !sunder_i_look()) s->failed = true;
     keep_still(s);
     if (softness > 0 || v <= s->tolerance) return v;
     double asked = 0;
@@ -221,7 +221,7 @@ static double solve(sunder_i_search *s, double softness)
         asked += more;
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
         v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent);
-        if (v < 0 || sunder_i_is_stopped(&s->town->rules)) s->failed = true;
+        if (v < 0 || !sunder_i_look()) s->failed = true;
         keep_still(s);
         v = fmax(0, v - asked);
     }

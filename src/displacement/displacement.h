@@ -27,16 +27,6 @@ typedef struct sunder_i_rules {
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
 /* Tells how far it is; false when the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
-static inline bool sunder_i_is_stopped(const sunder_i_rules *rules)
-{
-    (void)rules;
-    return !sunder_i_look();
-}
-static inline sunder_status sunder_i_broken_off(const sunder_i_rules *rules, sunder_error *err)
-{
-    (void)rules;
-    return sunder_i_no_memory(err);
-}
 
 /* Is the feature there at all (not ignored, not empty)? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)
@@ -386,7 +376,6 @@ typedef struct sunder_i_quadratic {
     double *t;                   /* [2 * bodies] out */
     uint64_t work;               /* done so far, roughly in constraints looked at */
     uint64_t most_work;          /* 0, or how much may be: then what is done by then is the solution, such as it is */
-    const sunder_i_rules *rules; /* NULL, or whom to ask whether to stop; then the solution is of no use */
 } sunder_i_quadratic;
 
 /* min sum w |t|^2 under the constraints, starting from their forces. softness > 0 lets every constraint yield in

@@ -199,7 +199,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
             q.f[c] = 0.1 * mean * scale * scale / q.s[c];
         }
         for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
-            if (p->rules && sunder_i_is_stopped(p->rules)) break;
+            if (!sunder_i_look()) break;
         for (size_t b = 0; b < p->bodies; b++)
             for (size_t e = 0; e < 2; e++)
                 p->t[2 * b + e] = q.unknown[b] == SUNDER_I_NOBODY ? 0 : q.x[q.unknown[b] + e];

@@ -148,7 +148,7 @@ sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *c, sunder_i_outcome *outc
     for (int round = 0; round < ROUNDS && !sunder_i_inquiry_is_over(c); round++) {
         if (!load(c) || sunder_i_quadratic_solve(&c->program, SOFTNESS, c->hair / 4, c->longest) < 0)
             return sunder_i_no_memory(err);
-        if (sunder_i_is_stopped(&c->town->rules)) return sunder_i_broken_off(&c->town->rules, err);
+        if (!sunder_i_look()) return sunder_i_no_memory(err);
         take_over(c);
         *outcome = SUNDER_I_VOID;
         if (is_contradiction(c)) return SUNDER_OK;

@@ -238,7 +238,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
             place[0] = best[0][0];
             place[1] = best[0][1];
         }
-        if (sunder_i_is_stopped(&s->town->rules)) s->failed = true;
+        if (!sunder_i_look()) s->failed = true;
         if (n || s->failed) return n != 0 && !s->failed;
         if (reach >= limit || reach > all) return false;
     }

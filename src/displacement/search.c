@@ -34,7 +34,6 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->program.bodies = n;
     s->program.mass = s->mass;
     s->program.t = s->next;
-    s->program.rules = &town->rules;
     return true;
 }
 
