@@ -76,7 +76,8 @@ sunder_status sunder_i_job_name_blockers(sunder_i_job *w, sunder_error *err)
             status = find_blockers(w, c, &near, &blockers, err);
         else if (!take_from_proof(c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
-        c->n_blocked_by = sunder_i_set_make(blockers.item + first, blockers.n - first);
+        if (blockers.n == first) continue; /* nobody to name, and perhaps no list yet */
+        c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);
         blockers.n = first + c->n_blocked_by;
     }
     if (!status) {
