@@ -225,8 +225,10 @@ static bool compare(gis_sink_layer *layer, gis_digest *read, gis_error *error)
     gis_digests *all = &layer->digests;
     if (!all->wanted) /* a format that keeps nothing as it is: all features were there to be read */
         return true;
-    qsort(all->sent, all->n, sizeof *all->sent, order);
-    qsort(read, all->n, sizeof *read, order);
+    if (all->n) { /* else there are no lists */
+        qsort(all->sent, all->n, sizeof *all->sent, order);
+        qsort(read, all->n, sizeof *read, order);
+    }
     size_t lost = missing(all->sent, read, all->n, false);
     size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent, read, all->n, true);
     if (!lost && changed && !sink->format.keeps_values) {

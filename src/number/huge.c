@@ -124,9 +124,10 @@ sunder_i_big sunder_i_huge_divide(sunder_i_arena *arena, sunder_i_big a, sunder_
     n <<= halvings;
     if (n < SUNDER_I_GMP_LIMBS / 2) n = SUNDER_I_GMP_LIMBS / 2;
     const mp_size_t room = a.size + 2 * n;
-    mp_limb_t *q = sunder_i_arena_alloc(arena, (size_t)(room + n), sizeof *q), *r = q + room;
+    mp_limb_t *q = sunder_i_arena_alloc(arena, (size_t)(room + n), sizeof *q);
     *remainder = zero;
     if (!q) return zero;
+    mp_limb_t *r = q + room;
     mpn_zero(q, room);
     const unsigned long shift = 64 * (unsigned long)n - sunder_i_big_bits(b);
     const sunder_i_mark all = sunder_i_arena_mark(arena);

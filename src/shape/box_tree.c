@@ -16,8 +16,9 @@ static void sort_rings(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_
 {
     const uint32_t rings = ring_hi - ring_lo;
     tree->edge = sunder_i_arena_alloc(arena, tree->edges, sizeof *tree->edge);
-    uint32_t *list = sunder_i_arena_alloc(arena, 2 * (size_t)rings, sizeof *list), *first = list + rings;
+    uint32_t *list = sunder_i_arena_alloc(arena, 2 * (size_t)rings, sizeof *list);
     if (arena->failed) return;
+    uint32_t *first = list + rings;
     for (uint32_t k = 0; k < rings; k++) {
         list[k] = k;
         first[k] = ring_lo + k ? r->ring_end[ring_lo + k - 1] : 0;

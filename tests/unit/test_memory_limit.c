@@ -13,6 +13,13 @@
 
 #include <cmocka.h>
 
+/* gcc says it by a macro, clang by a feature. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)
+#define __SANITIZE_ADDRESS__ 1
+#endif
+#endif
+
 enum { DONE = 0, NO_MEMORY = 1, WRONG = 2 };
 
 /* A closed scribble in full doubles: its corners are crossings, of which exact texts are long. */
