@@ -3,15 +3,17 @@
  *
  * Inputs are small integers, so what is not exactly at the gap is off it by far more than the 1e-9 allowed to doubles,
  * save for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
-#include "separation_oracle.h"
-
+#include "generate.h"
 #include "separation/least.h"
+#include "slabs.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>

@@ -4,9 +4,9 @@
  * the other; so it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment.
  * All are made, sorted by length, and the first free one is the answer; of several of that length the lexicographically
  * smallest. Free is decided by cutting both sets into vertical slabs. */
-#include "separation_oracle.h"
-
+#include "generate.h"
 #include "separation/least.h"
+#include "slabs.h"
 
 #include <gmp.h>
 #include <math.h>

@@ -1,14 +1,16 @@
 /* Overlap, containment, the gap and the distance of random pairs, as they stand and translated, against slabs in
  * rationals and plain enumeration. */
-#include "separation_oracle.h"
-
+#include "generate.h"
 #include "separation/separation.h"
+#include "slabs.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 

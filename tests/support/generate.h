@@ -75,6 +75,9 @@ typedef enum pair_kind {
 
 const char *pair_kind_string(pair_kind kind);
 void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind);
+/* Moves q over p, a few units off. */
+void bring_together(const polyset *p, polyset *q, rng *r);
+
 /* ---- Larger pairs, in the manner of the literature's families ---- */
 
 typedef enum family_kind {

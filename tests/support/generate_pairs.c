@@ -106,6 +106,23 @@ void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind)
     }
 }
 
+void bring_together(const polyset *p, polyset *q, rng *r)
+{
+    for (int k = 0; k < 2; k++) {
+        double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+        for (size_t i = 0; i < p->vertices; i++) {
+            low[0] = fmin(low[0], p->xy[2 * i + (size_t)k]);
+            high[0] = fmax(high[0], p->xy[2 * i + (size_t)k]);
+        }
+        for (size_t i = 0; i < q->vertices; i++) {
+            low[1] = fmin(low[1], q->xy[2 * i + (size_t)k]);
+            high[1] = fmax(high[1], q->xy[2 * i + (size_t)k]);
+        }
+        const double d = floor((low[0] + high[0] - low[1] - high[1]) / 2) + (double)rng_int(r, -3, 3);
+        polyset_move(q, k ? 0 : d, k ? d : 0);
+    }
+}
+
 /* A point of small integers: middles of two such are exact. */
 static bool small(const double *a)
 {

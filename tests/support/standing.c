@@ -4,7 +4,7 @@
  * rationals and asked, by vertical slabs, whether they part the two. */
 #include "standing.h"
 
-#include "property/separation_oracle.h"
+#include "slabs.h"
 
 #include <math.h>
 #include <stdlib.h>
