@@ -15,6 +15,7 @@
  * (f) Features in another order, or shifted by what all coordinates hold exactly, are counted by towns. Breaches are shown
  * where SUNDER_LAWS_SHOW is set. */
 #include "random.h"
+#include "upheld.h"
 
 #include "sunder.h"
 
@@ -116,6 +117,8 @@ static void separate(const town *t, outcome *o)
     }
     if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
         fail_msg("%s", err.message);
+    char *worse = upheld_breach(feature, t->n, &options, report);
+    if (worse) fail_msg("%s", worse);
     sunder_report_summary(report, &summary);
     *o = (outcome){.cost = summary.cost, .longest = summary.max, .clusters = summary.clusters};
     for (size_t k = 0; k < t->n; k++) sunder_report_move(report, k, &o->move[2 * k], &o->move[2 * k + 1]);

@@ -5,6 +5,7 @@
  * no conflict may be said to have no room. Packed: a lane too narrow by little: all that remains has a proof. */
 #include "proof_check.h"
 #include "random.h"
+#include "upheld.h"
 
 #include "sunder.h"
 
@@ -62,6 +63,8 @@ static sunder_report *separate(const town *t)
     if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
         fail_msg("%s", err.message);
     sunder_layer_free(layer);
+    char *worse = upheld_breach(t->feature, t->n, &options, report);
+    if (worse) fail_msg("%s", worse);
     return report;
 }
 

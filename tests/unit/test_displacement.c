@@ -1,5 +1,6 @@
 /* A whole layer on small figures with known answers: what conflicts, what joins, what moves, what cannot. */
 #include "polyset.h"
+#include "upheld.h"
 
 #include "displacement/displacement.h"
 
@@ -70,6 +71,8 @@ static void run(scene *s, bool check)
     sunder_layer_free(layer);
     if (status) fail_msg("%s", err.message);
     sunder_report_summary(s->report, &s->summary);
+    char *worse = check ? NULL : upheld_breach(s->feature, s->n, &s->options, s->report);
+    if (worse) fail_msg("%s", worse);
 }
 
 static void end(scene *s)
@@ -600,6 +603,7 @@ static void check_cancel_anywhere(void **state)
         assert_null(s.report);
     }
     assert_int_equal(status, SUNDER_OK);
+    assert_null(upheld_breach(s.feature, s.n, &s.options, s.report));
     assert_true(calls > 100); /* it was asked within the search, too */
     sunder_layer_free(layer);
     end(&s);
