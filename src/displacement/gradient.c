@@ -65,6 +65,16 @@ static double dot(const double *a, const double *b, size_t n)
     return v;
 }
 
+/* The curvature along the step, or 0 where it is nothing but rounding. Constraints that contradict each other make such
+ * a direction, and the dual falls along it without end: a step there could have any length, and be no number at last.
+ * The diagonal of G is 1, so sums of n terms are wrong by n 2^-53 of the step's square at most; a chain of n contacts
+ * has a curvature of 5 / n^2 of it at least. Between the two there is room up to 100,000 contacts. */
+static double curvature_of(const dual *q)
+{
+    const double value = dot(q->step, q->gs, q->n);
+    return value > 0x1p-44 * dot(q->step, q->step, q->n) ? value : 0;
+}
+
 /* The gradient among the positive forces is the next direction. */
 static void restart(dual *q)
 {
@@ -93,14 +103,14 @@ static imbalance look(const dual *q, double short_step)
     return i;
 }
 
-/* One step among the positive forces. */
-static void step_within(dual *q, double short_step)
+/* One step among the positive forces; false where it leads nowhere. */
+static bool step_within(dual *q, double short_step)
 {
     multiply(q, q->step, q->gs);
-    const double curvature = dot(q->step, q->gs, q->n);
+    const double curvature = curvature_of(q);
     if (!(curvature > 0)) {
         restart(q);
-        return;
+        return false;
     }
     const double length = dot(q->g, q->step, q->n) / curvature;
     double feasible = INFINITY;
@@ -117,20 +127,21 @@ static void step_within(dual *q, double short_step)
             if (q->f[k] > 0) along += q->g[k] * q->gs[k];
         along /= curvature;
         for (size_t k = 0; k < q->n; k++) q->step[k] = (q->f[k] > 0 ? q->g[k] : 0) - along * q->step[k];
-        return;
+        return true;
     }
     for (size_t k = 0; k < q->n; k++)
         if (q->f[k] > 0) q->f[k] = fmax(0, q->f[k] - short_step * q->g[k]);
     gradient(q);
     restart(q);
+    return true;
 }
 
-/* Lets in the zero forces that are called for. */
-static void step_in(dual *q)
+/* Lets in the zero forces that are called for; false where that leads nowhere. */
+static bool step_in(dual *q)
 {
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : fmin(q->g[k], 0);
     multiply(q, q->step, q->gs);
-    const double curvature = dot(q->step, q->gs, q->n);
+    const double curvature = curvature_of(q);
     if (curvature > 0) {
         const double length = dot(q->g, q->step, q->n) / curvature;
         for (size_t k = 0; k < q->n; k++) {
@@ -139,6 +150,7 @@ static void step_in(dual *q)
         }
     }
     restart(q);
+    return curvature > 0;
 }
 
 static void iterate(dual *q, double tolerance, unsigned steps)
@@ -146,13 +158,13 @@ static void iterate(dual *q, double tolerance, unsigned steps)
     gradient(q);
     const double short_step = 1.9 / largest(q);
     restart(q);
-    for (unsigned k = 0; k < steps && !sunder_i_quadratic_is_done(q->p); k++) {
+    /* Nowhere along a direction made of earlier ones, and then nowhere along the gradient itself: this is the end. */
+    int nowhere = 0;
+    for (unsigned k = 0; k < steps && nowhere < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
         const imbalance i = look(q, short_step);
         if (i.worst <= tolerance) break;
-        if (i.zero <= i.cut)
-            step_within(q, short_step);
-        else
-            step_in(q);
+        const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
+        nowhere = somewhere ? 0 : nowhere + 1;
         if (k % 64 == 63) gradient(q); /* the running gradient gathers rounding */
     }
 }

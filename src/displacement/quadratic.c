@@ -53,7 +53,9 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         const double m = sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j);
-        v = fmax(v, c->d - sunder_i_stretch(c, p->t) - softness * m * c->force);
+        const double missed = c->d - sunder_i_stretch(c, p->t) - softness * m * c->force;
+        if (missed != missed) return INFINITY; /* without a solution forces can outgrow all numbers */
+        v = fmax(v, missed);
     }
     return v;
 }
@@ -75,14 +77,25 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
     return true;
 }
 
+/* What is missed; where forces have outgrown all numbers nothing is moved, and everything is missed. */
+static double finish(sunder_i_quadratic *p)
+{
+    const double missed = sunder_i_quadratic_worst(p, 0);
+    if (missed == INFINITY) {
+        for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
+        sunder_i_quadratic_place(p);
+    }
+    return fmax(0, missed);
+}
+
 double sunder_i_quadratic_solve(sunder_i_quadratic *p, double softness, double tolerance, double scale)
 {
     if (p->n <= MOST_QUICK) {
         if (!solve_quickly(p, softness, tolerance)) return -1;
-        if (sunder_i_quadratic_worst(p, softness) <= tolerance) return fmax(0, sunder_i_quadratic_worst(p, 0));
+        if (sunder_i_quadratic_worst(p, softness) <= tolerance) return finish(p);
     }
     sunder_i_quadratic_place(p);
-    if (sunder_i_quadratic_is_done(p)) return fmax(0, sunder_i_quadratic_worst(p, 0));
+    if (sunder_i_quadratic_is_done(p)) return finish(p);
     if (!sunder_i_quadratic_interior(p, softness, tolerance, scale)) return -1;
-    return fmax(0, sunder_i_quadratic_worst(p, 0));
+    return finish(p);
 }

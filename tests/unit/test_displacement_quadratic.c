@@ -1,0 +1,95 @@
+/* The quadratic program on constraints that can and that cannot hold together: what is returned is a number, the moves
+ * and forces are numbers, and what is missed is what the moves miss. */
+#include "displacement/quadratic.h"
+#include "random.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { BODIES = 8, MOST = 40 };
+
+typedef struct program {
+    sunder_i_quadratic q;
+    double mass[BODIES], t[2 * BODIES];
+    sunder_i_constraint constraint[MOST];
+} program;
+
+static void demand(program *p, uint32_t i, uint32_t j, const double n[2], double d)
+{
+    if (i == j || p->q.n == MOST) return;
+    p->constraint[p->q.n++] = (sunder_i_constraint){.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
+}
+
+/* Contacts at random. In half of the programs some are asked for from both sides at once, or nearly: what asks must
+ * miss something then, and no force is enough. Sizes from molehills to mountains. */
+static bool draw(rng *r, program *p)
+{
+    memset(p, 0, sizeof *p);
+    p->q = (sunder_i_quadratic){.bodies = BODIES, .mass = p->mass, .t = p->t, .constraint = p->constraint};
+    for (size_t k = 0; k < BODIES; k++)
+        p->mass[k] = rng_once_in(r, 6) ? 0 : rng_once_in(r, 2) ? 1 : pow(10, 8 * rng_unit(r) - 4);
+    const double size = pow(10, 8 * rng_unit(r) - 3);
+    const bool contradicts = rng_once_in(r, 2);
+    const int n = (int)rng_int(r, 1, MOST / 2);
+    for (int k = 0; k < n; k++) {
+        const uint32_t i = rng_once_in(r, 4) ? SUNDER_I_NOBODY : (uint32_t)rng_int(r, 0, BODIES - 1);
+        const uint32_t j = (uint32_t)rng_int(r, 0, BODIES - 1);
+        const double angle = rng_once_in(r, 3) ? 0 : 6.3 * rng_unit(r), d = size * rng_unit(r);
+        const double u[2] = {cos(angle), sin(angle)};
+        demand(p, i, j, u, d);
+        if (!contradicts || rng_once_in(r, 2)) continue;
+        const double off = angle + (rng_once_in(r, 2) ? 0 : pow(10, -16 * rng_unit(r)));
+        const double back[2] = {-cos(off), -sin(off)};
+        demand(p, i, j, back, size * rng_unit(r));
+    }
+    return contradicts;
+}
+
+static double missed(const program *p)
+{
+    double worst = 0;
+    for (size_t k = 0; k < p->q.n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        const double v = c->d - sunder_i_stretch(c, p->t);
+        if (!(v <= worst)) worst = v;
+    }
+    return worst;
+}
+
+static void check_programs(void **state)
+{
+    (void)state;
+    size_t solved = 0, beyond = 0;
+    for (size_t trial = 0; trial < test_count(4000); trial++) {
+        rng r = rng_start(test_seed(), trial);
+        program p;
+        draw(&r, &p);
+        const double softness = rng_once_in(&r, 3) ? 0.1 * rng_unit(&r) : 0, tolerance = 1e-9;
+        const double v = sunder_i_quadratic_solve(&p.q, softness, tolerance, 1000);
+        for (size_t k = 0; k < 2 * BODIES; k++)
+            if (!isfinite(p.t[k])) fail_msg("trial %zu: body %zu is moved by %g", trial, k / 2, p.t[k]);
+        for (size_t k = 0; k < p.q.n; k++)
+            if (!isfinite(p.constraint[k].force)) fail_msg("trial %zu: a force of %g", trial, p.constraint[k].force);
+        if (!(v >= 0)) fail_msg("trial %zu: %g is missed", trial, v);
+        const double truly = missed(&p);
+        if (v != INFINITY && !(fabs(truly - v) <= 1e-9 * (1 + v)))
+            fail_msg("trial %zu: %.17g is missed and not %.17g", trial, truly, v);
+        solved += v <= tolerance;
+        beyond += v > tolerance;
+    }
+    printf("%zu solved, %zu not\n", solved, beyond);
+    assert_true(solved > 0 && beyond > 0);
+}
+
+int main(void)
+{
+    printf("seed %llu\n", (unsigned long long)test_seed());
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
