@@ -1,14 +1,17 @@
-"""What stays in conflict stands no worse: python3 upheld.py INPUT.gpkg LAYER OUTPUT.gpkg GAP CHECKED | standing_rule
+"""What stays in conflict stands no worse:
+
+    python3 upheld.py INPUT.gpkg LAYER OUTPUT.gpkg WRITTEN GAP CHECKED | standing_rule
 
 Reads both GeoPackages as the SQLite files that they are, and prints every pair of the output's conflicts that is not
-inside a block, as it stood and as it stands. CHECKED holds the lines of `sunder check` on the input: a pair that was
-contained or a duplicate, and still is, is no worse and left out. Each feature is one translate of what it was, exactly."""
+inside a block, as it stood and as it stands. LAYER may be empty: the only one; WRITTEN too: called as LAYER. CHECKED holds
+the lines of `sunder check` on the input: a pair that was contained or a duplicate, and still is, is no worse and left out.
+Each feature is one translate of what it was, exactly."""
 import sqlite3
 import struct
 import sys
 from fractions import Fraction
 
-source, layer, output, gap, checked = sys.argv[1:6]
+source, layer, output, written, gap, checked = sys.argv[1:7]
 
 
 def rings(blob, at):
@@ -28,7 +31,11 @@ def rings(blob, at):
     return (polygons if kind == 6 else [polygons]), at
 
 
-def shapes(path):
+def only_layer(path):
+    return sqlite3.connect(path).execute("SELECT table_name FROM gpkg_geometry_columns").fetchone()[0]
+
+
+def shapes(path, layer):
     base = sqlite3.connect(path)
     column = base.execute("SELECT column_name FROM gpkg_geometry_columns WHERE table_name = ?", (layer,)).fetchone()[0]
     found = {}
@@ -52,11 +59,13 @@ def wkt(polygons):
     return "MULTIPOLYGON (" + ", ".join("(" + ", ".join(map(ring, p)) + ")" for p in polygons) + ")"
 
 
-was, now = shapes(source), shapes(output)
+layer = layer or only_layer(source)
+written = written or layer
+was, now = shapes(source, layer), shapes(output, written)
 within = {"contained", "duplicate"}
 lines = [line.rstrip("\n").split("\t") for line in open(checked)]  # fid_a, id_a, fid_b, id_b, barrier, barr_fid, kind, ...
 contained = {(int(v[0]), int(v[2])) for v in lines if len(v) > 6 and v[6] in within}
-query = f'SELECT fid_a, fid_b, kind, reason FROM "{layer}_conflicts"'
+query = f'SELECT fid_a, fid_b, kind, reason FROM "{written}_conflicts"'
 for a, b, kind, reason in sqlite3.connect(output).execute(query):
     if reason == "same_block" or (kind in within and (a, b) in contained):
         continue
