@@ -11,13 +11,13 @@ void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_st
     const size_t columns = at_least_one(m / 4), rows = at_least_one(n / 4);
     for (size_t i = 0; i < columns; i++) {
         const int64_t x = (int64_t)i * PITCH + family_integer(&streams->p, -120, 120);
-        family_rectangle(p, x, -family_integer(&streams->p, 600, 1500), x + family_integer(&streams->p, 40, 120),
-                         family_integer(&streams->p, 600, 1500));
+        const int64_t top = family_integer(&streams->p, 600, 1500), right = x + family_integer(&streams->p, 40, 120);
+        family_rectangle(p, x, -family_integer(&streams->p, 600, 1500), right, top);
     }
     for (size_t i = 0; i < rows; i++) {
         const int64_t y = (int64_t)i * PITCH + family_integer(&streams->q, -120, 120);
-        family_rectangle(q, -family_integer(&streams->q, 300, 900), y, family_integer(&streams->q, 300, 900),
-                         y + family_integer(&streams->q, 40, 120));
+        const int64_t top = y + family_integer(&streams->q, 40, 120), right = family_integer(&streams->q, 300, 900);
+        family_rectangle(q, -family_integer(&streams->q, 300, 900), y, right, top);
     }
 }
 
@@ -37,11 +37,15 @@ void family_fat_cover(family_set *p, family_set *q, size_t m, size_t n, family_s
         const int64_t y = family_integer(&streams->p, 0, 400);
         family_rectangle(p, x, y, x + BLOCK, y + family_integer(&streams->p, 50, 400));
     }
-    for (size_t i = 0; i < bars; i++)
-        family_rectangle(p, -family_integer(&streams->p, 1, EDGE), -family_integer(&streams->p, 1, EDGE),
-                         length + family_integer(&streams->p, 1, EDGE), BAR + family_integer(&streams->p, 1, EDGE));
+    for (size_t i = 0; i < bars; i++) {
+        const int64_t top = BAR + family_integer(&streams->p, 1, EDGE);
+        const int64_t right = length + family_integer(&streams->p, 1, EDGE);
+        const int64_t bottom = -family_integer(&streams->p, 1, EDGE);
+        family_rectangle(p, -family_integer(&streams->p, 1, EDGE), bottom, right, top);
+    }
     for (size_t i = 0; i < rows; i++) {
         const int64_t y = (int64_t)i * PITCH;
-        family_rectangle(q, family_integer(&streams->q, -50, -20), y, family_integer(&streams->q, 20, 50), y + PLATE);
+        const int64_t right = family_integer(&streams->q, 20, 50);
+        family_rectangle(q, family_integer(&streams->q, -50, -20), y, right, y + PLATE);
     }
 }

@@ -102,15 +102,17 @@ void town_quarter_old(town_block *block)
     for (size_t side = 0; side < 4; ++side) old_row(block, side, 1.75);
     const town_ground *ground = &block->streets[0].ground;
     if (town_random_chance(random, 0.4)) {
-        place_yard(block, ground, ground->length / 2 - town_random_between(random, 8, 16), 34,
-                   town_random_between(random, 20, 26), town_random_between(random, 18, 22), 3.2, "convent");
+        double depth = town_random_between(random, 18, 22), width = town_random_between(random, 20, 26);
+        place_yard(block, ground, ground->length / 2 - town_random_between(random, 8, 16), 34, width, depth, 3.2,
+                   "convent");
     }
     for (int i = 0; i < 14; ++i) { /* workshops in the yards; one in a while is squeezed against a house */
         double width = town_random_between(random, 4, 10), depth = town_random_between(random, 4, 8);
         bool wrong = town_random_chance(random, 1.5 * block->trouble);
-        place(block, ground, town_random_chance(random, 0.3) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE,
-              town_random_between(random, 20, ground->length - 20), town_random_between(random, 20, 64), width, depth,
-              wrong ? -0.9 : 3.2, "workshop", town_random_between(random, 3, 6));
+        double height = town_random_between(random, 3, 6), back = town_random_between(random, 20, 64);
+        double along = town_random_between(random, 20, ground->length - 20);
+        place(block, ground, town_random_chance(random, 0.3) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE, along, back, width,
+              depth, wrong ? -0.9 : 3.2, "workshop", height);
     }
 }
 
@@ -129,16 +131,18 @@ void town_quarter_rows(town_block *block)
         }
     }
     const town_ground *ground = &block->streets[0].ground;
-    town_garages(block, ground, ground->length / 2 - town_random_between(random, 6, 20),
-                 town_random_between(random, 34, 40), 4 + town_random_below(random, 6));
+    unsigned garages = 4 + town_random_below(random, 6);
+    double back = town_random_between(random, 34, 40);
+    town_garages(block, ground, ground->length / 2 - town_random_between(random, 6, 20), back, garages);
     for (size_t side = 1; side < 4; side += 2) {
         const town_street *street = &block->streets[side];
         town_houses(block, &street->ground, 24, street->ground.length - 20, street->half_width + 4);
     }
     for (int i = 0; i < 10; ++i) {
-        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 12, ground->length - 12),
-              town_random_between(random, 24, 56), 3, 2.5, town_random_chance(random, block->trouble) ? -1 : 3.2,
-              "shed", 2.4);
+        bool wrong = town_random_chance(random, block->trouble);
+        double away = town_random_between(random, 24, 56);
+        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 12, ground->length - 12), away, 3, 2.5,
+              wrong ? -1 : 3.2, "shed", 2.4);
     }
 }
 
@@ -147,9 +151,9 @@ static void add_lane(town_block *block)
 {
     const town_street *street = &block->streets[0];
     town_street lane = {.kind = TOWN_LANE, .half_width = 2.25, .name = town_street_name(&block->random)};
-    town_ground across =
-        town_ground_within(&street->ground, street->ground.length * town_random_between(&block->random, 0.42, 0.58), 0,
-                           town_random_between(&block->random, -0.1, 0.1));
+    double turn = town_random_between(&block->random, -0.1, 0.1);
+    double middle = street->ground.length * town_random_between(&block->random, 0.42, 0.58);
+    town_ground across = town_ground_within(&street->ground, middle, 0, turn);
     lane.ground = (town_ground){
         across.start, across.left, {-across.along.x, -across.along.y}, town_random_between(&block->random, 48, 58), 0};
     block->lanes[block->n_lanes++] = lane;
@@ -181,9 +185,9 @@ void town_quarter_flats(town_block *block)
     town_ground turned = town_ground_within(ground, 0, 0, town_random_between(random, -0.2, 0.2));
     double length = town_random_between(random, 32, 44);
     for (double s = 12; s < ground->length - 20; s += town_random_between(random, 24, 30)) {
-        town_building *built =
-            place(block, &turned, town_random_chance(random, 0.2) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE, s,
-                  town_random_between(random, 12, 26), 12, length, 5, "flats", town_random_between(random, 14, 32));
+        double height = town_random_between(random, 14, 32), back = town_random_between(random, 12, 26);
+        town_building *built = place(block, &turned, town_random_chance(random, 0.2) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE,
+                                     s, back, 12, length, 5, "flats", height);
         if (built &&
             town_random_chance(random, 0.5)) { /* a stair tower, drawn a little into the wall or a little off it */
             place(block, &turned, TOWN_PLAN_RECTANGLE, s + 12.5, 30, 2.5, 4,
@@ -197,16 +201,18 @@ void town_quarter_works(town_block *block)
 {
     town_random *random = &block->random;
     const town_ground *ground = &block->streets[0].ground;
-    town_building *hall = place(block, ground, TOWN_PLAN_L, 14, 14, town_random_between(random, 34, 46),
-                                town_random_between(random, 30, 44), 3, "works", town_random_between(random, 8, 12));
+    double high = town_random_between(random, 8, 12), deep = town_random_between(random, 30, 44);
+    town_building *hall =
+        place(block, ground, TOWN_PLAN_L, 14, 14, town_random_between(random, 34, 46), deep, 3, "works", high);
     if (hall) hall->name = town_random_chance(random, 0.5) ? "Sägewerk Öhler & Söhne" : "Usine Générale";
     place_yard(block, ground, 66, 16, 26, 24, 4, "brewery");
     for (int i = 0; i < 9; ++i) {
         bool wrong = town_random_chance(random, 2 * block->trouble);
-        place(block, ground, town_random_chance(random, 0.3) ? TOWN_PLAN_U : TOWN_PLAN_RECTANGLE,
-              town_random_between(random, 12, 80), town_random_between(random, 12, 66),
-              town_random_between(random, 7, 16), town_random_between(random, 6, 14), wrong ? -1.2 : 3.5, "works",
-              town_random_between(random, 4, 8));
+        double height = town_random_between(random, 4, 8), depth = town_random_between(random, 6, 14);
+        double width = town_random_between(random, 7, 16), back = town_random_between(random, 12, 66);
+        double along = town_random_between(random, 12, 80);
+        place(block, ground, town_random_chance(random, 0.3) ? TOWN_PLAN_U : TOWN_PLAN_RECTANGLE, along, back, width,
+              depth, wrong ? -1.2 : 3.5, "works", height);
     }
 }
 
@@ -215,13 +221,15 @@ void town_quarter_park(town_block *block)
     town_random *random = &block->random;
     const town_ground *ground = &block->streets[0].ground;
     if (town_random_chance(random, 0.45)) {
-        town_building *school = place(block, ground, TOWN_PLAN_U, 22, 20, town_random_between(random, 46, 58),
-                                      town_random_between(random, 30, 38), 4, "school", 11);
+        double depth = town_random_between(random, 30, 38);
+        town_building *school =
+            place(block, ground, TOWN_PLAN_U, 22, 20, town_random_between(random, 46, 58), depth, 4, "school", 11);
         if (school) school->name = town_school_name(random);
     }
-    place_monuments(block, ground, town_random_between(random, 30, 60), town_random_between(random, 62, 70));
+    double back = town_random_between(random, 62, 70);
+    place_monuments(block, ground, town_random_between(random, 30, 60), back);
     for (int i = 0; i < 3; ++i) {
-        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 16, 86),
-              town_random_between(random, 14, 66), 5, 4, 3.2, "pavilion", 3.5);
+        double away = town_random_between(random, 14, 66);
+        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 16, 86), away, 5, 4, 3.2, "pavilion", 3.5);
     }
 }
