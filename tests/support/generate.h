@@ -106,6 +106,10 @@ typedef enum invalid_kind {
     INVALID_TRACK,    /* a walk that comes back to where it was */
     INVALID_MEMBERS,  /* two scribbles, each a member */
     INVALID_SCALED,   /* a scribble, huge or tiny */
+    INVALID_TOUCHING, /* a walk by unit steps: it meets itself in vertices and runs along itself */
+    INVALID_HOLES,    /* holes that cross the outer ring, each other, or lie in each other */
+    INVALID_DOUBLED,  /* a ring that is there two or three times, once turned round or as a part of itself */
+    INVALID_SPIKES,   /* a polygon whose sides go out and come back */
     INVALID_KINDS
 } invalid_kind;
 

@@ -54,7 +54,8 @@ static void put(polyset *set, rng *r, const stand *t, const outline *o, double w
     for (int i = 0; i < o->n; i++) {
         const double u = t->size * w * o->xy[2 * i], v = t->size * h * o->xy[2 * i + 1];
         const double x = t->x + t->c * u - t->s * v, y = t->y + t->s * u + t->c * v;
-        polyset_vertex(set, r ? nearly(r, t, x) : x, r ? nearly(r, t, y) : y);
+        const double moved = r ? nearly(r, t, x) : x;
+        polyset_vertex(set, moved, r ? nearly(r, t, y) : y);
     }
     polyset_end_ring(set);
     polyset_end_polygon(set);
@@ -80,7 +81,8 @@ static void heap(polyset *set, rng *r, stand t, int members)
         stand one = t;
         one.c = c;
         one.s = s;
-        put(set, r, &one, &OUTLINES[rng_once_in(r, 4) ? 0 : 1], 1 + t.off * rng_unit(r), 1 + t.off * rng_unit(r));
+        const double w = 1 + t.off * rng_unit(r), h = 1 + t.off * rng_unit(r);
+        put(set, r, &one, &OUTLINES[rng_once_in(r, 4) ? 0 : 1], w, h);
     }
 }
 

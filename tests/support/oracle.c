@@ -125,19 +125,9 @@ static void make_box(const oracle *o, double box[4], const zpoint *const t[3], c
     mpz_clears(v, one, NULL);
 }
 
-oracle *oracle_new(const polyset *p, const polyset *q)
+/* Once both operands are there. */
+static void make_subsums(oracle *o)
 {
-    oracle *o = test_alloc(1, sizeof *o);
-    int low = INT_MAX, e;
-    double high = 0;
-    extent(p, &low, &high);
-    extent(q, &low, &high);
-    if (low == INT_MAX) low = 0;
-    o->shift = -low;
-    frexp(high, &e);
-    o->small = e - low < 58;
-    oracle_load(o, &o->p, p);
-    oracle_load(o, &o->q, q);
     oracle_triangulate(o, &o->p);
     oracle_triangulate(o, &o->q);
     o->sub = test_alloc(o->p.triangles * o->q.triangles, sizeof *o->sub);
@@ -156,6 +146,52 @@ oracle *oracle_new(const polyset *p, const polyset *q)
             }
             make_box(o, s->box, t, u);
         }
+}
+
+oracle *oracle_new(const polyset *p, const polyset *q)
+{
+    oracle *o = test_alloc(1, sizeof *o);
+    int low = INT_MAX, e;
+    double high = 0;
+    extent(p, &low, &high);
+    extent(q, &low, &high);
+    if (low == INT_MAX) low = 0;
+    o->shift = -low;
+    mpq_init(o->unit);
+    mpq_set_ui(o->unit, 1, 1);
+    if (low >= 0)
+        mpq_mul_2exp(o->unit, o->unit, (mp_bitcnt_t)low);
+    else
+        mpq_div_2exp(o->unit, o->unit, (mp_bitcnt_t)-low);
+    frexp(high, &e);
+    o->small = e - low < 58;
+    oracle_load(o, &o->p, p);
+    oracle_load(o, &o->q, q);
+    make_subsums(o);
+    return o;
+}
+
+oracle *oracle_new_even_odd(const polyset *p, const polyset *q)
+{
+    oracle *o = test_alloc(1, sizeof *o);
+    even_odd a, b;
+    mpz_t factor;
+    even_odd_open(&a, p);
+    even_odd_open(&b, q);
+    mpz_init_set_ui(factor, 1);
+    even_odd_denominator(&a, factor);
+    even_odd_denominator(&b, factor);
+    o->shift = (long)mpz_sizeinbase(factor, 2) - 1;
+    mpq_init(o->unit);
+    mpq_set_z(o->unit, factor);
+    mpq_inv(o->unit, o->unit);
+    o->small = false;
+    oracle_load_even_odd(o, &o->p, &a, factor);
+    oracle_load_even_odd(o, &o->q, &b, factor);
+    mpz_clear(factor);
+    even_odd_close(&a);
+    even_odd_close(&b);
+    make_subsums(o);
     return o;
 }
 
@@ -165,6 +201,7 @@ void oracle_free(oracle *o)
     for (size_t i = 0; i < o->subsums; i++)
         for (int c = 0; c < 6; c++) mpz_clears(o->sub[i].side[c].nx, o->sub[i].side[c].ny, o->sub[i].side[c].h, NULL);
     free(o->sub);
+    mpq_clear(o->unit);
     oracle_unload(&o->p);
     oracle_unload(&o->q);
     free(o);
@@ -222,13 +259,8 @@ bool oracle_covers(const oracle *o, const char *x, const char *y)
     if (mpq_set_str(a, x, 10) || mpq_set_str(b, y, 10)) abort();
     mpq_canonicalize(a);
     mpq_canonicalize(b);
-    if (o->shift >= 0) {
-        mpq_mul_2exp(a, a, (mp_bitcnt_t)o->shift);
-        mpq_mul_2exp(b, b, (mp_bitcnt_t)o->shift);
-    } else {
-        mpq_div_2exp(a, a, (mp_bitcnt_t)-o->shift);
-        mpq_div_2exp(b, b, (mp_bitcnt_t)-o->shift);
-    }
+    mpq_div(a, a, o->unit);
+    mpq_div(b, b, o->unit);
     hpoint h;
     hpoint_init(&h);
     mpz_mul(h.x, mpq_numref(a), mpq_denref(b));
@@ -260,13 +292,23 @@ double *oracle_triangles(const polyset *set, size_t *count)
     return xy;
 }
 
-char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments)
+/* Frees it. */
+static char *text_of(oracle *o, bool all_segments)
 {
-    oracle *o = oracle_new(p, q);
     oracle_map map;
     oracle_map_build(o, all_segments, &map);
     char *text = oracle_map_text(o, &map);
     oracle_map_free(&map);
     oracle_free(o);
     return text;
+}
+
+char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments)
+{
+    return text_of(oracle_new(p, q), all_segments);
+}
+
+char *oracle_even_odd_text(const polyset *p, const polyset *q, bool all_segments)
+{
+    return text_of(oracle_new_even_odd(p, q), all_segments);
 }

@@ -16,6 +16,8 @@ typedef struct oracle oracle;
 /* Both operands on one integer grid, their triangles and all sums of these. Valid sets as sunder_shape_from_rings()
  * takes. */
 oracle *oracle_new(const polyset *p, const polyset *q);
+/* The same of any rings, taken by the even-odd rule (even_odd.h). */
+oracle *oracle_new_even_odd(const polyset *p, const polyset *q);
 void oracle_free(oracle *o);
 
 /* Is the point, given as rational texts "num/den", in int P + int Q? */
@@ -26,6 +28,7 @@ bool oracle_covers(const oracle *o, const char *x, const char *y);
  * [...]} all_segments: arrange every edge-vertex pair; else only those that are locally extreme, which is the same set
  * whenever the lemma in oracle_arrangement.c holds (tests run both). Freed by the caller. */
 char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments);
+char *oracle_even_odd_text(const polyset *p, const polyset *q, bool all_segments);
 
 /* The triangles of a set, member by member, 6 coordinates each, counter-clockwise; found by trying everything, O(n^4)
  * at worst. Vertices are those of the set. Freed by the caller. */

@@ -2,6 +2,7 @@
 #ifndef SUNDER_TESTS_ORACLE_INNER_H
 #define SUNDER_TESTS_ORACLE_INNER_H
 
+#include "even_odd.h"
 #include "oracle.h"
 
 #include <gmp.h>
@@ -15,7 +16,7 @@ typedef struct zpoint {
     int64_t sx, sy;
 } zpoint;
 
-/* A rational point (x / w, y / w) in grid units, w > 0, in lowest terms; ax, ay are near it in the units of the input. */
+/* A rational point (x / w, y / w) in grid units, w > 0, in lowest terms; ax, ay are near it times 2^-shift. */
 typedef struct hpoint {
     mpz_t x, y, w;
     double ax, ay;
@@ -34,7 +35,7 @@ typedef struct zset {
 /* One side of a sum of two triangles: the inside is nx * x + ny * y < h. */
 typedef struct halfplane {
     mpz_t nx, ny, h;
-    double anx, any, ah; /* near them, in the units of the input (h squared) */
+    double anx, any, ah; /* near them, in units of about the input's (h squared) */
 } halfplane;
 
 typedef struct subsum {
@@ -43,7 +44,8 @@ typedef struct subsum {
 } subsum;
 
 struct oracle {
-    long shift; /* grid = input * 2^shift */
+    mpq_t unit; /* of the grid, in that of the input */
+    long shift; /* 2^-shift is near it: what approximations take for it */
     bool small; /* grid coordinates of operands and their sums below 2^60 */
     zset p, q;
     size_t subsums;
@@ -52,6 +54,8 @@ struct oracle {
 
 /* Operands (oracle_operand.c) */
 void oracle_load(oracle *o, zset *z, const polyset *set);
+/* A set of rationals of which the grid, 1 / factor, makes integers. */
+void oracle_load_even_odd(oracle *o, zset *z, const even_odd *set, const mpz_t factor);
 void oracle_unload(zset *z);
 void oracle_triangulate(const oracle *o, zset *z);
 void zpoint_init(zpoint *p);

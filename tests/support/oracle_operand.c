@@ -77,16 +77,21 @@ static int ring_sign(const polyset *set, size_t first, size_t end, long shift)
     return sign;
 }
 
-void oracle_load(oracle *o, zset *z, const polyset *set)
+static void open_zset(zset *z, size_t vertices, size_t members)
 {
-    z->v = test_alloc(set->vertices, sizeof *z->v);
-    z->next = test_alloc(set->vertices, sizeof *z->next);
-    z->prev = test_alloc(set->vertices, sizeof *z->prev);
-    z->member = test_alloc(set->vertices, sizeof *z->member);
+    z->v = test_alloc(vertices, sizeof *z->v);
+    z->next = test_alloc(vertices, sizeof *z->next);
+    z->prev = test_alloc(vertices, sizeof *z->prev);
+    z->member = test_alloc(vertices, sizeof *z->member);
     z->n = 0;
-    z->members = set->polygons;
+    z->members = members;
     z->triangles = 0;
     z->triangle = NULL;
+}
+
+void oracle_load(oracle *o, zset *z, const polyset *set)
+{
+    open_zset(z, set->vertices, set->polygons);
     size_t first = 0, r = 0;
     for (size_t p = 0; p < set->polygons; p++)
         for (size_t r0 = r; r < set->poly_end[p]; r++) {
@@ -112,6 +117,29 @@ void oracle_load(oracle *o, zset *z, const polyset *set)
             }
             first = end;
         }
+}
+
+/* The numerator of v at that denominator. */
+static void over(mpz_t z, const mpq_t v, const mpz_t factor)
+{
+    mpz_divexact(z, factor, mpq_denref(v));
+    mpz_mul(z, z, mpq_numref(v));
+}
+
+void oracle_load_even_odd(oracle *o, zset *z, const even_odd *set, const mpz_t factor)
+{
+    open_zset(z, set->n, set->members);
+    for (; z->n < set->n; z->n++) {
+        const even_odd_corner *c = &set->corner[z->n];
+        zpoint *v = &z->v[z->n];
+        zpoint_init(v);
+        over(v->x, c->x, factor);
+        over(v->y, c->y, factor);
+        zpoint_set_small(o, v);
+        z->next[z->n] = c->next;
+        z->prev[z->n] = c->prev;
+        z->member[z->n] = c->member;
+    }
 }
 
 void oracle_unload(zset *z)

@@ -257,10 +257,7 @@ static void put_number(const oracle *o, FILE *f, const mpz_t num, const mpz_t de
     mpq_t r;
     mpq_init(r);
     coordinate(r, num, den);
-    if (o->shift >= 0)
-        mpq_div_2exp(r, r, (mp_bitcnt_t)o->shift);
-    else
-        mpq_mul_2exp(r, r, (mp_bitcnt_t)-o->shift);
+    mpq_mul(r, r, o->unit);
     char *text = mpq_get_str(NULL, 10, r);
     fprintf(f, "\"%s\"", text);
     free(text);
