@@ -38,6 +38,8 @@ static char *real_file(const char *path)
         return CPLStrdup(path);
     if (*path == '{')
         path++;
+    if (!*path) /* /vsistdout/ itself */
+        return NULL;
     char *found = CPLStrdup(path);
     for (char *end = strpbrk(found + 1, "/}"); end; end = strpbrk(end + 1, "/}")) {
         char kept = *end;
