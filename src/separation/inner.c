@@ -1,6 +1,5 @@
 #include "separation/inner.h"
 
-#include "number/sort.h"
 #include "number/watch.h"
 
 #include <math.h>
@@ -39,7 +38,7 @@ static bool passes(const builder *b, uint32_t v, const double box[4])
     const double cx = box[0] / 2 + box[2] / 2, cy = box[1] / 2 + box[3] / 2;
     const double hx = box[2] / 2 - box[0] / 2 + e, hy = box[3] / 2 - box[1] / 2 + e;
     const double c = dx * (cy - p[1]) - dy * (cx - p[0]);
-    return fabs(c) <= hx * fabs(dy) + hy * fabs(dx) + e * (fabs(dx) + fabs(dy));
+    return fabs(c) <= hx * fabs(dy) + hy * fabs(dx) + e * (fabs(dx) + fabs(dy)) + 8 * b->g->magnitude * b->g->coarse;
 }
 
 static bool meets(const builder *b, uint32_t piece, const double box[4])
@@ -52,14 +51,14 @@ static bool meets(const builder *b, uint32_t piece, const double box[4])
 static bool has_point(const builder *b, uint32_t piece, const double box[4])
 {
     const sunder_shape *s = b->g->shape[b->side];
-    const double *xy = b->g->xy[b->side], e = 4 * b->g->error;
+    const double *xy = b->g->xy[b->side], e = 4 * b->g->error, fixed = 8 * b->g->magnitude * b->g->coarse;
     const double x = box[0] + 0.4142 * (box[2] - box[0]), y = box[1] + 0.2679 * (box[3] - box[1]);
     const uint32_t first = piece ? s->piece_end[piece - 1] : 0, end = s->piece_end[piece];
     for (uint32_t k = first; k < end; k++) {
         const double *p = xy + 2 * (size_t)s->piece_vertex[k];
         const double *q = xy + 2 * (size_t)s->piece_vertex[k + 1 < end ? k + 1 : first];
         const double dx = q[0] - p[0], dy = q[1] - p[1];
-        if (!(dx * (y - p[1]) - dy * (x - p[0]) > e * (fabs(dx) + fabs(dy)))) return false;
+        if (!(dx * (y - p[1]) - dy * (x - p[0]) > e * (fabs(dx) + fabs(dy)) + fixed)) return false;
     }
     return true;
 }
@@ -139,50 +138,17 @@ static bool quarter_all(builder *b)
     return true;
 }
 
-/* ---- The tree of pieces ---- */
-
-static uint32_t spread(uint32_t v)
+/* Nodes without a full one below are of no use: whoever comes to them need not look further. Children come after their
+ * parents. */
+static void drop_rest(sunder_i_inner *o)
 {
-    v = (v | v << 8) & 0x00ff00ff;
-    v = (v | v << 4) & 0x0f0f0f0f;
-    v = (v | v << 2) & 0x33333333;
-    return (v | v << 1) & 0x55555555;
-}
-
-/* Where the middle of a piece stands along Morton's curve. */
-static uint32_t along_curve(const sunder_i_pairing *g, int side, uint32_t piece)
-{
-    const double *all = g->box[side], *p = g->piece_box[side] + 4 * (size_t)piece;
-    uint32_t at[2];
-    for (int k = 0; k < 2; k++) {
-        const double v = (p[k] / 2 + p[k + 2] / 2 - all[k]) / (all[k + 2] - all[k]) * 0xffff;
-        at[k] = v > 0 ? v < 0xffff ? (uint32_t)v : 0xffff : 0;
+    for (size_t k = o->nodes; k-- > 0;) {
+        const int32_t c = o->child[k];
+        if (c < 0) continue;
+        bool rest = true;
+        for (int32_t i = c; i < c + 4; i++) rest = rest && o->child[i] == SUNDER_I_INNER_REST;
+        if (rest) o->child[k] = SUNDER_I_INNER_REST;
     }
-    return spread(at[0]) | spread(at[1]) << 1;
-}
-
-static bool plant(sunder_i_inner *o, const sunder_i_pairing *g, int side)
-{
-    static const double empty[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    const uint32_t n = g->shape[side]->pieces;
-    for (o->leaves = 1; o->leaves < n;) o->leaves *= 2;
-    o->piece = sunder_i_alloc(o->leaves, sizeof *o->piece);
-    o->extent = sunder_i_alloc(2 * (size_t)o->leaves, sizeof *o->extent);
-    uint64_t *key = sunder_i_alloc(n, sizeof *key);
-    bool ok = o->piece && o->extent && key;
-    for (uint32_t i = 0; ok && i < n; i++) key[i] = (uint64_t)along_curve(g, side, i) << 32 | i;
-    ok = ok && sunder_i_sort_keys(key, n);
-    for (uint32_t i = 0; ok && i < o->leaves; i++) {
-        o->piece[i] = i < n ? (uint32_t)key[i] : UINT32_MAX;
-        memcpy(o->extent[o->leaves + i], i < n ? g->piece_box[side] + 4 * (size_t)o->piece[i] : empty, sizeof empty);
-    }
-    for (uint32_t i = o->leaves - 1; ok && i > 0; i--)
-        for (int k = 0; k < 2; k++) {
-            o->extent[i][k] = fmin(o->extent[2 * i][k], o->extent[2 * i + 1][k]);
-            o->extent[i][k + 2] = fmax(o->extent[2 * i][k + 2], o->extent[2 * i + 1][k + 2]);
-        }
-    sunder_i_free(key);
-    return ok;
 }
 
 /* Boundary of length l passes through some l / w boxes of width w. */
@@ -205,7 +171,8 @@ bool sunder_i_inner_build(sunder_i_inner *inner, const sunder_i_pairing *g, int 
 {
     memset(inner, 0, sizeof *inner);
     builder b = {.out = inner, .g = g, .side = side, .deepest = depth_for(g, side)};
-    const bool ok = quarter_all(&b) && plant(inner, g, side);
+    const bool ok = quarter_all(&b);
+    if (ok) drop_rest(inner);
     sunder_i_free(b.edges);
     sunder_i_free(b.pieces);
     return ok;
@@ -214,7 +181,5 @@ bool sunder_i_inner_build(sunder_i_inner *inner, const sunder_i_pairing *g, int 
 void sunder_i_inner_free(sunder_i_inner *inner)
 {
     sunder_i_free(inner->child);
-    sunder_i_free(inner->piece);
-    sunder_i_free(inner->extent);
     memset(inner, 0, sizeof *inner);
 }

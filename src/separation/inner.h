@@ -1,5 +1,4 @@
-/* Squares that an operand has inside, and its convex pieces, both by place: what large operands are asked before their
- * pieces are looked at one by one. */
+/* Boxes that an operand has inside, by place: what large operands are asked before their pieces are looked at. */
 #ifndef SUNDER_I_INNER_H
 #define SUNDER_I_INNER_H
 
@@ -14,11 +13,6 @@ typedef struct sunder_i_inner {
     double box[4];
     int32_t *child; /* of each node the first of four, or what it is; node 0 is the whole */
     size_t nodes, nodes_capacity;
-    /* A perfect binary tree over the pieces, in the order of a curve through their middles: node k has the children 2k
-     * and 2k + 1, node 1 is the root, node leaves + i has piece[i]. */
-    uint32_t leaves;
-    uint32_t *piece;     /* [leaves] UINT32_MAX: none */
-    double (*extent)[4]; /* [2 * leaves] empty boxes (low above high) for leaves without a piece */
 } sunder_i_inner;
 
 /* Of operand `side` of a pairing. False if memory is out; to be freed all the same. */

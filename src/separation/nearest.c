@@ -114,7 +114,7 @@ static bool enter_square(search *s, const sunder_i_line *line)
 }
 
 /* The point of the square nearest to the foot, if the foot is not in it. It is none of the points where anything begins
- * or ends on the line, and if it is free a nearer one is, in another square. On a narrow lattice. */
+ * or ends on the line, and if it is free a nearer one is, in another square. */
 static sunder_i_fraction foot_in_square(const search *s, sunder_i_fraction foot)
 {
     if (!s->square || (foot.value >= s->from && foot.value <= s->to)) return foot;
@@ -189,7 +189,7 @@ static bool nearest_within(search *s)
 static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark mark, sunder_i_subsum **list, size_t *n)
 {
     sunder_i_pairing *g = s->g;
-    const size_t before = s->found;
+    const size_t before = s->found, pooled = g->placed.lattice.pool_n;
     s->first = 0;
     while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
@@ -199,8 +199,11 @@ static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark ma
     if (s->found > before) {
         *list = g->subsum;
         *n = g->subsums;
-    } else if (!g->placed.lattice.arena.failed)
+    } else if (!g->placed.lattice.arena.failed) {
         sunder_i_arena_release(&g->placed.lattice.arena, mark);
+        g->placed.lattice.pool_n = pooled;
+        s->best_point_known = s->best_point_known && g->placed.lattice.narrow; /* it may be made of those numbers */
+    }
 }
 
 static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares)
@@ -258,7 +261,7 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *g, double limit, boo
 {
     search s = begin(g, limit);
     *done = false;
-    if (g->placed.lattice.narrow && !by_squares(&s, done)) return sunder_i_no_memory(err);
+    if (!by_squares(&s, done)) return sunder_i_no_memory(err);
     *out = s.best;
     return SUNDER_OK;
 }

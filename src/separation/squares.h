@@ -5,7 +5,6 @@
 #define SUNDER_I_SQUARES_H
 
 #include "separation/candidates.h"
-#include "separation/inner.h"
 
 typedef struct sunder_i_squares sunder_i_squares;
 

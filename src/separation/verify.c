@@ -2,6 +2,9 @@
  * the search. */
 #include "separation/nearest.h"
 
+#include "number/sort.h"
+#include "number/watch.h"
+
 #include <math.h>
 
 typedef struct convex {
@@ -59,19 +62,88 @@ static bool side_parts(sunder_i_pairing *g, const sunder_i_nearest *f, const con
     return false;
 }
 
+/* Does the point lie off the subsum of these pieces by its box, or by a side of one of them? */
+static bool parted(sunder_i_pairing *g, const sunder_i_nearest *f, uint32_t i, uint32_t j)
+{
+    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
+    if (f->x < a[0] + b[0] - e || f->x > a[2] + b[2] + e || f->y < a[1] + b[1] - e || f->y > a[3] + b[3] + e)
+        return true;
+    const convex p = piece_of(g, 0, i), q = piece_of(g, 1, j);
+    return side_parts(g, f, &p, &q) || side_parts(g, f, &q, &p);
+}
+
+/* ---- Many pieces ---- */
+
+typedef struct row {
+    const double *box; /* of all pieces */
+    uint32_t *piece;   /* those that the other operand can reach, by their low x */
+    uint32_t n;
+    double widest;
+} row;
+
+static int by_low_x(void *context, uint32_t i, uint32_t j)
+{
+    const double *box = context, a = box[4 * (size_t)i], b = box[4 * (size_t)j];
+    return (a > b) - (a < b);
+}
+
+static bool line_up(const sunder_i_pairing *g, const sunder_i_nearest *f, int side, row *r)
+{
+    const uint32_t n = g->shape[side]->pieces;
+    const double *o = g->box[!side], e = g->error;
+    *r = (row){.box = g->piece_box[side], .piece = sunder_i_alloc(n, sizeof *r->piece)};
+    if (!r->piece) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        const double *a = r->box + 4 * (size_t)i;
+        if (f->x < a[0] + o[0] - e || f->x > a[2] + o[2] + e || f->y < a[1] + o[1] - e || f->y > a[3] + o[3] + e)
+            continue;
+        r->piece[r->n++] = i;
+        r->widest = fmax(r->widest, a[2] - a[0]);
+    }
+    return sunder_i_sort_indices(r->piece, r->n, by_low_x, (void *)r->box);
+}
+
+/* The first whose low x is not below that. */
+static uint32_t first_from(const row *r, double x)
+{
+    uint32_t low = 0, high = r->n;
+    while (low < high) {
+        const uint32_t k = low + (high - low) / 2;
+        if (r->box[4 * (size_t)r->piece[k]] < x)
+            low = k + 1;
+        else
+            high = k;
+    }
+    return low;
+}
+
+/* For each piece of Q the pieces of P that can have the point between them in x. Doubles, with room for rounding. */
+static bool verify_many(sunder_i_pairing *g, const sunder_i_nearest *f)
+{
+    const double *b = g->piece_box[1], e = 4 * g->error;
+    row p;
+    bool ok = line_up(g, f, 0, &p);
+    if (!ok) g->placed.lattice.arena.failed = true;
+    for (uint32_t j = 0; ok && j < g->shape[1]->pieces; j++) {
+        const double low = f->x - b[4 * (size_t)j + 2] - p.widest - e, high = f->x - b[4 * (size_t)j] + e;
+        const uint32_t first = first_from(&p, low);
+        uint32_t k = first;
+        while (ok && k < p.n && p.box[4 * (size_t)p.piece[k]] <= high) ok = parted(g, f, p.piece[k++], j);
+        if (!sunder_i_steps((k - first) / 8 + 1)) g->placed.lattice.arena.failed = true;
+        ok = ok && !g->placed.lattice.arena.failed;
+    }
+    sunder_i_free(p.piece);
+    return ok;
+}
+
+#define MANY 4096 /* pairs, from which on sorting pays */
+
 bool sunder_i_nearest_verify(sunder_i_pairing *g, const sunder_i_nearest *f)
 {
-    const double e = g->error;
-    for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
-        const double *a = g->piece_box[0] + 4 * (size_t)i;
-        const convex p = piece_of(g, 0, i);
-        for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
-            const double *b = g->piece_box[1] + 4 * (size_t)j;
-            if (f->x < a[0] + b[0] - e || f->x > a[2] + b[2] + e || f->y < a[1] + b[1] - e || f->y > a[3] + b[3] + e)
-                continue;
-            const convex q = piece_of(g, 1, j);
-            if (!side_parts(g, f, &p, &q) && !side_parts(g, f, &q, &p)) return false;
-        }
-    }
+    const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
+    if ((uint64_t)m * n > MANY) return verify_many(g, f);
+    for (uint32_t i = 0; i < m; i++)
+        for (uint32_t j = 0; j < n; j++)
+            if (!parted(g, f, i, j)) return false;
     return true;
 }

@@ -1,0 +1,161 @@
+/* The tree is split at the median of whatever the pieces of a node differ most in: one of their sixteen bounds. So long
+ * pieces are parted from short ones, and those of one direction from those of another. */
+#include "separation/piece_tree.h"
+
+#include "number/sort.h"
+#include "number/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double WAY[SUNDER_I_WAYS][2] = {{1, 0},
+                                             {0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2},
+                                             {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                             {0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                             {0, 1},
+                                             {-0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                             {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                             {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
+
+/* Floats are of coordinates over this power of two, so that they stay in their range whatever the units. */
+static double scale_of(const sunder_i_pairing *g) { return ldexp(1, -ilogb(g->magnitude)); }
+
+/* With coordinates up to M, a bound of a piece is below 1.42 M and, as a float, off by 2^-24 of that; so is that of the
+ * other, and their sum by 2^-24 of 2.9 M. Squares reach to 4 M, so their bounds to 5.7 M, with the same error again;
+ * doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
+#define FLOAT_ERROR 0x1p-20
+
+sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4])
+{
+    const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
+    const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = scale_of(g);
+    sunder_i_extents out;
+    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        const double middle = x * WAY[k][0] + y * WAY[k][1];
+        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude;
+        out.low[k] = (float)(scale * (middle - reach));
+        out.high[k] = (float)(scale * (middle + reach));
+    }
+    return out;
+}
+
+static const sunder_i_extents NOWHERE = {
+    {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY},
+    {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY}};
+
+static void include(sunder_i_extents *all, const sunder_i_extents *one)
+{
+    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        all->low[k] = one->low[k] < all->low[k] ? one->low[k] : all->low[k];
+        all->high[k] = one->high[k] > all->high[k] ? one->high[k] : all->high[k];
+    }
+}
+
+static sunder_i_extents extents_of_piece(const sunder_i_pairing *g, int side, uint32_t piece)
+{
+    const sunder_shape *s = g->shape[side];
+    const double scale = scale_of(g);
+    sunder_i_extents out = NOWHERE;
+    for (uint32_t i = piece ? s->piece_end[piece - 1] : 0; i < s->piece_end[piece]; i++) {
+        const double *p = g->xy[side] + 2 * (size_t)s->piece_vertex[i];
+        sunder_i_extents at;
+        for (int k = 0; k < SUNDER_I_WAYS; k++)
+            at.low[k] = at.high[k] = (float)(scale * (p[0] * WAY[k][0] + p[1] * WAY[k][1]));
+        include(&out, &at);
+    }
+    return out;
+}
+
+typedef struct planter {
+    sunder_i_piece_tree *tree;
+    const sunder_i_extents *extent; /* of each piece */
+    uint32_t *list;
+    uint64_t *key;
+} planter;
+
+static float bound_of(const sunder_i_extents *e, int k)
+{
+    return k < SUNDER_I_WAYS ? e->low[k] : e->high[k - SUNDER_I_WAYS];
+}
+
+/* The bound in which the pieces of list[from] ... differ most. */
+static int widest(const planter *p, size_t from, size_t n)
+{
+    sunder_i_extents least = p->extent[p->list[from]], most = least;
+    for (size_t i = from + 1; i < from + n; i++) {
+        const sunder_i_extents *e = p->extent + p->list[i];
+        for (int k = 0; k < SUNDER_I_WAYS; k++) {
+            least.low[k] = fminf(least.low[k], e->low[k]);
+            least.high[k] = fminf(least.high[k], e->high[k]);
+            most.low[k] = fmaxf(most.low[k], e->low[k]);
+            most.high[k] = fmaxf(most.high[k], e->high[k]);
+        }
+    }
+    int best = 0;
+    for (int k = 1; k < 2 * SUNDER_I_WAYS; k++)
+        if (bound_of(&most, k) - bound_of(&least, k) > bound_of(&most, best) - bound_of(&least, best)) best = k;
+    return best;
+}
+
+/* A float as an integer of the same order. */
+static uint32_t ordered(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+static bool sort_by(planter *p, size_t from, size_t n, int bound)
+{
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t piece = p->list[from + i];
+        p->key[i] = (uint64_t)ordered(bound_of(p->extent + piece, bound)) << 32 | piece;
+    }
+    if (!sunder_i_sort_keys(p->key, n)) return false;
+    for (size_t i = 0; i < n; i++) p->list[from + i] = (uint32_t)p->key[i];
+    return true;
+}
+
+/* The pieces of list[from] ... below a node; as many to the left as to the right, or one more. */
+static bool plant(planter *p, uint32_t node, size_t from, size_t n)
+{
+    sunder_i_piece_tree *t = p->tree;
+    if (node >= t->leaves) {
+        t->piece[node - t->leaves] = n ? p->list[from] : UINT32_MAX;
+        t->extent[node] = n ? p->extent[p->list[from]] : NOWHERE;
+        return true;
+    }
+    if (!sunder_i_steps(n) || (n > 1 && !sort_by(p, from, n, widest(p, from, n)))) return false;
+    if (!plant(p, 2 * node, from, n - n / 2) || !plant(p, 2 * node + 1, from + n - n / 2, n / 2)) return false;
+    t->extent[node] = t->extent[2 * node];
+    include(&t->extent[node], &t->extent[2 * node + 1]);
+    return true;
+}
+
+bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_pairing *g, int side)
+{
+    const uint32_t n = g->shape[side]->pieces;
+    *tree = (sunder_i_piece_tree){.leaves = 1};
+    while (tree->leaves < n) tree->leaves *= 2;
+    tree->piece = sunder_i_alloc(tree->leaves, sizeof *tree->piece);
+    tree->extent = sunder_i_alloc(2 * (size_t)tree->leaves, sizeof *tree->extent);
+    sunder_i_extents *extent = sunder_i_alloc(n, sizeof *extent);
+    planter p = {tree, extent, sunder_i_alloc(n, sizeof *p.list), sunder_i_alloc(n, sizeof *p.key)};
+    bool ok = tree->piece && tree->extent && extent && p.list && p.key;
+    for (uint32_t i = 0; ok && i < n; i++) {
+        p.list[i] = i;
+        extent[i] = extents_of_piece(g, side, i);
+    }
+    ok = ok && plant(&p, 1, 0, n);
+    sunder_i_free(extent);
+    sunder_i_free(p.list);
+    sunder_i_free(p.key);
+    return ok;
+}
+
+void sunder_i_piece_tree_free(sunder_i_piece_tree *tree)
+{
+    sunder_i_free(tree->piece);
+    sunder_i_free(tree->extent);
+    *tree = (sunder_i_piece_tree){0};
+}

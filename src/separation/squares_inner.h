@@ -1,0 +1,49 @@
+/* What the parts of the search by squares share. */
+#ifndef SUNDER_I_SQUARES_INNER_H
+#define SUNDER_I_SQUARES_INNER_H
+
+#include "separation/inner.h"
+#include "separation/piece_tree.h"
+#include "separation/squares.h"
+
+typedef struct sunder_i_square {
+    double box[4], distance; /* of its nearest point from the origin */
+    int depth;
+} sunder_i_square;
+
+struct sunder_i_squares {
+    sunder_i_pairing *g;
+    sunder_i_inner inner[2];
+    sunder_i_piece_tree tree[2];
+    uint32_t *first_piece[2];   /* [vertices] the first piece that each is a corner of */
+    sunder_i_corner *corner[2]; /* [vertices] once it is known */
+    uint8_t *state[2];          /* [vertices] UNKNOWN, ... */
+    sunder_i_square *heap;
+    size_t n, capacity, seen, most;
+    /* of the square at hand */
+    sunder_i_extents aim;
+    uint32_t (*pair)[2]; /* pieces of P and of Q whose subsums come near it */
+    size_t pairs, pairs_capacity;
+    uint32_t tries, nodes; /* of the search for what may hold it */
+    bool held;             /* by the subsum that was looked at last */
+};
+
+/* Does the sum of a box inside P and one inside -Q hold the square? */
+bool sunder_i_squares_boxes_hold(sunder_i_squares *squares, const double square[4]);
+
+typedef enum sunder_i_held_by_one { SUNDER_I_HELD, SUNDER_I_NOT_HELD, SUNDER_I_NOT_FOUND } sunder_i_held_by_one;
+
+/* Does one subsum? NOT_FOUND: after as many tries, as are given, many are left. */
+sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *squares, const double square[4], uint32_t tries);
+
+/* Lists the pairs near the square; false if there are more than `most`, or if one of them holds it (squares->held), or
+ * if memory is out. */
+bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], size_t most);
+
+/* The pairing's subsums become the pairs listed. False if memory is out. */
+bool sunder_i_squares_take_subsums(sunder_i_squares *squares);
+/* The candidates of the pairs listed that come near the square. */
+bool sunder_i_squares_take_candidates(sunder_i_squares *squares, const double square[4], double limit,
+                                      sunder_i_candidates *out);
+
+#endif
