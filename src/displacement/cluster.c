@@ -10,8 +10,6 @@
 /* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
  * milliseconds. */
 #define EFFORT 400000u
-/* The same for asking pairs that were given up once more, for a whole cluster: a second or so. */
-#define RETRY_EFFORT 30000000u
 /* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
  * nothing was ever gained below. */
 #define FAR 1.5
@@ -120,8 +118,8 @@ static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *clu
     return ok;
 }
 
-sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
-                                     sunder_error *err)
+sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, const sunder_i_suit *suit,
+                                     size_t suits, double *move, sunder_error *err)
 {
     uint32_t *body = NULL;
     double *all = NULL;
@@ -133,8 +131,7 @@ sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster
     if (ok) {
         s.own = cluster->n;
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
-        s.effort = RETRY_EFFORT;
-        sunder_i_search_retry(&s);
+        sunder_i_search_retry(&s, suit, suits);
         ok = !s.failed;
     }
     if (ok && s.ended_n + s.truces.n) {

@@ -246,8 +246,11 @@ bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town);
 /* The truce of two features, or between members of two bodies; NULL: there is none. */
 const sunder_i_truce *sunder_i_truces_find(const sunder_i_truces *truces, uint32_t f, uint32_t g);
 const sunder_i_torn *sunder_i_truces_between(const sunder_i_truces *truces, uint32_t body, uint32_t other);
-/* Ends all truces between the two bodies. Order stays. */
-void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, uint32_t body, uint32_t other);
+/* One more, or the only one between its bodies less, of truces that stay indexed. */
+bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce);
+void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce);
+/* Ends all truces between n pairs of bodies, sorted. They stay indexed. */
+void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_couple *body, size_t n);
 /* A truce for two features, by how they stood at the start. */
 sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t g, sunder_i_truce *out,
                                 sunder_error *err);
@@ -397,14 +400,26 @@ typedef struct sunder_i_cluster {
     size_t ended_n;
 } sunder_i_cluster;
 
+/* Two bodies of a cluster under a truce, and what is to be asked for them. */
+typedef struct sunder_i_suit {
+    uint32_t root; /* of the cluster */
+    sunder_i_couple body;
+    const uint32_t *truce; /* [truces] between members of theirs: places in the town's */
+    size_t truces;
+    bool overlap;   /* do members overlap? */
+    bool peace;     /* ask for peace */
+    bool disjoint;  /* ask, at least, that they do not overlap */
+    double missing; /* what it would take */
+} sunder_i_suit;
+
 /* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
  * pairs are given up, and the rest is solved. */
 sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
-/* Pairs given up are asked for peace once more, one after the other, and keep it where there is a solution; overlaps
- * come first. All others keep theirs, and neighbours outside the cluster stay where they are. */
-sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
-                                     sunder_error *err);
+/* Pairs given up are asked for peace once more, and keep it where there is a solution, the first ones first. All others
+ * keep theirs, and neighbours outside the cluster stay where they are. */
+sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, const sunder_i_suit *suit,
+                                     size_t suits, double *move, sunder_error *err);
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);

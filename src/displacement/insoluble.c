@@ -1,5 +1,5 @@
 /* What limits and fixed bodies leave no solution for: pairs that no admissible moves bring to peace, found exactly
- * before anything moves; pairs that a cluster gave up, which are asked once more at the end. */
+ * before anything moves; pairs that a cluster gave up. */
 #include "displacement/job.h"
 #include "displacement/peace.h"
 
@@ -93,112 +93,59 @@ sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err)
 /* ---- What clusters did ---------------------------------------------------------------------------------------------
  */
 
-/* Pairs of bodies that are at peace again. */
-static void end_truces(sunder_i_town *town, const sunder_i_cluster *c)
+/* Pairs of bodies that are at peace again: they are under no truce, and are not given up. */
+static bool end_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
 {
-    for (size_t k = 0; k < c->ended_n; k++) {
-        const sunder_i_couple *pair = &c->ended[k];
-        sunder_i_truces_end(&town->truces, town, pair->a, pair->b);
-        const size_t at = sunder_i_couple_at(town->given, town->given_n, pair->a, pair->b);
-        if (at == town->given_n) continue;
-        memmove(town->given + at, town->given + at + 1, (--town->given_n - at) * sizeof *town->given);
-    }
-}
-
-static bool add_given(sunder_i_town *town, const sunder_i_truces *truces)
-{
-    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + truces->n, sizeof *given);
-    if (!given) return false;
-    town->given = given;
-    for (size_t k = 0; k < truces->n; k++) {
-        const uint32_t i = town->body_of[truces->item[k].a], j = town->body_of[truces->item[k].b];
-        if (!truces->item[k].hopeless) given[town->given_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
-    }
-    if (town->given_n) qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
-    size_t out = 0;
+    size_t n = 0, out = 0;
+    for (size_t k = 0; k < clusters; k++) n += cluster[k].ended_n;
+    if (n == 0) return true;
+    sunder_i_couple *ended = sunder_i_alloc(n, sizeof *ended);
+    if (!ended) return false;
+    n = 0;
+    for (size_t k = 0; k < clusters; k++)
+        for (size_t e = 0; e < cluster[k].ended_n; e++) ended[n++] = cluster[k].ended[e];
+    qsort(ended, n, sizeof *ended, sunder_i_by_couple);
+    sunder_i_truces_end(&town->truces, town, ended, n);
     for (size_t k = 0; k < town->given_n; k++)
-        if (k == 0 || sunder_i_by_couple(&given[out - 1], &given[k])) given[out++] = given[k];
+        if (sunder_i_couple_at(ended, n, town->given[k].a, town->given[k].b) == n) town->given[out++] = town->given[k];
     town->given_n = out;
+    sunder_i_free(ended);
     return true;
 }
 
-/* The cluster's truces, in place of what the town had for the same features. */
-static bool take_truces(sunder_i_town *town, const sunder_i_cluster *c)
+/* The clusters' truces, in place of what the town had for the same features; those that are not hopeless are given up. */
+static bool take_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
 {
     sunder_i_truces *all = &town->truces;
     const size_t before = all->n;
-    for (size_t k = 0; k < c->truces.n; k++) {
-        const sunder_i_truce *truce = &c->truces.item[k];
-        const sunder_i_truce *old = sunder_i_truces_find(all, truce->a, truce->b);
-        if (old) {
-            const bool hopeless = old->hopeless;
-            all->item[old - all->item] = *truce;
-            all->item[old - all->item].hopeless = hopeless;
+    size_t n = 0, out = 0;
+    for (size_t k = 0; k < clusters; k++) n += cluster[k].truces.n;
+    if (n == 0) return true;
+    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + n, sizeof *given);
+    if (!given) return false;
+    town->given = given;
+    for (size_t k = 0; k < clusters; k++)
+        for (size_t t = 0; t < cluster[k].truces.n; t++) {
+            sunder_i_truce truce = cluster[k].truces.item[t];
+            const sunder_i_truces known = {.item = all->item, .n = before};
+            const sunder_i_truce *old = sunder_i_truces_find(&known, truce.a, truce.b);
+            const uint32_t i = town->body_of[truce.a], j = town->body_of[truce.b];
+            if (!truce.hopeless) given[town->given_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
+            truce.hopeless = old ? old->hopeless : truce.hopeless;
+            if (old)
+                all->item[old - all->item] = truce;
+            else if (!sunder_i_truces_add(all, &truce))
+                return false;
         }
-    }
-    for (size_t k = 0; k < c->truces.n; k++) {
-        const sunder_i_truces known = {.item = all->item, .n = before};
-        if (!sunder_i_truces_find(&known, c->truces.item[k].a, c->truces.item[k].b) &&
-            !sunder_i_truces_add(all, &c->truces.item[k]))
-            return false;
-    }
-    return sunder_i_truces_index(all, town) && add_given(town, &c->truces);
+    qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
+    for (size_t k = 0; k < town->given_n; k++)
+        if (k == 0 || sunder_i_by_couple(&given[out - 1], &given[k])) given[out++] = given[k];
+    town->given_n = out;
+    return sunder_i_truces_index(all, town);
 }
 
 sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err)
 {
-    for (size_t k = 0; k < w->clusters; k++) {
-        end_truces(&w->town, &w->cluster[k]);
-        if (w->cluster[k].truces.n && !take_truces(&w->town, &w->cluster[k])) return sunder_i_no_memory(err);
-    }
-    return SUNDER_OK;
-}
-
-/* ---- Once more -----------------------------------------------------------------------------------------------------
- */
-
-static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
-{
-    const sunder_i_job *w = context;
-    for (size_t k = begin; k < end; k++) {
-        sunder_i_cluster *c = &w->cluster[k];
-        double *move = w->move + 2 * (size_t)(c->body - w->body);
-        sunder_i_job_load_moves(w, c, move);
-        if (!sunder_i_job_is_dirty(w, c)) continue;
-        const sunder_status status = sunder_i_cluster_retry(&w->town, c, move, err);
-        if (status) return status;
-    }
-    return SUNDER_OK;
-}
-
-/* Pairs that cannot be brought to peace, but off each other, become members of clusters. */
-static bool join_torn(sunder_i_job *w)
-{
-    const sunder_i_town *town = &w->town;
-    for (size_t k = 0; k < town->truces.torn_n; k++) {
-        const sunder_i_torn *t = &town->truces.torn[k];
-        if (t->reach > 0 && t->reach <= sunder_i_limit_of(&town->body[t->i]) + sunder_i_limit_of(&town->body[t->j]) &&
-            !sunder_i_job_add_edge(w, t->i, t->j))
-            return false;
-    }
-    return true;
-}
-
-sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err)
-{
-    const sunder_i_truces *truces = &w->town.truces;
-    if (truces->n == 0) return SUNDER_OK;
-    if (!join_torn(w)) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_job_gather(w, err);
-    if (!status) status = sunder_i_job_unite_blocks(w, err);
-    memset(w->dirty, 0, w->town.bodies * sizeof *w->dirty);
-    for (size_t k = 0; k < truces->torn_n; k++) {
-        w->dirty[truces->torn[k].i] = !w->town.body[truces->torn[k].i].fixed;
-        w->dirty[truces->torn[k].j] = !w->town.body[truces->torn[k].j].fixed;
-    }
-    if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, retry_clusters, w, err);
-    if (status) return status;
-    sunder_i_job_commit(w);
-    status = sunder_i_job_note_truces(w, err);
-    return status ? status : sunder_i_job_check(w, err);
+    const bool ok = end_truces(&w->town, w->cluster, w->clusters) && take_truces(&w->town, w->cluster, w->clusters);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

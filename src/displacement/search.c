@@ -76,16 +76,19 @@ static int by_left(const void *a, const void *b)
     return p < q ? -1 : p > q;
 }
 
-static bool sort_boxes(sunder_i_search *s, const double *t, double reach)
+static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool or_home)
 {
     const double *o = s->town->body[s->body[0]].origin;
     const double **left = sunder_i_alloc(s->n, sizeof *left);
     if (!left) return false;
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->town->body[s->body[k]];
-        for (int c = 0; c < 4; c++)
-            s->box[4 * k + (size_t)c] = b->box[c] + (b->origin[c & 1] - o[c & 1]) + t[2 * k + (size_t)(c & 1)] +
-                                        (c < 2 ? -reach / 2 : reach / 2);
+        const bool home = or_home && s->mass[k] > 0;
+        for (int c = 0; c < 4; c++) {
+            const double at = t[2 * k + (size_t)(c & 1)], least = home ? fmin(at, 0) : at, most = home ? fmax(at, 0) : at;
+            s->box[4 * k + (size_t)c] =
+                b->box[c] + (b->origin[c & 1] - o[c & 1]) + (c < 2 ? least - reach / 2 : most + reach / 2);
+        }
         left[k] = s->box + 4 * k;
     }
     qsort(left, s->n, sizeof *left, by_left);
@@ -94,9 +97,10 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach)
     return true;
 }
 
-void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sunder_i_near visit, void *context)
+static void visit_near(sunder_i_search *s, const double *t, double reach, bool or_home, sunder_i_near visit,
+                       void *context)
 {
-    if (!sort_boxes(s, t, reach)) {
+    if (!sort_boxes(s, t, reach, or_home)) {
         s->failed = true;
         return;
     }
@@ -112,6 +116,16 @@ void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sun
             visit(s, i < j ? i : j, i < j ? j : i, context);
         }
     }
+}
+
+void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sunder_i_near visit, void *context)
+{
+    visit_near(s, t, reach, false, visit, context);
+}
+
+void sunder_i_search_near_or_home(sunder_i_search *s, double reach, sunder_i_near visit, void *context)
+{
+    visit_near(s, s->t, reach, true, visit, context);
 }
 
 /* ---- Who clashes --------------------------------------------------------------------------------------------------
@@ -280,6 +294,12 @@ static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
         return;
     }
     s->clash[s->clashes++] = (sunder_i_clash){i, j, v};
+}
+
+void sunder_i_search_look_at(sunder_i_search *s, const double *t, uint32_t i, uint32_t j)
+{
+    look l = {t, 0};
+    look_at(s, i, j, &l);
 }
 
 double sunder_i_search_look(sunder_i_search *s, const double *t)

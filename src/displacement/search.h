@@ -49,6 +49,8 @@ bool sunder_i_search_is_torn(const sunder_i_search *search, uint32_t body, uint3
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
+/* The same for every pair that might, were one of them, or both, where it came from. */
+void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_near visit, void *context);
 
 /* Two convex pieces, of bodies i and j, or a wall of one and a piece of the other that it keeps inside. */
 typedef struct sunder_i_part {
@@ -84,6 +86,8 @@ size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_part *pa
 double sunder_i_search_look(sunder_i_search *search, const double *t);
 /* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
 void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);
+/* Appends pair (i, j) to search->clash if it clashes at t. */
+void sunder_i_search_look_at(sunder_i_search *search, const double *t, uint32_t i, uint32_t j);
 /* What pair (i, j) misses at relative position u: of peace, or where it has none (*yields) of its truce. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 /* sum w |t|^2 */
@@ -110,8 +114,13 @@ void sunder_i_search_clip(sunder_i_search *search);
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are under a truce and nothing
  * clashes; then down from there. The new truces are in search->truces. */
 void sunder_i_search_yield(sunder_i_search *search);
-/* From a free position, pairs under a truce are asked for peace, or at least not to overlap, one after the other, until
- * search->effort is spent. What came of it is in search->ended and search->truces. */
-void sunder_i_search_retry(sunder_i_search *search);
+/* Down from a position without clashes, or stay there. */
+void sunder_i_search_lower(sunder_i_search *search);
+
+/* ---- retry.c ---- */
+
+/* From a free position, pairs under a truce are asked for peace, or at least not to overlap. What came of it is in
+ * search->ended and search->truces. */
+void sunder_i_search_retry(sunder_i_search *search, const sunder_i_suit *suit, size_t n);
 
 #endif

@@ -56,17 +56,19 @@ bool sunder_i_truces_add(sunder_i_truces *truces, const sunder_i_truce *truce)
     return true;
 }
 
+static sunder_i_torn torn_of(const sunder_i_town *town, const sunder_i_truce *t)
+{
+    const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
+    return (sunder_i_torn){i < j ? i : j, i < j ? j : i, hypot(t->shift[0], t->shift[1])};
+}
+
 bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
 {
     truces->torn_n = 0;
     if (truces->n == 0) return true;
     if (!sunder_i_reserve(&truces->torn, &truces->torn_capacity, truces->n, sizeof *truces->torn)) return false;
     qsort(truces->item, truces->n, sizeof *truces->item, by_features);
-    for (size_t k = 0; k < truces->n; k++) {
-        const sunder_i_truce *t = &truces->item[k];
-        const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
-        truces->torn[k] = (sunder_i_torn){i < j ? i : j, i < j ? j : i, hypot(t->shift[0], t->shift[1])};
-    }
+    for (size_t k = 0; k < truces->n; k++) truces->torn[k] = torn_of(town, &truces->item[k]);
     qsort(truces->torn, truces->n, sizeof *truces->torn, by_bodies);
     for (size_t k = 0; k < truces->n; k++) {
         sunder_i_torn *last = truces->torn_n ? &truces->torn[truces->torn_n - 1] : NULL;
@@ -78,19 +80,62 @@ bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
     return true;
 }
 
-void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, uint32_t body, uint32_t other)
+/* Where the n items of one size have, or would have, the key. */
+static size_t place_of(const void *key, const void *item, size_t n, size_t size, int (*order)(const void *, const void *))
 {
-    const sunder_i_torn *torn = sunder_i_truces_between(truces, body, other);
-    if (!torn) return;
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (order((const char *)item + middle * size, key) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce)
+{
+    if (!sunder_i_reserve(&truces->item, &truces->capacity, truces->n + 1, sizeof *truces->item) ||
+        !sunder_i_reserve(&truces->torn, &truces->torn_capacity, truces->torn_n + 1, sizeof *truces->torn))
+        return false;
+    const sunder_i_torn torn = torn_of(town, truce);
+    const size_t at = place_of(truce, truces->item, truces->n, sizeof *truce, by_features);
+    memmove(truces->item + at + 1, truces->item + at, (truces->n++ - at) * sizeof *truce);
+    truces->item[at] = *truce;
+    const size_t of = place_of(&torn, truces->torn, truces->torn_n, sizeof torn, by_bodies);
+    if (of < truces->torn_n && by_bodies(&truces->torn[of], &torn) == 0) {
+        truces->torn[of].reach = fmax(truces->torn[of].reach, torn.reach);
+        return true;
+    }
+    memmove(truces->torn + of + 1, truces->torn + of, (truces->torn_n++ - of) * sizeof torn);
+    truces->torn[of] = torn;
+    return true;
+}
+
+void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce)
+{
+    const sunder_i_torn torn = torn_of(town, truce);
+    const sunder_i_truce *item = sunder_i_truces_find(truces, truce->a, truce->b);
+    const sunder_i_torn *between = sunder_i_truces_between(truces, torn.i, torn.j);
+    const size_t at = item ? (size_t)(item - truces->item) : 0, of = between ? (size_t)(between - truces->torn) : 0;
+    if (item) memmove(truces->item + at, truces->item + at + 1, (--truces->n - at) * sizeof *item);
+    if (between) memmove(truces->torn + of, truces->torn + of + 1, (--truces->torn_n - of) * sizeof *between);
+}
+
+void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_couple *body, size_t n)
+{
     size_t out = 0;
     for (size_t k = 0; k < truces->n; k++) {
-        const uint32_t i = town->body_of[truces->item[k].a], j = town->body_of[truces->item[k].b];
-        if (!(i == torn->i && j == torn->j) && !(i == torn->j && j == torn->i))
-            truces->item[out++] = truces->item[k];
+        const sunder_i_torn torn = torn_of(town, &truces->item[k]);
+        if (sunder_i_couple_at(body, n, torn.i, torn.j) == n) truces->item[out++] = truces->item[k];
     }
     truces->n = out;
-    const size_t at = (size_t)(torn - truces->torn);
-    memmove(truces->torn + at, truces->torn + at + 1, (--truces->torn_n - at) * sizeof *truces->torn);
+    out = 0;
+    for (size_t k = 0; k < truces->torn_n; k++)
+        if (sunder_i_couple_at(body, n, truces->torn[k].i, truces->torn[k].j) == n)
+            truces->torn[out++] = truces->torn[k];
+    truces->torn_n = out;
 }
 
 /* ---- What is demanded ----------------------------------------------------------------------------------------------

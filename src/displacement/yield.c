@@ -3,10 +3,7 @@
  * Pairs that clash in the end, and clashed at the start, are put under a truce (truce.c): all others stay at peace, and
  * these stand no worse than they stood. What came into a clash besides goes home, until nothing clashes; in the end all
  * are at home, where every truce holds. From there the cluster descends as from any other solution: nobody is pushed to
- * ease a pair that stays in conflict.
- *
- * The pairs that were put under a truce together may be more than need be. So once nothing joins clusters any more each
- * is asked for peace again, those that overlap first, the rest keeping what they have. */
+ * ease a pair that stays in conflict. (retry.c asks them again.) */
 #include "displacement/search.h"
 
 #include <math.h>
@@ -68,27 +65,78 @@ static bool make_truce(sunder_i_search *s, uint32_t i, uint32_t j)
     return s->truces.n > before;
 }
 
-/* One pass over what clashes now. Returns whether anything changed. */
-static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
+/* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
+typedef struct neighbours {
+    sunder_i_couple *pair;
+    size_t pairs, capacity;
+    size_t *first;   /* [n + 1] */
+    uint32_t *other; /* of body k from first[k] to first[k + 1] */
+} neighbours;
+
+static void free_neighbours(neighbours *g)
+{
+    sunder_i_free(g->pair);
+    sunder_i_free(g->first);
+    sunder_i_free(g->other);
+}
+
+static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+{
+    neighbours *g = context;
+    if (!sunder_i_reserve(&g->pair, &g->capacity, g->pairs + 1, sizeof *g->pair)) {
+        s->failed = true;
+        return;
+    }
+    g->pair[g->pairs++] = (sunder_i_couple){i, j};
+}
+
+static void find_neighbours(sunder_i_search *s, neighbours *g)
+{
+    sunder_i_search_near_or_home(s, s->gap, add_pair, g);
+    g->first = sunder_i_calloc(s->n + 1, sizeof *g->first);
+    g->other = sunder_i_alloc(2 * g->pairs, sizeof *g->other);
+    s->failed = s->failed || !g->first || !g->other;
+    if (s->failed) return;
+    for (size_t k = 0; k < g->pairs; k++) g->first[g->pair[k].a]++, g->first[g->pair[k].b]++;
+    for (size_t k = 0, sum = 0; k <= s->n; k++) g->first[k] = sum += g->first[k]; /* the ends, for now */
+    for (size_t k = g->pairs; k-- > 0;) {
+        g->other[--g->first[g->pair[k].a]] = g->pair[k].b;
+        g->other[--g->first[g->pair[k].b]] = g->pair[k].a;
+    }
+}
+
+/* What clashes now, of the pairs of which one changed: into s->clash. */
+static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
+{
+    s->clashes = 0;
+    for (uint32_t i = 0; i < s->n; i++) {
+        if (!changed[i]) continue;
+        for (size_t k = g->first[i]; k < g->first[i + 1] && !s->failed; k++) {
+            const uint32_t j = g->other[k];
+            if (!changed[j] || i < j) sunder_i_search_look_at(s, s->t, i < j ? i : j, i < j ? j : i);
+        }
+    }
+}
+
+/* One pass over what clashes now. Marks what changed, and returns whether anything did. */
+static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *changed)
 {
     bool any = false;
     const size_t before = s->truces.n;
-    sunder_i_search_look(s, s->t);
+    memset(changed, 0, s->n * sizeof *changed);
     for (size_t k = 0; k < s->clashes && !s->failed; k++) {
         const sunder_i_clash *c = &s->clash[k];
-        if (n && bsearch(c, at_home, n, sizeof *at_home, by_pair) && make_truce(s, c->i, c->j)) {
-            any = true;
-            continue;
-        }
-        const bool i = send_home(s, c->i), j = send_home(s, c->j);
+        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, by_pair) && make_truce(s, c->i, c->j);
+        const bool i = yields || send_home(s, c->i), j = yields || send_home(s, c->j);
+        changed[c->i] = changed[c->i] || i;
+        changed[c->j] = changed[c->j] || j;
         any = any || i || j;
     }
     if (s->truces.n > before && !sunder_i_truces_index(&s->truces, s->town)) s->failed = true;
     return any;
 }
 
-/* Down from a position without clashes, or stay there. */
-static void descend_from(sunder_i_search *s)
+void sunder_i_search_lower(sunder_i_search *s)
 {
     const size_t size = 2 * s->n * sizeof *s->t;
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
@@ -105,129 +153,15 @@ void sunder_i_search_yield(sunder_i_search *s)
 {
     size_t n = 0;
     sunder_i_search_clip(s);
+    neighbours near = {0};
     sunder_i_clash *at_home = look_at_home(s, &n);
-    s->failed = s->failed || !at_home;
-    while (!s->failed && yield_once(s, at_home, n)) {}
+    bool *changed = sunder_i_alloc(s->n, sizeof *changed);
+    s->failed = s->failed || !at_home || !changed;
+    if (!s->failed) find_neighbours(s, &near);
+    if (!s->failed) sunder_i_search_look(s, s->t);
+    while (!s->failed && yield_once(s, at_home, n, changed)) look_at_changed(s, &near, changed);
+    free_neighbours(&near);
+    sunder_i_free(changed);
     sunder_i_free(at_home);
-    descend_from(s);
-}
-
-/* ---- Asking again --------------------------------------------------------------------------------------------------
- */
-
-/* A pair under a truce: what it would take to make peace, the least first; overlaps before all others. */
-typedef struct suit {
-    bool disjoint, hopeless;
-    double missing;
-    sunder_i_couple body;
-} suit;
-
-static int by_ease(const void *a, const void *b)
-{
-    const suit *p = a, *q = b;
-    if (p->disjoint != q->disjoint) return p->disjoint ? 1 : -1;
-    if (p->missing != q->missing) return p->missing < q->missing ? -1 : 1;
-    return sunder_i_by_couple(&p->body, &q->body);
-}
-
-static bool has(const sunder_i_search *s, uint32_t body)
-{
-    return sunder_i_set_has(s->body, s->own, body) || sunder_i_set_has(s->body + s->own, s->n - s->own, body);
-}
-
-/* The pairs of the town's truces that this search has the bodies of. NULL if memory is out. */
-static suit *list_suits(const sunder_i_search *s, size_t *n)
-{
-    const sunder_i_town *town = s->town;
-    const sunder_i_truces *all = &town->truces;
-    suit *list = sunder_i_alloc(all->torn_n, sizeof *list);
-    *n = 0;
-    for (size_t k = 0; list && k < all->torn_n; k++) {
-        const sunder_i_torn *t = &all->torn[k];
-        if (!has(s, t->i) || !has(s, t->j)) continue;
-        list[(*n)++] = (suit){.disjoint = !(t->reach > 0), .missing = t->reach, .body = {t->i, t->j}};
-    }
-    /* Sorted by bodies, as the couples of `torn` are. */
-    for (size_t k = 0; list && *n && k < all->n; k++) {
-        const sunder_i_truce *t = &all->item[k];
-        const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
-        const sunder_i_couple key = {i < j ? i : j, i < j ? j : i};
-        for (size_t low = 0, high = *n; low < high;) {
-            const size_t middle = low + (high - low) / 2;
-            const int order = sunder_i_by_couple(&list[middle].body, &key);
-            if (order == 0) {
-                list[middle].hopeless = list[middle].hopeless || t->hopeless;
-                if (list[middle].disjoint) list[middle].missing = fmax(list[middle].missing, s->gap - t->gap);
-                break;
-            }
-            if (order < 0)
-                low = middle + 1;
-            else
-                high = middle;
-        }
-    }
-    if (list && *n) qsort(list, *n, sizeof *list, by_ease);
-    return list;
-}
-
-/* Is there a solution now? Else back to where all stood. */
-static bool attempt(sunder_i_search *s, double *stand)
-{
-    const size_t size = 2 * s->n * sizeof *stand;
-    memcpy(stand, s->t, size);
-    s->program.n = 0;
-    bool done = sunder_i_search_descend(s);
-    if (!done && !s->failed && sunder_i_search_jump(s)) done = sunder_i_search_descend(s);
-    if (!done) memcpy(s->t, stand, size);
-    return done && !s->failed;
-}
-
-static bool try_peace(sunder_i_search *s, const suit *x, double *stand)
-{
-    if (!sunder_i_reserve(&s->ended, &s->ended_capacity, s->ended_n + 1, sizeof *s->ended)) {
-        s->failed = true;
-        return false;
-    }
-    s->ended[s->ended_n++] = x->body;
-    qsort(s->ended, s->ended_n, sizeof *s->ended, sunder_i_by_couple);
-    if (attempt(s, stand)) return true;
-    const size_t at = sunder_i_couple_at(s->ended, s->ended_n, x->body.a, x->body.b);
-    memmove(s->ended + at, s->ended + at + 1, (--s->ended_n - at) * sizeof *s->ended);
-    return false;
-}
-
-/* That they no longer overlap, at least. */
-static void try_disjoint(sunder_i_search *s, const suit *x, double *stand)
-{
-    const sunder_i_town *town = s->town;
-    const sunder_i_truces *all = &town->truces;
-    for (size_t k = 0; k < all->n && !s->failed; k++) {
-        sunder_i_truce t = all->item[k];
-        const uint32_t i = town->body_of[t.a], j = town->body_of[t.b];
-        if ((i < j ? i : j) != x->body.a || (i < j ? j : i) != x->body.b || (t.shift[0] == 0 && t.shift[1] == 0))
-            continue;
-        t.shift[0] = t.shift[1] = 0;
-        t.gap = s->gap - town->rules.gap; /* so that no rounding makes them overlap again */
-        if (!sunder_i_truces_add(&s->truces, &t)) s->failed = true;
-    }
-    if (s->failed || !sunder_i_truces_index(&s->truces, town)) {
-        s->failed = true;
-        return;
-    }
-    if (!attempt(s, stand)) sunder_i_truces_end(&s->truces, town, x->body.a, x->body.b);
-}
-
-void sunder_i_search_retry(sunder_i_search *s)
-{
-    size_t n = 0;
-    if (sunder_i_search_look(s, s->t) > s->tolerance || s->failed) return;
-    suit *list = list_suits(s, &n);
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    s->failed = s->failed || !list || !stand;
-    for (size_t k = 0; k < n && !s->failed && s->steps + s->program.work < s->effort; k++) {
-        if (!list[k].hopeless && try_peace(s, &list[k], stand)) continue;
-        if (!s->failed && !list[k].disjoint) try_disjoint(s, &list[k], stand);
-    }
-    sunder_i_free(list);
-    sunder_i_free(stand);
+    sunder_i_search_lower(s);
 }

@@ -1,0 +1,166 @@
+/* Pairs that were given up are asked for peace again.
+ *
+ * Pairs that were put under a truce together (yield.c) may be more than need be. So once nothing joins clusters any more
+ * each is asked by itself, those that overlap first, the rest keeping what they have: at first with nobody but the pair
+ * moving, then with more and more of those about it (vicinity.c), at last with the whole cluster. What overlaps and finds no
+ * peace is asked not to overlap, at least. All are asked at one stage before any is at the next, so that where the effort
+ * ends the small questions have been put; it grows with the number of bodies, and with nothing else. */
+#include "displacement/search.h"
+#include "displacement/vicinity.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How many may move at each stage, before all may. A cluster of no more than FEW is asked as a whole at once. */
+static const size_t stage[] = {2, 8, 32, 128};
+#define STAGES (sizeof stage / sizeof *stage)
+#define FEW 8
+/* Effort, in constraints looked at: for a cluster, and for each of its bodies. */
+#define EFFORT 2000000u
+#define EFFORT_EACH 5000u
+/* What one descent of the whole may take, for each body. */
+#define PATIENCE 1500u
+
+typedef struct petition {
+    sunder_i_search *search;
+    const sunder_i_suit *suit;
+    size_t n, moving;
+    bool *settled;     /* [n] nothing is left to be asked */
+    bool *in_vain;     /* [n] with more bodies the question would be the same */
+    double *stand;     /* [2 bodies] */
+    uint64_t effort;   /* till when */
+    bool any;          /* somebody found peace */
+    sunder_i_vicinity vicinity;
+} petition;
+
+static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program.work; }
+
+/* ---- What is asked -------------------------------------------------------------------------------------------------
+ */
+
+/* From now on the town's truces between the two do not count; or they do again. */
+static bool end_truce(sunder_i_search *s, const sunder_i_couple *pair)
+{
+    if (!sunder_i_reserve(&s->ended, &s->ended_capacity, s->ended_n + 1, sizeof *s->ended)) return false;
+    size_t at = s->ended_n++;
+    for (; at > 0 && sunder_i_by_couple(&s->ended[at - 1], pair) > 0; at--) s->ended[at] = s->ended[at - 1];
+    s->ended[at] = *pair;
+    return true;
+}
+
+static void resume_truce(sunder_i_search *s, const sunder_i_couple *pair)
+{
+    const size_t at = sunder_i_couple_at(s->ended, s->ended_n, pair->a, pair->b);
+    memmove(s->ended + at, s->ended + at + 1, (--s->ended_n - at) * sizeof *s->ended);
+}
+
+/* The pair's truces, but that what overlapped no longer does. */
+static bool ask_disjoint(sunder_i_search *s, const sunder_i_suit *x)
+{
+    const sunder_i_town *town = s->town;
+    for (size_t k = 0; k < x->truces; k++) {
+        sunder_i_truce t = town->truces.item[x->truce[k]];
+        if (t.shift[0] == 0 && t.shift[1] == 0) continue;
+        t.shift[0] = t.shift[1] = 0;
+        t.gap = s->gap - town->rules.gap; /* so that no rounding makes them overlap again */
+        if (!sunder_i_truces_insert(&s->truces, town, &t)) return false;
+    }
+    return true;
+}
+
+/* ---- At one stage --------------------------------------------------------------------------------------------------
+ */
+
+/* With all that the cluster has. */
+static bool settle_all(petition *p)
+{
+    sunder_i_search *s = p->search;
+    const size_t size = 2 * s->n * sizeof *p->stand;
+    memcpy(p->stand, s->t, size);
+    s->program.n = 0;
+    s->patience = work_of(s) + PATIENCE * (uint64_t)s->n;
+    bool done = sunder_i_search_descend(s);
+    if (!done && !s->failed && sunder_i_search_jump(s)) {
+        s->patience = work_of(s) + PATIENCE * (uint64_t)s->n;
+        done = sunder_i_search_descend(s);
+    }
+    s->patience = UINT64_MAX;
+    if (!done) memcpy(s->t, p->stand, size);
+    return done && !s->failed;
+}
+
+static uint32_t place_of(const sunder_i_search *s, uint32_t body)
+{
+    for (size_t part = 0; part < 2; part++) {
+        const uint32_t *set = part ? s->body + s->own : s->body;
+        const uint32_t *found = bsearch(&body, set, part ? s->n - s->own : s->own, sizeof body, sunder_i_by_number);
+        if (found) return (uint32_t)(found - s->body);
+    }
+    return SUNDER_I_NOBODY; /* cannot be: suits are of the cluster's own */
+}
+
+static bool settle_one(petition *p, size_t k, size_t level)
+{
+    sunder_i_search *s = p->search;
+    if (level == STAGES) return settle_all(p);
+    const sunder_i_couple *pair = &p->suit[k].body;
+    const bool done = sunder_i_vicinity_settle(&p->vicinity, place_of(s, pair->a), place_of(s, pair->b), stage[level],
+                                               s->gap + 2 * p->suit[k].missing);
+    p->in_vain[k] = !p->vicinity.wider;
+    return done;
+}
+
+/* Asks one for peace, or not to overlap. */
+static bool grant(petition *p, size_t k, size_t level, bool peace)
+{
+    sunder_i_search *s = p->search;
+    const sunder_i_suit *x = &p->suit[k];
+    if (!(peace ? end_truce(s, &x->body) : ask_disjoint(s, x))) {
+        s->failed = true;
+        return false;
+    }
+    if (settle_one(p, k, level)) return true;
+    if (peace)
+        resume_truce(s, &x->body);
+    else
+        for (size_t t = 0; t < x->truces; t++) sunder_i_truces_remove(&s->truces, s->town, &s->town->truces.item[x->truce[t]]);
+    return false;
+}
+
+/* Puts one question to all whom it concerns, stage by stage. */
+static void ask_all(petition *p, bool peace)
+{
+    sunder_i_search *s = p->search;
+    memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
+    for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++)
+        for (size_t k = 0; k < p->n && !s->failed && work_of(s) < p->effort; k++) {
+            const sunder_i_suit *x = &p->suit[k];
+            if (p->settled[k] || (p->in_vain[k] && level < STAGES) || !(peace ? x->peace : x->disjoint)) continue;
+            p->settled[k] = grant(p, k, level, peace);
+            p->any = p->any || p->settled[k];
+        }
+}
+
+void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t n)
+{
+    if (sunder_i_search_look(s, s->t) > s->tolerance || s->failed) return;
+    petition p = {.search = s,
+                  .suit = suit,
+                  .n = n,
+                  .settled = sunder_i_calloc(n, sizeof *p.settled),
+                  .in_vain = sunder_i_alloc(n, sizeof *p.in_vain),
+                  .stand = sunder_i_alloc(2 * s->n, sizeof *p.stand)};
+    for (size_t k = 0; k < s->n; k++) p.moving += s->mass[k] > 0;
+    if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_vicinity_init(&p.vicinity, s)))
+        s->failed = true;
+    for (int disjoint = 0; disjoint < 2 && !s->failed; disjoint++) {
+        p.effort = work_of(s) + (EFFORT + EFFORT_EACH * (uint64_t)p.moving) / 2;
+        ask_all(&p, !disjoint);
+    }
+    if (p.any && p.moving > FEW) sunder_i_search_lower(s);
+    sunder_i_vicinity_free(&p.vicinity);
+    sunder_i_free(p.settled);
+    sunder_i_free(p.in_vain);
+    sunder_i_free(p.stand);
+}
