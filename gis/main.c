@@ -1,8 +1,8 @@
 /* main.c: which command, with which options. */
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "base/nearest.h"
 #include "commands/commands.h"
-#include "options/progress.h"
 #include "sunder.h"
 
 #include <cpl_conv.h>
@@ -35,7 +35,7 @@ const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
 {
     (void)number;
-    if (class == CE_Warning)
+    if (class == CE_Warning && !gis_interrupted())
         gis_say_warning("%s", words);
 }
 

@@ -1,6 +1,8 @@
 /* error.c: sentences on the way up, and GDAL's own reports caught instead of printed. */
 #include "base/error.h"
 
+#include "base/interrupt.h"
+
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <stdarg.h>
@@ -24,9 +26,13 @@ static void flatten(char *text)
 static bool fail_with(gis_error *error, int exit_status, const char *format, va_list arguments)
 {
     if (error) {
-        error->exit_status = exit_status;
+        bool interrupted = gis_interrupted();
+        error->exit_status = interrupted ? GIS_FAILED : exit_status;
         error->no_memory = false;
-        vsnprintf(error->message, sizeof error->message, format, arguments);
+        if (interrupted)
+            snprintf(error->message, sizeof error->message, "%s", GIS_INTERRUPTED);
+        else
+            vsnprintf(error->message, sizeof error->message, format, arguments);
         flatten(error->message);
     }
     return false;
@@ -54,7 +60,7 @@ bool gis_no_memory(gis_error *error)
 {
     gis_fail(error, "out of memory");
     if (error)
-        error->no_memory = true;
+        error->no_memory = !gis_interrupted();
     return false;
 }
 

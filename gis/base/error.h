@@ -12,13 +12,18 @@ enum {
     GIS_USAGE = 2   /* exit status 2: the call was wrong */
 };
 
+/* What is said when a signal ended the work, whatever noticed it first. */
+#define GIS_INTERRUPTED "interrupted"
+
 typedef struct gis_error {
     int exit_status; /* GIS_FAILED or GIS_USAGE */
     bool no_memory;  /* that is all that failed: neither the call nor the data is at fault */
     char message[1024];
 } gis_error;
 
-/* Fills *error (if not NULL), flattening line breaks, so that a function can end with `return gis_fail(...)`. */
+/* Fills *error (if not NULL), flattening line breaks, so that a function can end with `return gis_fail(...)`. Once a
+ * signal has come the sentence is that of the interruption: calls that were cut short by it fail for reasons of all
+ * kinds. */
 bool gis_fail(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_fail_usage(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_no_memory(gis_error *error);

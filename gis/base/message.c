@@ -3,6 +3,8 @@
  * be told what to do by a file. */
 #include "base/message.h"
 
+#include "base/interrupt.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -27,12 +29,13 @@ void gis_say_warning(const char *format, ...)
 
 int gis_say_failure(const gis_error *error)
 {
+    gis_failure_told(error->exit_status);
     print_line("error", error->message);
     return error->exit_status;
 }
 
 void gis_say_warnings(const gis_list *list)
 {
-    for (size_t i = 0; i < list->n; i++)
+    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) /* what an interruption makes others say says nothing */
         print_line("warning", list->items[i]);
 }

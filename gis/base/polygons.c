@@ -1,6 +1,8 @@
 /* polygons.c: see polygons.h. */
 #include "base/polygons.h"
 
+#include "base/interrupt.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -30,7 +32,8 @@ static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, g
 
 bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error)
 {
-    return reserve(&set->xy, &set->xy_capacity, set->vertices + vertices, 2 * sizeof *set->xy, error);
+    return gis_go_on(error) &&
+           reserve(&set->xy, &set->xy_capacity, set->vertices + vertices, 2 * sizeof *set->xy, error);
 }
 
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error)

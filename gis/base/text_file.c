@@ -32,6 +32,20 @@ static bool write_bytes(const char *name, const char *mode, const char *text, si
     return done;
 }
 
+static bool write_temporary(gis_text_file *file, const char *text, size_t length, int *reason)
+{
+    gis_hold();
+    bool done = write_bytes(file->temporary, "wx", text, length, reason);
+    if (!done && *reason == EEXIST) { /* not ours to remove */
+        free(file->temporary);
+        file->temporary = NULL;
+    } else {
+        file->leftover = gis_leftover_temporary(file->temporary);
+    }
+    gis_release();
+    return done;
+}
+
 bool gis_text_file_write(gis_text_file *file, const char *path, const char *text, size_t length, const char *what,
                          gis_error *error)
 {
@@ -44,12 +58,8 @@ bool gis_text_file_write(gis_text_file *file, const char *path, const char *text
     if (!special && !(file->temporary = beside(file->path, "part")))
         return gis_no_memory(error);
     int reason;
-    if (write_bytes(special ? file->path : file->temporary, special ? "w" : "wx", text, length, &reason))
+    if (special ? write_bytes(file->path, "w", text, length, &reason) : write_temporary(file, text, length, &reason))
         return true;
-    if (reason == EEXIST) { /* not ours to remove */
-        free(file->temporary);
-        file->temporary = NULL;
-    }
     return gis_fail(error, "%s: cannot write %s: %s", what, path, strerror(reason));
 }
 
@@ -60,6 +70,7 @@ static bool step_aside(gis_text_file *file, const char *what, gis_error *error)
         return gis_no_memory(error);
     if (rename(file->path, former) == 0) {
         file->former = former;
+        file->former_leftover = gis_leftover_former(former, file->path);
         return true;
     }
     int reason = errno;
@@ -71,16 +82,22 @@ bool gis_text_file_place(gis_text_file *file, const char *what, gis_error *error
 {
     if (!file->temporary)
         return true;
-    if (!step_aside(file, what, error))
-        return false;
-    if (rename(file->temporary, file->path) != 0)
-        return gis_fail(error, "%s: cannot write %s: %s", what, file->path, strerror(errno));
-    file->placed = true;
-    return true;
+    gis_hold();
+    bool done = step_aside(file, what, error);
+    if (done && rename(file->temporary, file->path) != 0) {
+        done = gis_fail(error, "%s: cannot write %s: %s", what, file->path, strerror(errno));
+    } else if (done) {
+        file->placed = true;
+        gis_leftover_forget(file->leftover);
+        file->leftover = file->former ? NULL : gis_leftover_until(GIS_DECIDED, file->path);
+    }
+    gis_release();
+    return done;
 }
 
 void gis_text_file_end(gis_text_file *file, bool keep)
 {
+    gis_hold();
     if (!keep && file->former)
         (void)!rename(file->former, file->path);
     else if (!keep && file->placed)
@@ -89,6 +106,9 @@ void gis_text_file_end(gis_text_file *file, bool keep)
         remove(file->former);
     if (file->temporary && !file->placed)
         remove(file->temporary);
+    gis_leftover_forget(file->leftover);
+    gis_leftover_forget(file->former_leftover);
+    gis_release();
     free(file->path);
     free(file->temporary);
     free(file->former);

@@ -6,13 +6,14 @@
 #ifndef GIS_TEXT_FILE_H
 #define GIS_TEXT_FILE_H
 
-#include "base/error.h"
+#include "base/interrupt.h"
 
 typedef struct gis_text_file {
     char *path;      /* with links resolved: the link stays, and its target is replaced */
     char *temporary; /* NULL: there is none (yet, any more, or since the file is a pipe or a device) */
     char *former;    /* where the former file waits; NULL: nowhere */
     bool placed;
+    gis_leftover *leftover, *former_leftover; /* the same, for a signal */
 } gis_text_file;
 
 /* Start from a zeroed struct. A pipe or a device (/dev/stdout, /dev/null) cannot be renamed over: it is written at

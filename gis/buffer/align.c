@@ -81,7 +81,7 @@ static bool round_result(sunder_status status, const sunder_sum *sum, const sund
                          gis_error *error)
 {
     if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why->message);
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why->message);
     return gis_round_sum(sum, out, error);
 }
 

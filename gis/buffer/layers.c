@@ -3,7 +3,7 @@
  * field, if one was named, and the number of features in it. */
 #include "buffer/buffer.h"
 
-#include "options/progress.h"
+#include "base/interrupt.h"
 #include "write/layer_output.h"
 
 #include <string.h>
@@ -55,8 +55,8 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
         return false;
     for (size_t k = 0; k < buffer->sets; k++) {
         const gis_buffer_set *set = &buffer->set[k];
-        if (gis_interrupted())
-            return gis_fail(error, "interrupted");
+        if (!gis_go_on(error))
+            return false;
         OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
         if (!geometry && !set->none)
             return gis_no_memory(error);

@@ -1,6 +1,8 @@
 /* make.c: all sets, on several threads. Which thread takes which set is left to chance; what comes of it is not. */
 #include "buffer/buffer.h"
 
+#include "base/interrupt.h"
+
 #include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
@@ -34,7 +36,7 @@ static void tell(making *m)
     m->done++;
     if (m->buffer->sets > 1 && !gis_progress_call((double)m->done / (double)m->buffer->sets, m->progress) &&
         !atomic_exchange(&m->stop, true))
-        gis_fail(&m->error, "interrupted");
+        gis_fail(&m->error, GIS_INTERRUPTED);
     pthread_mutex_unlock(&m->lock);
 }
 
@@ -44,15 +46,16 @@ static void fail(making *m, size_t set, const gis_error *error)
     const gis_buffer *buffer = m->buffer;
     if (!buffer->dissolve)
         gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
+    bool stopped = strcmp(error->message, GIS_INTERRUPTED) == 0;
     pthread_mutex_lock(&m->lock);
-    if (set < m->failed) {
+    if (set < m->failed && !(stopped && atomic_load(&m->stop))) { /* what was stopped as another failed is no reason */
         m->failed = set;
         m->error = *error;
-        if (*who && strcmp(error->message, "interrupted") != 0)
+        if (*who && !stopped)
             gis_fail(&m->error, "%s: %s", who, error->message);
     }
-    pthread_mutex_unlock(&m->lock);
     atomic_store(&m->stop, true);
+    pthread_mutex_unlock(&m->lock);
 }
 
 static void *work(void *argument)

@@ -244,7 +244,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     sunder_error why;
     sunder_status status = sunder_morphology(p, b, buffer->operation, how, &sum, &why);
     if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
               (!buffer->options->given[OPT_ALIGN] || gis_buffer_straighten(&set->result, error)) &&
               (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));

@@ -1,4 +1,5 @@
 /* check.c: sunder check. The exact list of what overlaps or is too close, whoever made the layer. */
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"
@@ -86,7 +87,7 @@ static bool print_lines(const check_run *run, gis_error *error)
     bool ok = true;
     for (size_t k = 0; ok && k < n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
-        ok = gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
+        ok = gis_go_on(error) && gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
         for (int column = 0; ok && column < N_CONFLICT_COLUMNS; column++) {
             if (column)
                 putchar('\t');

@@ -41,7 +41,7 @@ static bool find(route_run *run, gis_error *error)
     sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot, &run->input.from,
                                              &run->input.to, &how, &run->route, &why);
     if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+        return gis_fail(error, "%s", why.message);
     gis_progress_done(&progress);
     size_t obstacle;
     sunder_no_route reason = sunder_route_reason(run->route, &obstacle);

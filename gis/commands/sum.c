@@ -1,4 +1,5 @@
 /* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"
@@ -91,7 +92,7 @@ static bool compute(sum_run *run, gis_error *error)
     double begin = gis_clock();
     sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
     if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? "interrupted" : why.message);
+        return gis_fail(error, "%s", why.message);
     run->compute = run->decompose + (gis_clock() - begin);
     gis_progress_done(&progress);
     return true;
@@ -100,6 +101,8 @@ static bool compute(sum_run *run, gis_error *error)
 /* One coordinate pair: rationals as strings, or decimals. */
 static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_error *error)
 {
+    if (!gis_go_on(error))
+        return false;
     gis_json_open(out, '[');
     if (run->options->given[OPT_EXACT]) {
         char *x, *y;

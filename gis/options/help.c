@@ -109,5 +109,6 @@ void gis_help_program(void)
     for (size_t i = 0; i < gis_n_commands; i++)
         printf("  %-10s %-18s %s\n", gis_commands[i].name, gis_commands[i].operands, gis_commands[i].summary);
     printf("\n`sunder COMMAND --help` lists the options of a command; `sunder --version` prints the version.\n"
-           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n");
+           "Exit status: 0 done, 1 failed, 2 wrong usage, 3 conflicts remain or were found, or no route.\n"
+           "SIGINT and SIGTERM end a run, the output as it was; a second one at once.\n");
 }

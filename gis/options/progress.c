@@ -1,47 +1,11 @@
 /* progress.c: see progress.h. */
 #include "options/progress.h"
 
-#include "sunder.h"
+#include "base/interrupt.h"
 
-#include <signal.h>
 #include <stdio.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <time.h>
-
-/* The one variable of the program that is not handed from function to function: a signal has no other way in. */
-static volatile sig_atomic_t interrupted;
-
-static void note_signal(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
-
-void gis_catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = note_signal, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    gis_watch();
-}
-
-static bool go_on(void *user)
-{
-    (void)user;
-    return !gis_interrupted();
-}
-
-void gis_watch(void)
-{
-    sunder_watch(go_on, NULL);
-}
-
-bool gis_interrupted(void)
-{
-    return interrupted != 0;
-}
 
 gis_progress gis_progress_of(const gis_options *options)
 {

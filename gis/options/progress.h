@@ -1,18 +1,10 @@
-/* progress.h: how far a run is, whether it is to stop, and what it took. */
+/* progress.h: how far a run is, and what it took. */
 #ifndef GIS_PROGRESS_H
 #define GIS_PROGRESS_H
 
 #include <stdint.h>
 
 #include "options/options.h"
-
-/* From here on SIGINT and SIGTERM do not end the process but make gis_interrupted() true (and the next one ends it at
- * once), and whatever of the library the calling thread is in, or calls later, fails (other threads: gis_watch()), so
- * that temporary files go. */
-void gis_catch_signals(void);
-bool gis_interrupted(void);
-/* The library's work in this thread heeds the signals too. */
-void gis_watch(void);
 
 /* Progress on stderr, as the options ask: none, a bar in GDAL's manner, or whole percents, a line each. */
 typedef struct gis_progress {

@@ -3,8 +3,8 @@
  * skip) has no shape and passes through as skipped. */
 #include "read/layer_input.h"
 
+#include "base/interrupt.h"
 #include "base/message.h"
-#include "options/progress.h"
 #include "round/round.h"
 
 #include <cpl_conv.h>
@@ -205,9 +205,8 @@ static bool make_shapes(gis_layer_input *input, gis_error *error)
         gis_content content = gis_source_content(input->source, i);
         input->null += content == GIS_NOTHING;
         input->other += content != GIS_NOTHING && content != wanted;
-        if (gis_interrupted())
-            ok = gis_fail(error, "interrupted");
-        else if (content == wanted)
+        ok = gis_go_on(error);
+        if (ok && content == wanted)
             ok = input->points ? point_shape(input, i, how.symbol_field, how.symbol, error)
                                : polygon_shape(input, i, &how.rings, error);
     }

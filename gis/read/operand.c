@@ -1,6 +1,7 @@
 /* operand.c: the operands of sum and pair, shapes of options, and what the options ask of a source. */
 #include "read/operand.h"
 
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "options/progress.h"
 #include "read/source_files.h"
@@ -76,7 +77,7 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
     bool ok = true, any_invalid = false;
     for (size_t i = 0; ok && i < gis_source_count(source); i++)
         if (gis_source_content(source, i) == GIS_POLYGONS)
-            ok = gis_geometry_rings(gis_source_geometry(source, i), &rings, error) &&
+            ok = gis_go_on(error) && gis_geometry_rings(gis_source_geometry(source, i), &rings, error) &&
                  append_feature(source, i, &rings, policy, &all, &any_invalid, error);
     if (ok) {
         sunder_error why;

@@ -1,5 +1,6 @@
 /* shape_text.c: shapes written on the command line or in a field: WKT, @FILE, @-, disc:, inside-disc:, square:,
  * rectangle:. */
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "base/nearest.h"
 #include "options/progress.h"
@@ -111,7 +112,7 @@ static bool read_stream(FILE *file, char **text, gis_error *error)
             }
             bytes = larger;
         }
-        size_t got = fread(bytes + n, 1, capacity - n - 1, file);
+        size_t got = gis_interrupted() ? 0 : fread(bytes + n, 1, capacity - n - 1, file);
         if (got == 0)
             break;
         n += got;
@@ -136,7 +137,7 @@ bool gis_shape_read_file(const char *name, const char *who, char **text, gis_err
     gis_error why = {0};
     errno = 0;
     bool ok = read_stream(file, text, &why);
-    if (ok && ferror(file)) {
+    if (ok && (ferror(file) || gis_interrupted())) {
         free(*text);
         ok = gis_fail(&why, "%s", strerror(errno));
     }

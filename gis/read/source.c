@@ -1,7 +1,10 @@
 /* source.c: opening, selecting, reading. The choice of the layer is in source_layer.c. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/source.h"
+
+#include "base/interrupt.h"
 #include "read/source_layer.h"
+#include "read/sqlite_calls.h"
 #include "read/sqlite_lock.h"
 
 #include <cpl_conv.h>
@@ -38,6 +41,7 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
     /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
     if (strncmp(request->path, "/vsistdin/", 10) == 0 && !CPLGetConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", NULL))
         CPLSetThreadLocalConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", "-1");
+    gis_sqlite_heed_signals();
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     source->dataset = GDALOpenEx(request->path, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
@@ -70,6 +74,7 @@ static OGRGeometryH box_polygon(const double box[4])
 static bool execute(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     OGRGeometryH box = request->bbox ? box_polygon(request->bbox) : NULL;
+    gis_sqlite_heed_signals();
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     source->layer = GDALDatasetExecuteSQL(source->dataset, request->sql, box, request->dialect);
@@ -158,8 +163,10 @@ static bool read_features(gis_source *source, gis_error *error)
             OGR_F_Destroy(feature);
             return gis_no_memory(error);
         }
+        if (!gis_go_on(error))
+            return false;
     }
-    return true;
+    return gis_go_on(error); /* a statement that is cut short may look like the last feature */
 }
 
 static bool read_all(gis_source *source, gis_error *error)
@@ -288,11 +295,12 @@ static bool mark_by_filter(gis_source *source, const char *where, bool *marks, g
     CPLFree(both);
     if (done) {
         OGR_L_ResetReading(source->layer);
-        for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL; OGR_F_Destroy(feature)) {
+        for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(source->layer)); OGR_F_Destroy(feature)) {
             fid_index key = {OGR_F_GetFID(feature), 0};
             fid_index *found = bsearch(&key, table, source->n, sizeof *table, compare_fid_index);
             if (found)
                 marks[found->index] = true;
+            done = gis_go_on(error);
         }
     }
     OGR_L_SetAttributeFilter(source->layer, source->where);
@@ -319,7 +327,7 @@ static bool mark_in_memory(gis_source *source, const char *where, bool *marks, g
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source->layer);
     for (int f = 0; done && f < OGR_FD_GetFieldCount(definition); f++)
         done = OGR_L_CreateField(layer, OGR_FD_GetFieldDefn(definition, f), TRUE) == OGRERR_NONE;
-    for (size_t i = 0; done && i < source->n; i++) {
+    for (size_t i = 0; done && i < source->n && (done = gis_go_on(error)); i++) {
         OGRFeatureH copy = OGR_F_Create(OGR_L_GetLayerDefn(layer));
         OGR_F_SetFrom(copy, source->features[i], TRUE);
         OGR_F_SetFID(copy, (GIntBig)i);
@@ -346,7 +354,7 @@ bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_err
     bool in_place = !source->is_result && source->fids_unique;
     bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
     gis_listen_end();
-    if (!done || listener.failures)
+    if (!done || listener.failures || gis_interrupted())
         done = gis_fail_usage(error, "the expression \"%s\": %s", where,
                               gis_listener_reason(&listener, "not understood"));
     gis_listener_clear(&listener);

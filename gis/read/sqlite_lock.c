@@ -2,6 +2,8 @@
 #define _GNU_SOURCE
 #include "read/sqlite_lock.h"
 
+#include "base/interrupt.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <errno.h>
@@ -91,14 +93,19 @@ int gis_sqlite_lock(const char *path, gis_error *error)
             close(file);
             return -2;
         }
-        if (waited >= gis_sqlite_patience())
+        if (waited >= gis_sqlite_patience() || gis_interrupted())
             break;
         wait_a_moment();
     }
     close(file);
-    gis_fail(error, "%s is in use by another program, which did not let go of it within %g s: close it there, or write "
-             "another file", path, gis_sqlite_patience() / 1000.);
+    gis_sqlite_fail_in_use(path, error);
     return -1;
+}
+
+bool gis_sqlite_fail_in_use(const char *path, gis_error *error)
+{
+    return gis_fail(error, "%s is in use by another program, which did not let go of it within %g s: close it there, or "
+                    "write another file", path, gis_sqlite_patience() / 1000.);
 }
 
 bool gis_sqlite_has_journal(const char *path)

@@ -22,6 +22,9 @@ bool gis_sqlite_being_written(const char *path);
  * the file system has no locks. */
 int gis_sqlite_lock(const char *path, gis_error *error);
 
+/* Fails with the sentence that says that somebody did not let go of it. */
+bool gis_sqlite_fail_in_use(const char *path, gis_error *error);
+
 /* Beside a database: a journal ("-journal") of a transaction that was interrupted and that SQLite rolls back when it
  * opens the database next (one whose head was never written says nothing), or a log ("-wal") that belongs to it. */
 bool gis_sqlite_has_journal(const char *path);

@@ -12,6 +12,8 @@
  * is not is bent through its vertices, united, and rounded again, until all is well. */
 #include "round/round.h"
 
+#include "base/interrupt.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -174,11 +176,23 @@ static void join_inside(const gis_polygons *set, size_t suspect, size_t *parent)
 {
     double box[4], other[4];
     polygon_box(set, suspect, box);
-    for (size_t p = 0; p < set->polygons; p++) {
+    for (size_t p = 0; p < set->polygons && !gis_interrupted(); p++) {
         polygon_box(set, p, other);
         if (other[0] <= box[2] && other[2] >= box[0] && other[1] <= box[3] && other[3] >= box[1])
             join(parent, suspect, p);
     }
+}
+
+static bool join_ring(const gis_polygons *set, const grid *g, size_t r, size_t polygon, double moved, size_t *parent,
+                      gis_error *error)
+{
+    size_t first = r ? set->ring_end[r - 1] : 0, end = set->ring_end[r];
+    for (size_t v = first; v < end; v++) {
+        if (!gis_go_on(error))
+            return false;
+        join_along(set, g, set->xy + 2 * v, set->xy + 2 * (v + 1 < end ? v + 1 : first), polygon, moved, parent);
+    }
+    return true;
 }
 
 static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, double moved, size_t *parent,
@@ -189,14 +203,12 @@ static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, d
     for (size_t p = 0; p < set->polygons; p++)
         parent[p] = p;
     for (size_t p = 0, r = 0; ok && p < set->polygons; p++)
-        for (; r < set->poly_end[p]; r++)
-            for (size_t first = r ? set->ring_end[r - 1] : 0, v = first; v < set->ring_end[r]; v++)
-                join_along(set, &g, set->xy + 2 * v, set->xy + 2 * (v + 1 < set->ring_end[r] ? v + 1 : first), p,
-                           moved, parent);
+        for (; ok && r < set->poly_end[p]; r++)
+            ok = join_ring(set, &g, r, p, moved, parent, error);
     for (size_t i = 0; ok && i < suspects->n; i++)
         join_inside(set, suspects->polygon[i], parent);
     grid_clear(&g);
-    return ok;
+    return ok && gis_go_on(error);
 }
 
 /* ---- One group ----------------------------------------------------------------------------------------------------- */
@@ -298,7 +310,7 @@ static bool part_once(gis_rounded *rounded, int round, gis_suspects *suspects, b
     bool any = false;
     for (size_t p = 0; ok && p < n && !any; p++)
         any = parent[p] != p;
-    for (size_t p = 0, from = 0; ok && any && p < n; p++)
+    for (size_t p = 0, from = 0; ok && any && p < n && (ok = gis_go_on(error)); p++)
         if (parent[p] == p) {
             ok = append_group(set, member + from, end[p] - from, round, &to, error);
             from = end[p];

@@ -1,8 +1,8 @@
 /* input.c: obstacles of a layer of any kind, or of a text; the robot; start and goal. */
 #include "route/input.h"
 
+#include "base/interrupt.h"
 #include "base/message.h"
-#include "options/progress.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -139,8 +139,7 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     gis_rings rings = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < input->n; i++)
-        ok = gis_interrupted() ? gis_fail(error, "interrupted")
-                               : read_feature(input, i, gis_source_geometry(input->source, i), &rings, error);
+        ok = gis_go_on(error) && read_feature(input, i, gis_source_geometry(input->source, i), &rings, error);
     gis_rings_clear(&rings);
     return ok;
 }

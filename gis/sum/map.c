@@ -1,6 +1,7 @@
 /* map.c: the planar map beneath a sum, as layers for inspection. */
 #include "sum/layers.h"
 
+#include "base/interrupt.h"
 #include "read/geometry.h"
 
 #include <math.h>
@@ -160,6 +161,8 @@ static bool place_vertices(map_run *run, gis_error *error)
     for (uint32_t v = 0; v < sunder_map_vertices(run->map); v++) {
         double *xy = run->xy + 2 * (size_t)v;
         sunder_map_vertex(run->map, v, xy);
+        if (!gis_go_on(error))
+            return false;
         if (!isfinite(xy[0]) || !isfinite(xy[1]))
             return gis_fail(error, "the planar map leaves the range of doubles");
     }

@@ -1,6 +1,7 @@
 /* deliver.c: see deliver.h. */
 #include "write/deliver.h"
 
+#include "base/interrupt.h"
 #include "base/message.h"
 #include "base/text_file.h"
 #include "read/source_files.h"
@@ -110,7 +111,7 @@ bool gis_deliver(const gis_delivery *delivery, gis_error *error)
     static const char *const what = "--stats";
     const char *path = gis_stats_path(delivery->options);
     gis_text_file file = {0};
-    bool ok = !path || gis_json_text(delivery->stats) || gis_no_memory(error);
+    bool ok = gis_go_on(error) && (!path || gis_json_text(delivery->stats) || gis_no_memory(error));
     if (ok && path && strcmp(path, "-") == 0)
         ok = gis_print_json(delivery->stats, error);
     else if (ok && path)

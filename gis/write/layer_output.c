@@ -1,7 +1,7 @@
 /* layer_output.c: the layers of separate but the conflicts. */
 #include "write/layer_output.h"
 
-#include "options/progress.h"
+#include "base/interrupt.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -48,8 +48,8 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
         return false;
     for (size_t i = 0; i < input->n; i++) {
         double dx, dy;
-        if (gis_interrupted())
-            return gis_fail(error, "interrupted");
+        if (!gis_go_on(error))
+            return false;
         sunder_report_move(report, i, &dx, &dy);
         const gis_value values[] = {
             {GIS_REAL, {.real = dx}},

@@ -7,6 +7,7 @@
  * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
 #include "write/rtree.h"
 
+#include "base/interrupt.h"
 #include "read/sql.h"
 
 #include <cpl_conv.h>
@@ -254,6 +255,8 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
                        struct gis_box *made, gis_error *error)
 {
     bool root = root_depth >= 0;
+    if (!gis_go_on(error))
+        return false;
     made->fid = root ? 1 : all->next++;
     memcpy(made->side, cells[0].side, sizeof made->side);
     char *to = all->text + sprintf(all->text, "(%" PRId64 ",x'", (int64_t)made->fid);

@@ -6,6 +6,8 @@
  * rings into other members counts as different. */
 #include "write/sink_internal.h"
 
+#include "base/interrupt.h"
+
 #include <cpl_conv.h>
 #include <math.h>
 #include <stdlib.h>
@@ -144,7 +146,7 @@ static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *sa
 static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
 {
     double largest = 0;
-    for (size_t i = 0; i < a->vertices; i++) {
+    for (size_t i = 0; i < a->vertices && !gis_interrupted(); i++) {
         double nearest = INFINITY;
         for (size_t k = 0; k < b->vertices; k++)
             nearest = fmin(nearest, hypot(a->xy[2 * i] - b->xy[2 * k], a->xy[2 * i + 1] - b->xy[2 * k + 1]));
@@ -310,7 +312,7 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
     for (OGRFeatureH kept; done && (kept = OGR_L_GetNextFeature(as_written)) != NULL; i++) {
         if (i < layer->n_sent) {
             const gis_sent *sent = &layer->sent[i];
-            done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error);
+            done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error) && gis_go_on(error);
             if (done && work->damaged)
                 done = fail_damaged(layer, i + 1, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));

@@ -8,8 +8,9 @@
  * opens the database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/sql.h"
-#include "write/sink_internal.h"
+#include "read/sqlite_calls.h"
 #include "read/sqlite_lock.h"
+#include "write/sink_internal.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
@@ -24,6 +25,7 @@
 bool gis_sink_open_for_update(gis_sink *sink, gis_error *error)
 {
     char *path = gis_sink_inside(sink, sink->main_file);
+    gis_sqlite_heed_signals();
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     sink->dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR, NULL, NULL, NULL);
@@ -122,6 +124,9 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
 
 static bool guard(gis_sink *sink, gis_error *error)
 {
+    char *journal = CPLStrdup(CPLSPrintf("%s-journal", sink->request.path));
+    sink->journal = gis_leftover_until(GIS_DECIDING, journal);
+    CPLFree(journal);
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
@@ -144,8 +149,10 @@ static void unguard(gis_sink *sink)
         GDALDatasetReleaseResultSet(sink->reader, sink->reading);
     if (sink->reader)
         GDALClose(sink->reader);
+    gis_leftover_forget(sink->journal);
     sink->reading = NULL;
     sink->reader = NULL;
+    sink->journal = NULL;
 }
 
 static bool begin_locked(gis_sink *sink, gis_error *error)
@@ -284,7 +291,8 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
 {
     if (!sink->in_transaction)
         return true;
-    if (!clear_the_way(sink, error))
+    bool final = sink->place == GIS_PLACE_DATABASE; /* else it is in the stage */
+    if (!clear_the_way(sink, error) || (final && !gis_decide(error)))
         return false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
@@ -298,6 +306,8 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
                  gis_listener_reason(&listener, "the transaction cannot be committed"));
     else
         seal(sink);
+    if (final)
+        gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
     gis_listener_clear(&listener);
     return done;
 }

@@ -1,5 +1,6 @@
 /* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
+#include "read/sqlite_calls.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -80,6 +81,7 @@ static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
 static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
 {
     char *path = gis_sink_inside(sink, file);
+    gis_sqlite_heed_signals();
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool relaxed = relax_sqlite();

@@ -7,6 +7,8 @@
  * as 2^-64 for each pair. */
 #include "write/sink_internal.h"
 
+#include "base/interrupt.h"
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <math.h>
@@ -254,8 +256,9 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **
         gis_digest one;
         OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
         with_z += geometry && OGR_G_Is3D(geometry);
-        done = (digest(all, feature, OGR_F_GetFID(feature), true, &one) && append(read, &n, &capacity, one)) ||
-               gis_no_memory(error);
+        done = gis_go_on(error) &&
+               ((digest(all, feature, OGR_F_GetFID(feature), true, &one) && append(read, &n, &capacity, one)) ||
+                gis_no_memory(error));
     }
     OGR_L_ResetReading(as_written); /* a database would keep the table open */
     gis_listen_end();

@@ -14,6 +14,7 @@
 #ifndef GIS_SINK_INTERNAL_H
 #define GIS_SINK_INTERNAL_H
 
+#include "base/interrupt.h"
 #include "write/format.h"
 #include "write/rtree.h"
 #include "write/sink.h"
@@ -106,6 +107,7 @@ struct gis_sink {
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
     GDALDatasetH reader;  /* of a SQLite file in a transaction: holds everyone's commit back by its open result */
     OGRLayerH reading;
+    gis_leftover *journal; /* of the same: until the commit nothing is written into the file, and nobody needs it */
     bool in_transaction, published, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;

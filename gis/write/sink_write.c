@@ -1,6 +1,8 @@
 /* sink_write.c: features on their way out. */
 #include "write/sink_internal.h"
 
+#include "base/interrupt.h"
+
 #include <cpl_conv.h>
 #include <inttypes.h>
 #include <stdlib.h>
@@ -123,7 +125,7 @@ static bool send(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis
 bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geometry, const gis_value *values,
                     gis_error *error)
 {
-    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
+    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
     if (!to) {
         OGR_G_DestroyGeometry(geometry);
         return gis_no_memory(error);
@@ -141,7 +143,7 @@ bool gis_sink_write(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geo
 bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
                           gis_error *error)
 {
-    OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
+    OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
     if (!to)
         return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);

@@ -51,6 +51,8 @@ static void leave(gis_stage *stage)
     if (stage->lock >= 0)
         close(stage->lock);
     stage->lock = -1;
+    gis_leftover_forget(stage->leftover);
+    stage->leftover = NULL;
     CPLFree(stage->inside);
     stage->inside = NULL;
 }
@@ -75,10 +77,15 @@ bool gis_stage_make(gis_stage *stage, gis_error *error)
 {
     if (stage->inside)
         return true;
-    char *inside = gis_join(stage->directory, ".sunder-XXXXXX");
-    if (!mkdtemp(inside)) {
+    char *inside = gis_join(stage->directory, GIS_STAGE_PREFIX "XXXXXX");
+    gis_hold(); /* it is there, and known to be */
+    bool made = mkdtemp(inside) != NULL;
+    int reason = errno;
+    stage->leftover = made ? gis_leftover_temporary(inside) : NULL;
+    gis_release();
+    if (!made) {
         gis_fail(error, "%s/%s: cannot write in %s: %s", stage->directory, stage->main, stage->directory,
-                 strerror(errno));
+                 strerror(reason));
         CPLFree(inside);
         return false;
     }
@@ -120,24 +127,26 @@ const char *gis_stage_main(const gis_stage *stage)
 
 /* ---- Copying in ------------------------------------------------------------------------------------------- */
 
+/* A piece at a time, so that a signal is heard in between. */
+enum { PIECE = 1 << 20 };
+
 static bool write_all(int to, const char *bytes, size_t n)
 {
-    while (n) {
-        ssize_t put = write(to, bytes, n);
+    while (n && !gis_interrupted()) {
+        ssize_t put = write(to, bytes, n < PIECE ? n : PIECE);
         if (put < 0)
             return false;
         bytes += put;
         n -= (size_t)put;
     }
-    return true;
+    return n == 0;
 }
 
 static bool copy_bytes(int from, int to)
 {
-    static const size_t size = 1 << 20;
-    char *buffer = malloc(size);
+    char *buffer = malloc(PIECE);
     ssize_t got = -1;
-    while (buffer && (got = read(from, buffer, size)) > 0)
+    while (buffer && (got = read(from, buffer, PIECE)) > 0)
         if (!write_all(to, buffer, (size_t)got))
             break;
     free(buffer);

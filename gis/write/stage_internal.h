@@ -6,6 +6,7 @@
 #ifndef GIS_STAGE_INTERNAL_H
 #define GIS_STAGE_INTERNAL_H
 
+#include "base/interrupt.h"
 #include "write/stage.h"
 
 /* All stages are called so, with six signs at the end. */
@@ -16,11 +17,12 @@
 #define GIS_STAGE_RECORD "record~"
 
 struct gis_stage {
-    char *directory;   /* the final one */
-    char *inside;      /* the stage; NULL: not made yet */
-    int lock;          /* the stage held open and locked; -1: it cannot be */
-    char *main;        /* base name of the main file */
-    char **superseded; /* base names */
+    char *directory;        /* the final one */
+    char *inside;           /* the stage; NULL: not made yet */
+    gis_leftover *leftover; /* the same, for a signal */
+    int lock;               /* the stage held open and locked; -1: it cannot be */
+    char *main;             /* base name of the main file */
+    char **superseded;      /* base names */
 };
 
 /* One line of the record. Names are escaped. A new file is known by more than its name, so that what is taken away

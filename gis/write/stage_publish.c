@@ -31,6 +31,8 @@ static bool cannot_sync(int reason)
 /* A file must be on the disk before the rename is, else a crash could leave the name with nothing behind it. */
 static bool sync_path(const char *path, gis_error *error)
 {
+    if (!gis_go_on(error))
+        return false;
     int file = open(path, O_RDONLY | O_CLOEXEC);
     bool done = file >= 0 && (fsync(file) == 0 || cannot_sync(errno));
     int reason = errno;
@@ -259,17 +261,30 @@ static int count_old(const gis_stage *stage)
     return n;
 }
 
+/* The renames, and the outcome: no signal comes between them. One that has come before is heard now or never. */
+static bool rename_all(const gis_stage *stage, char **names, bool in_one_step, gis_error *error)
+{
+    size_t most = (size_t)(CSLCount(names) + CSLCount(stage->superseded)) + 1;
+    journal log = {CPLCalloc(most, sizeof *log.done), 0};
+    gis_hold();
+    bool done = gis_go_on(error) && step_aside(stage, in_one_step, &log, error) &&
+                put_all(stage, names, in_one_step, &log, error);
+    close_journal(&log, !done);
+    if (done)
+        gis_set_outcome(GIS_DECIDED);
+    gis_release();
+    return done;
+}
+
 static bool put_in_order(gis_stage *stage, char **names, gis_error *error)
 {
     char *main_from = gis_join(stage->inside, stage->main), *main_to = gis_join(stage->directory, stage->main);
     bool superseded = CSLFindString(stage->superseded, stage->main) >= 0;
     bool in_one_step = superseded && is_plain(main_from) && is_plain(main_to);
-    int old = count_old(stage), renames = CSLCount(names) + old - in_one_step;
-    journal log = {CPLCalloc((size_t)(CSLCount(names) + old) + 1, sizeof(renaming)), 0};
+    int renames = CSLCount(names) + count_old(stage) - in_one_step;
     bool done = (superseded || !gis_there(main_to) || gis_fail(error, "%s: exists already", main_to)) &&
                 sync_tree(stage->inside, error) && (renames < 2 || write_record(stage, names, error)) &&
-                step_aside(stage, in_one_step, &log, error) && put_all(stage, names, in_one_step, &log, error);
-    close_journal(&log, !done);
+                rename_all(stage, names, in_one_step, error);
     /* The new state is whole, and so is the old one: that this sync may fail changes nothing but which of them a power
      * failure leaves. */
     (void)sync_path(stage->directory, NULL);

@@ -1,39 +1,117 @@
-#!/bin/bash
-# SIGINT and SIGTERM end a command at its work: exit 1, a message, nothing left behind. That it hears the signal soon is
-# asked by tests/watch, which counts steps; here nothing depends on time but that the work is longer than the wait.
-source "$(dirname "$0")/lib.sh"
+# shellcheck shell=bash disable=SC1091
+# SIGINT and SIGTERM where a run waits or works without end: for a pipe, in a statement of a database that it reads or
+# writes, in one statement that nothing can cut short. Each is held there until the signal comes; nothing depends on how
+# long that takes. (At every system call of ordinary runs: tests/faults/test_signals.sh. In the library: tests/watch.)
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+strike=$SUNDER_BUILD/tests/strike
+[ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null || { echo "skipped: no process can be traced here"; exit 77; }
+command -v sqlite3 >/dev/null || { echo "skipped: no shell of SQLite"; exit 77; }
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" SOURCE_DATE_EPOCH=1700000000
 
-# Two ragged outlines of 12,000 vertices, deep in each other.
-python3 - > pair.txt <<'PY'
-import math, random
-R = random.Random(5)
-def ragged(n, dx):
-    p = [(1000 * (1 + 0.3 * R.random()) * math.cos(2 * math.pi * i / n) + dx, 1000 * (1 + 0.3 * R.random()) * math.sin(2 * math.pi * i / n)) for i in range(n)]
-    return 'POLYGON((' + ','.join('%.3f %.3f' % q for q in p + p[:1]) + '))'
-print(ragged(12000, 0))
-print(ragged(12000, 7))
-PY
-sed -n 1p pair.txt > p.wkt
-sed -n 2p pair.txt > q.wkt
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
+X
+mkfifo pipe
+count='(WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c LIMIT 1000000000000) SELECT count(*) FROM c)'
+deaf="instr(zeroblob(50000000), CAST(zeroblob(1000000) || x'01' AS BLOB))"
 
-failures=0
-for signal in INT TERM; do
-    for what in "pair @p.wkt @q.wkt" "sum @p.wkt @q.wkt out.gpkg" "pair --gap 3 @p.wkt @q.wkt"; do
-        python3 - "$SUNDER" "$signal" $what <<'PY' || failures=$((failures + 1))
-import signal, subprocess, sys, time
-run = subprocess.Popen([sys.argv[1]] + sys.argv[3:], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-time.sleep(0.5)
-run.send_signal(getattr(signal, 'SIG' + sys.argv[2]))
-words = run.communicate()[1]
-if run.returncode == 0:
-    print('done before the signal came:', *sys.argv[3:])  # proves nothing, and fails nothing
-elif run.returncode != 1 or 'sunder: error: ' not in words:
-    print('status', run.returncode, words, *sys.argv[2:])
-    sys.exit(1)
-PY
-        left=$(ls -A | grep -v -e '\.wkt$' -e pair.txt)
-        [ -z "$left" ] || { echo "left behind: $left"; failures=$((failures + 1)); }
-        rm -rf out.gpkg
+# caught PID: it catches signals by now, and had some time to come to where it stays.
+caught() {
+    local mask
+    until mask=$(sed -n 's/^SigCgt:\s*//p' "/proc/$1/status" 2>/dev/null) && [ $((0x${mask:-0} >> 14 & 1)) -eq 1 ]; do
+        [ -e "/proc/$1" ] || return
+        sleep 0.02
     done
+    sleep 0.3
+}
+
+# held SIGNALS ARGS: runs the program and sends the signals; sets $status. strike keeps the alarm back by which a run is
+# ended that does not look, so that one signal ends nothing but what hears it. (The subshell does not ignore SIGINT.)
+held() {
+    local signals=$1 pid child
+    shift
+    "$strike" list 0 "$SUNDER" "$@" 3>report >out 2>err 7<>pipe </dev/fd/7 &
+    pid=$!
+    until child=$(cat "/proc/$pid/task/$pid/children") && [ -n "$child" ]; do sleep 0.02; done
+    caught $child
+    for signal in $signals; do kill -s "$signal" $child; done
+    wait $pid
+    read -r _ _ status _ <report
+}
+
+# interrupted ARGS: by either signal, with 1, one line, and every file as it was.
+turn=0
+interrupted() {
+    local signals=(INT TERM) signal
+    signal=${signals[turn++ % 2]}
+    listing >before
+    held "$signal" "$@"
+    listing >after
+    [ "$status" -eq 1 ] || fail "$signal, status $status: sunder $*"
+    same "$(cat err)" 'sunder: error: interrupted' "$signal: sunder $*"
+    [ ! -s out ] || fail "$signal, something on stdout: sunder $*"
+    cmp -s <(grep -v report before) <(grep -v report after) || fail "$signal, files changed: sunder $* $(diff before after)"
+}
+
+# ---- waiting: for an operand, a shape, features
+interrupted pair @- square:1
+interrupted sum @pipe square:1 o.gpkg
+interrupted route square:1 o.gpkg --robot @pipe --from 5,5 --to 6,6
+interrupted buffer in.gpkg o.fgb --shape @pipe
+
+# ---- in a statement of what is read
+for command in "separate in.gpkg o.gpkg" "check in.gpkg" "buffer in.gpkg o.shp --shape square:1" \
+    "route in.gpkg --robot square:1 --from 20,20 --to 30,30" "sum in.gpkg square:1 o.gpkg" "pair square:1 in.gpkg"; do
+    # shellcheck disable=SC2086 # words
+    interrupted $command --where "$count > 0"
 done
-[ "$failures" = 0 ]
+interrupted separate in.gpkg o.gpkg --sql "SELECT * FROM houses WHERE $count > 0"
+interrupted check in.gpkg --dialect sqlite --sql "SELECT * FROM houses WHERE $count > 0"
+interrupted separate in.gpkg o.gpkg --fixed-where "$count > 0"
+
+# ---- in a statement of what is written: what is there stays, and the journal goes
+interrupted_writing() {
+    "$SUNDER" separate in.gpkg o.gpkg -q --layers main --no-styles && sqlite3 o.gpkg "$1" >mode
+    shift
+    interrupted "$@"
+    rm -f o.gpkg mode
+}
+interrupted_writing "CREATE TRIGGER slow AFTER INSERT ON gpkg_contents BEGIN SELECT $count; END" \
+    separate in.gpkg o.gpkg --update --output-layer more
+interrupted_writing "CREATE TRIGGER slow AFTER DELETE ON gpkg_contents BEGIN SELECT $count; END" \
+    buffer in.gpkg o.gpkg --shape square:1 --update --overwrite-layer --output-layer houses
+interrupted_writing "CREATE TRIGGER slow AFTER UPDATE ON gpkg_contents BEGIN SELECT $count; END; PRAGMA journal_mode = WAL" \
+    check in.gpkg o.gpkg --update --output-layer more
+
+# ---- a statement that nothing can cut short: a second signal ends the run as signals do ...
+twice() { # (which of the two comes first is the system's choice)
+    listing >before
+    held "TERM INT" "$@"
+    listing >after
+    [ "$status" -eq 130 ] || [ "$status" -eq 143 ] || fail "two signals, status $status: sunder $*"
+    cmp -s <(grep -v report before) <(grep -v report after) || fail "two signals, files changed: sunder $* $(diff before after)"
+}
+twice separate in.gpkg o.gpkg --where "$deaf = 0"
+"$SUNDER" separate in.gpkg o.gpkg -q --layers main --no-styles
+sqlite3 o.gpkg "CREATE TRIGGER slow AFTER INSERT ON gpkg_contents BEGIN SELECT $deaf; END"
+twice separate in.gpkg o.gpkg --update --output-layer more
+
+# ---- ... and one does, after a second, with the run's own exit status; so it does where GDAL waits and waits again
+ended() {
+    listing >before
+    "$SUNDER" "$@" >out 2>err 7<>pipe </dev/fd/7 &
+    caught $!
+    kill -TERM $!
+    wait $!
+    status=$?
+    listing >after
+    [ "$status" -eq 1 ] || fail "status $status: sunder $*"
+    same "$(cat err)" 'sunder: error: interrupted' "sunder $*"
+    cmp -s before after || fail "files changed: sunder $* $(diff before after)"
+}
+ended separate in.gpkg other.gpkg --where "$deaf = 0"
+ended check /vsistdin/ other.gpkg
+ended separate in.gpkg o.gpkg --update --output-layer more
+finish

@@ -5,14 +5,19 @@
  *   strike short N COMMAND...      that call, if it writes more than one byte, writes half of them
  *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one
  *                                  in which the disk becomes full is short
+ *   strike signal N COMMAND...     SIGTERM at the Nth system call of any kind since the program catches it
+ *   strike signals:K N COMMAND...  the same, and SIGINT K calls later
  *   strike list 0 COMMAND...       strikes nowhere
+ *   strike calls 0 COMMAND...      strikes nowhere, and counts as for signals
  *
  * Counted are calls that can fail for want of room or for a broken disk, or that change what a directory shows: open
  * with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename,
  * link, unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To
- * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line on the
- * standard output of strike, file descriptor 3: "COUNT BYTES STATUS", the name of the call that was struck, if any;
- * STATUS is the exit status, or 128 + the signal. strike itself exits with 0 if the program ended, whatever came of it.
+ * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line to file
+ * descriptor 3: "COUNT BYTES STATUS NAME SHOWN": the name of the call that was struck, or -; STATUS is the exit status,
+ * or 128 + the signal; SHOWN the place of the first call that could change what others see as the output: a rename, or a
+ * write into a file that is neither a journal nor in a hidden directory. strike itself exits with 0 if the program
+ * ended, whatever came of it. SIGALRM never comes to the program: what it would do then, it must do without.
  *
  * ptrace needs no privilege and no other program. Registers are read and written for x86-64 and AArch64. */
 #define _GNU_SOURCE
@@ -90,9 +95,10 @@ static void set_registers(pid_t pid, const registers *r)
 
 /* ---- What is struck, and where -------------------------------------------------------------------------------- */
 
-static enum { LIST, KILL, FAIL, SHORT, FULL } way;
+static enum { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
 static int reason;
-static uint64_t place, count, written;
+static bool catches; /* the program has a handler for SIGTERM by now */
+static uint64_t place, again, count, written, shown;
 static char under[PATH_MAX], struck[64] = "-";
 
 typedef struct thread {
@@ -168,6 +174,20 @@ static bool file_is_written(pid_t pid, uint64_t file)
     return file_is_under(pid, file) && lstat(link, &status) == 0 && (status.st_mode & S_IWUSR);
 }
 
+/* Of the file or, for a rename, at all: may what it changes be seen from outside? */
+static bool shows(pid_t pid, const registers *r, const char *name)
+{
+    char link[64], path[PATH_MAX];
+    if (strcmp(name, "rename") == 0)
+        return true;
+    if (strncmp(name, "write", 5) != 0 && strcmp(name, "pwrite") != 0)
+        return false;
+    snprintf(link, sizeof link, "/proc/%d/fd/%d", (int)pid, (int)argument(r, 0));
+    ssize_t n = readlink(link, path, sizeof path - 1);
+    path[n > 0 ? n : 0] = '\0';
+    return !strstr(path, "/.") && !strstr(path, "-journal") && !strstr(path, "-shm");
+}
+
 typedef struct call {
     const char *name; /* NULL: not one of ours */
     bool writes;      /* the third argument counts bytes */
@@ -234,15 +254,36 @@ static void strike_full(thread *it, registers *r, const call *at)
         shorten(it, r, place - written, at->name);
 }
 
+static void strike_by_signal(const registers *r, const call *at, pid_t main_pid)
+{
+    catches = catches || (call_of(r) == SYS_rt_sigaction && argument(r, 0) == SIGTERM && argument(r, 1));
+    count += catches;
+    if (way == CALLS || count < place)
+        return;
+    if (count == place) {
+        snprintf(struck, sizeof struck, "%s:%ld", at->name ? at->name : "call", call_of(r));
+        kill(main_pid, SIGTERM);
+    }
+    if (way == SIGNALS && count == place + again)
+        kill(main_pid, SIGINT);
+}
+
 static void call_starts(thread *it, pid_t main_pid)
 {
     registers r;
     get_registers(it->pid, &r);
     call at = call_at(it->pid, &r);
+    bool by_signal = way == SIGNAL || way == SIGNALS || way == CALLS;
+    if (by_signal)
+        strike_by_signal(&r, &at, main_pid);
     if (!at.name)
         return;
-    count++;
-    if (way == FULL) {
+    count += !by_signal;
+    if (!shown && shows(it->pid, &r, at.name))
+        shown = count;
+    if (by_signal) {
+        return;
+    } else if (way == FULL) {
         strike_full(it, &r, &at);
     } else if (count == place && way == KILL) {
         snprintf(struck, sizeof struck, "%s", at.name);
@@ -287,7 +328,7 @@ static int follow(pid_t main_pid)
                 call_starts(it, main_pid);
             else
                 call_ends(it);
-        } else if (status >> 16 == 0 && WSTOPSIG(status) != SIGSTOP) {
+        } else if (status >> 16 == 0 && WSTOPSIG(status) != SIGSTOP && WSTOPSIG(status) != SIGALRM) {
             signal = WSTOPSIG(status);
         }
         ptrace(PTRACE_SYSCALL, pid, NULL, (void *)(intptr_t)signal);
@@ -301,14 +342,19 @@ static bool understand(const char *word)
         const char *name;
         int number;
     } reasons[] = {{"errno:ENOSPC", ENOSPC}, {"errno:EIO", EIO}, {"errno:EDQUOT", EDQUOT}, {"errno:EINTR", EINTR}};
-    static const char *const ways[] = {"list", "kill", NULL, "short", "full"};
+    static const char *const ways[] = {"list", "kill", NULL, "short", "full", "signal", NULL, "calls"};
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++)
         if (strcmp(word, reasons[i].name) == 0) {
             way = FAIL;
             reason = reasons[i].number;
             return true;
         }
-    for (int i = LIST; i <= FULL; i++)
+    if (strncmp(word, "signals:", 8) == 0) {
+        way = SIGNALS;
+        again = strtoull(word + 8, NULL, 10);
+        return true;
+    }
+    for (int i = LIST; i <= CALLS; i++)
         if (ways[i] && strcmp(word, ways[i]) == 0) {
             way = i;
             return true;
@@ -320,7 +366,7 @@ int main(int argc, char **argv)
 {
     const char *where = getenv("STRIKE_UNDER");
     if (argc < 4 || !understand(argv[1]) || !realpath(where ? where : ".", under)) {
-        fputs("usage: strike list|kill|short|full|errno:NAME N COMMAND...\n", stderr);
+        fputs("usage: strike list|calls|kill|short|full|errno:NAME|signal|signals:K N COMMAND...\n", stderr);
         return 2;
     }
     place = strtoull(argv[2], NULL, 10);
@@ -341,7 +387,8 @@ int main(int argc, char **argv)
     thread_of(pid);
     ptrace(PTRACE_SYSCALL, pid, NULL, NULL);
     int ended = follow(pid);
-    dprintf(3, "%llu %llu %d %s\n", (unsigned long long)count, (unsigned long long)written, ended, struck);
+    dprintf(3, "%llu %llu %d %s %llu\n", (unsigned long long)count, (unsigned long long)written, ended, struck,
+            (unsigned long long)shown);
     return 0;
 }
 #endif

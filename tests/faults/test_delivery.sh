@@ -76,7 +76,7 @@ start() {
 struck() {
     start
     (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
-    read -r calls bytes status call <report
+    read -r calls bytes status call _ <report
     runs=$((runs + 1))
 }
 

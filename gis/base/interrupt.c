@@ -1,0 +1,208 @@
+/* interrupt.c: see interrupt.h. */
+#define _GNU_SOURCE
+#include "base/interrupt.h"
+
+#include "base/take_away.h"
+#include "sunder.h"
+
+#include <cpl_conv.h>
+#include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Seconds that work which does not look has to end by itself. */
+enum { PATIENCE = 1 };
+
+struct gis_leftover {
+    char *path, *back_to; /* back_to: NULL, or where it came from */
+    gis_outcome stays;    /* from this outcome on; GIS_OPEN: never */
+    gis_leftover *next;
+};
+
+/* The variables of the program that are not handed from function to function: a signal has no other way in. */
+static atomic_int interrupted, outcome, told;
+static gis_leftover *leftovers;
+static pthread_t main_thread;
+static int held;
+
+/* ---- In the handler --------------------------------------------------------------------------------------- */
+
+static void clear_away(void)
+{
+    int now = atomic_load(&outcome);
+    for (const gis_leftover *each = leftovers; each; each = each->next) {
+        if (each->back_to && now != GIS_DECIDED)
+            (void)!rename(each->path, each->back_to);
+        else if (each->stays == GIS_OPEN || now < (int)each->stays)
+            gis_take_away(each->path);
+    }
+}
+
+/* Nobody listened. While the outcome is being decided nothing could be said of it, and then it is the new one. */
+static void lose_patience(void)
+{
+    static const char words[] = "sunder: error: " GIS_INTERRUPTED "\n";
+    if (atomic_load(&outcome) == GIS_DECIDING)
+        alarm(PATIENCE);
+    if (atomic_load(&outcome) != GIS_OPEN)
+        return;
+    clear_away();
+    if (!atomic_load(&told))
+        (void)!write(STDERR_FILENO, words, sizeof words - 1);
+    _exit(atomic_load(&told) ? atomic_load(&told) : GIS_FAILED);
+}
+
+static void end_at_once(int number)
+{
+    sigset_t this_one;
+    clear_away();
+    signal(number, SIG_DFL);
+    sigemptyset(&this_one);
+    sigaddset(&this_one, number);
+    raise(number);
+    pthread_sigmask(SIG_UNBLOCK, &this_one, NULL);
+}
+
+static void hear(int number)
+{
+    int reason = errno;
+    if (!pthread_equal(pthread_self(), main_thread))
+        pthread_kill(main_thread, number);
+    else if (number == SIGALRM)
+        lose_patience();
+    else if (!atomic_exchange(&interrupted, 1))
+        alarm(PATIENCE);
+    else
+        end_at_once(number);
+    errno = reason;
+}
+
+static sigset_t all_of_them(void)
+{
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGALRM);
+    return set;
+}
+
+/* ---- Outside ---------------------------------------------------------------------------------------------- */
+
+/* Waiting reads and writes are interrupted: no SA_RESTART. */
+static void catch(int number)
+{
+    const struct sigaction action = {.sa_handler = hear, .sa_mask = all_of_them()};
+    sigaction(number, &action, NULL);
+}
+
+void gis_catch_signals(void)
+{
+    main_thread = pthread_self();
+    catch(SIGALRM);
+    catch(SIGINT);
+    catch(SIGTERM);
+    gis_watch();
+}
+
+bool gis_interrupted(void)
+{
+    return atomic_load_explicit(&interrupted, memory_order_relaxed) && atomic_load(&outcome) == GIS_OPEN;
+}
+
+bool gis_go_on(gis_error *error)
+{
+    return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED);
+}
+
+static bool go_on(void *user)
+{
+    (void)user;
+    return !gis_interrupted();
+}
+
+void gis_watch(void)
+{
+    sunder_watch(go_on, NULL);
+}
+
+void gis_hold(void)
+{
+    sigset_t set = all_of_them();
+    if (held++ == 0)
+        pthread_sigmask(SIG_BLOCK, &set, NULL);
+}
+
+void gis_release(void)
+{
+    sigset_t set = all_of_them();
+    if (--held == 0)
+        pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+}
+
+void gis_set_outcome(gis_outcome now)
+{
+    atomic_store(&outcome, (int)now);
+}
+
+bool gis_decide(gis_error *error)
+{
+    gis_hold();
+    bool done = gis_go_on(error);
+    if (done)
+        gis_set_outcome(GIS_DECIDING);
+    gis_release();
+    return done;
+}
+
+static gis_leftover *add(const char *path, const char *back_to, gis_outcome stays)
+{
+    gis_leftover *leftover = CPLCalloc(1, sizeof *leftover);
+    leftover->path = CPLStrdup(path);
+    leftover->back_to = back_to ? CPLStrdup(back_to) : NULL;
+    leftover->stays = stays;
+    gis_hold();
+    leftover->next = leftovers;
+    leftovers = leftover;
+    gis_release();
+    return leftover;
+}
+
+gis_leftover *gis_leftover_temporary(const char *path)
+{
+    return add(path, NULL, GIS_OPEN);
+}
+
+gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path)
+{
+    return add(path, NULL, outcome_then);
+}
+
+gis_leftover *gis_leftover_former(const char *path, const char *back_to)
+{
+    return add(path, back_to, GIS_OPEN);
+}
+
+void gis_leftover_forget(gis_leftover *leftover)
+{
+    if (!leftover)
+        return;
+    gis_hold();
+    gis_leftover **at = &leftovers;
+    while (*at != leftover)
+        at = &(*at)->next;
+    *at = leftover->next;
+    gis_release();
+    CPLFree(leftover->path);
+    CPLFree(leftover->back_to);
+    CPLFree(leftover);
+}
+
+void gis_failure_told(int exit_status)
+{
+    atomic_store(&told, exit_status);
+}

@@ -1,0 +1,127 @@
+# shellcheck shell=bash disable=SC1091
+# SIGTERM at system calls all over a run, of every command: reading, work, writing, reading back, putting in place. Before
+# the output is decided the run ends with 1 and says that it was interrupted; later it is done. A second signal, at once
+# or some calls later, ends it as signals do. In no case is anything left but the old output or the new one, whole. The
+# alarm by which a run that does not look is ended never comes here (strike keeps it back): all of this is heard.
+#
+#   SUNDER_FAULTS=N     places for each way and command, spread over the run from SUNDER_SEED on (default 2)
+#   SUNDER_FAULTS=all   200 of them
+#   SUNDER_FAULTS_SCENARIOS=WORDS   some of the commands only
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+strike=$SUNDER_BUILD/tests/strike
+[ -x "$strike" ] || { echo "skipped: tests/strike is not built"; exit 77; }
+command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # it cannot work while it is traced
+export SOURCE_DATE_EPOCH=1700000000
+budget=${SUNDER_FAULTS:-2}
+[ "$budget" = all ] && budget=200
+seed=${SUNDER_SEED:-$((RANDOM))}
+echo "SUNDER_SEED=$seed SUNDER_FAULTS=$budget"
+"$strike" list 0 true 3>report 2>message || { echo "skipped: $(cat message)"; exit 77; }
+
+mkdir pristine
+ogr2ogr pristine/in.gpkg "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" buildings -where 'fid <= 60' || fail "no input"
+for name in p q; do
+    python3 - $name >pristine/$name.wkt <<'X'
+import math, random, sys
+R = random.Random(sys.argv[1])
+p = [(r * math.cos(i / 20), r * math.sin(i / 20)) for i, r in enumerate(R.uniform(5, 9) for _ in range(125))]
+print("POLYGON((" + ",".join("%.3f %.3f" % q for q in p + p[:1]) + "))")
+X
+done
+
+# name, what is there before, the run
+scenarios='
+pair-text       -         pair @p.wkt @q.wkt --gap 1
+pair            -         pair @p.wkt @q.wkt o.gpkg
+sum-text        -         sum @p.wkt @q.wkt
+sum             -         sum @p.wkt @q.wkt o.gpkg --stats s.json
+route           -         route in.gpkg o.gpkg --robot disc:1 --from 0,0 --to 100,100 --free-space
+buffer          -         buffer in.gpkg o.fgb --shape disc:2 --dissolve
+check           -         check in.gpkg o.geojson --gap 3
+separate        o.gpkg    separate in.gpkg o.gpkg --gap 3 --progress=plain --overwrite --stats s.json
+separate-files  o.shp     separate in.gpkg o.shp --gap 3 --progress=plain --overwrite --lco DBF_DATE_LAST_UPDATE=2024-01-01
+separate-update o.gpkg    separate in.gpkg o.gpkg --gap 3 --update --output-layer more
+'
+
+# Every file, but that the statistics tell times.
+state() {
+    (cd dir && find . -type f ! -name s.json -print0 | sort -z | xargs -0 cksum
+    ls -Ad .sunder-* s.json 2>/dev/null)
+}
+
+# struck WAY PLACE; sets $calls, $status, $call, $shown.
+struck() {
+    rm -rf dir && cp -a before dir
+    (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
+    read -r calls _ status call shown <report
+}
+
+# What a run that is ended by its second signal leaves of a transaction SQLite rolls back.
+settle() {
+    [ ! -s dir/o.gpkg-journal ] || ogrinfo -q dir/o.gpkg >/dev/null 2>&1
+    rm -f dir/o.gpkg-journal
+}
+
+judge() {
+    local way=$1 place=$2 now
+    [ "$way" = signal ] || settle
+    now=$(state)
+    case $way-$status in
+    signal-1)
+        [ "$now" = "$old" ] || fail "$name $way $place ($call): interrupted, and the output is not the old one: $now"
+        [ "$(grep -v '^[0-9]*$' err)" = 'sunder: error: interrupted' ] || fail "$name $way $place ($call): $(cat err)"
+        interrupted=$((interrupted + 1))
+        ;;
+    signal-[03])
+        [ "$now" = "$new" ] || fail "$name $way $place ($call): done, and the output is not the new one: $now"
+        # Between the decision and the first change that shows are some calls.
+        [ "$place" -gt $((first - 40)) ] || fail "$name $way $place of $first ($call): the signal was not heard"
+        completed=$((completed + 1))
+        ;;
+    signals*-130 | signals*-143 | signals*-[013])
+        # In the midst of a commit nobody knows which it will be, nor whether the statistics belong to it.
+        case $now in "$new" | "$old" | "${new%?s.json}") ;; *) false ;; esac || fail "$name $way $place ($call): status $status, left: $now"
+        ended=$((ended + (status > 100)))
+        ;;
+    *) fail "$name $way $place ($call): status $status" ;;
+    esac
+}
+
+# places FROM TO: as many as the budget is, spread.
+places() { for ((i = 0; i < budget; i++)); do echo $(($1 + (seed + i * ($2 - $1) / budget) % ($2 - $1))); done; }
+
+while read -r name former words; do
+    [ -n "$name" ] || continue
+    case " ${SUNDER_FAULTS_SCENARIOS:-$name} " in *" $name "*) ;; *) continue ;; esac
+    read -ra args <<<"$words"
+    interrupted=0 completed=0 ended=0 again=0
+    rm -rf before && cp -a pristine before
+    if [ "$former" != - ]; then
+        (cd before && "$SUNDER" separate in.gpkg "$former" -q --lco DBF_DATE_LAST_UPDATE=2024-01-01 2>/dev/null)
+    fi
+    rm -rf dir && cp -a before dir
+    old=$(state)
+    struck calls 0
+    [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$name: the run fails when it is not struck: $(cat err)"
+    new=$(state)
+    first=$((shown ? shown : calls))
+    for place in $(places 1 "$first"); do
+        struck signal "$place"
+        judge signal "$place"
+        again=$(((again + 7) % 30))
+        struck signals:$again "$place"
+        judge signals:$again "$place"
+    done
+    # And towards the end, where the output comes to its place.
+    for place in $(places $((first - 20)) "$calls"); do
+        struck signal "$place"
+        judge signal "$place"
+        struck signals:0 "$place"
+        judge signals:0 "$place"
+    done
+    [ $((interrupted * ended)) -gt 0 ] || fail "$name: interrupted $interrupted, ended $ended times: the test proves nothing"
+    echo "$name: $calls calls, the output shows from call $first on; interrupted $interrupted, done all the same" \
+        "$completed, ended by the second signal $ended"
+done <<<"$scenarios"
+finish
