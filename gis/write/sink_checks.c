@@ -2,6 +2,7 @@
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "read/source_files.h"
+#include "read/sqlite_calls.h"
 #include "read/sqlite_lock.h"
 #include "write/sink_internal.h"
 
@@ -136,7 +137,8 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
     if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path))
         settle_journal(sink);
-    if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && gis_sqlite_in_use(path))
+    if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&
+        gis_sqlite_in_use(path))
         return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
     return true;
 }

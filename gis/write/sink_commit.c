@@ -1,7 +1,9 @@
 /* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
-#include "write/sink_internal.h"
+#include "base/interrupt.h"
+#include "read/sqlite_calls.h"
 #include "read/sqlite_lock.h"
+#include "write/sink_internal.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
@@ -97,6 +99,7 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
 {
     const char *drivers[] = {sink->format.name, NULL};
     char *path = gis_sink_inside(sink, file);
+    gis_sqlite_heed_signals();
     GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
     CPLFree(path);
     return dataset;
@@ -168,10 +171,10 @@ static bool copy_stream(VSILFILE *from, FILE *to_stdout, VSILFILE *to)
     static const size_t size = 1 << 16;
     char *buffer = CPLMalloc(size);
     bool done = true;
-    for (size_t got; done && (got = VSIFReadL(buffer, 1, size, from)) > 0;)
+    for (size_t got; done && !gis_interrupted() && (got = VSIFReadL(buffer, 1, size, from)) > 0;)
         done = to_stdout ? fwrite(buffer, 1, got, to_stdout) == got : VSIFWriteL(buffer, 1, got, to) == got;
     CPLFree(buffer);
-    return done;
+    return done && !gis_interrupted();
 }
 
 static bool copy_out(gis_sink *sink, const char *file, const char *target, gis_error *error)
@@ -198,7 +201,7 @@ static bool stage_memory(const gis_sink *sink, const char *memory, const char *i
 {
     char **files = VSIReadDir(memory);
     bool done = true;
-    for (char **file = files; done && file && *file; file++) {
+    for (char **file = files; file && *file && done && (done = gis_go_on(error)); file++) {
         if (strcmp(*file, ".") == 0 || strcmp(*file, "..") == 0)
             continue;
         char *from = CPLStrdup(CPLSPrintf("%s/%s", memory, *file));
@@ -238,6 +241,8 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
         VSIUnlink(target);
         CPLFree(target);
     }
+    if (done)
+        gis_set_outcome(GIS_DECIDED);
     CPLFree(base);
     CSLDestroy(files);
     return done;
@@ -316,9 +321,9 @@ bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
     return true;
 }
 
-/* A SQLite database is replaced while nobody else can open it: a log that is kept beside it would be applied to the new
- * one, and what is written into a file without a name is lost. */
-static bool publish_files(gis_sink *sink, gis_error *error)
+/* A SQLite file that is no database any more, or not ours to write in, is renamed over while nobody else can open it: a
+ * log that is kept beside it would be applied to the new one. */
+static bool rename_over(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
     int lock = sink->request.overwrite && gis_sqlite_is(path) ? gis_sqlite_lock(path, error) : -2;
@@ -326,6 +331,20 @@ static bool publish_files(gis_sink *sink, gis_error *error)
     if (lock >= 0)
         close(lock);
     return done;
+}
+
+/* A SQLite database is replaced within it: others may have it open, idle, without a lock, and what they then wrote into
+ * a file without a name would be lost. */
+static bool publish_files(gis_sink *sink, gis_error *error)
+{
+    const char *path = sink->request.path;
+    gis_sqlite_outcome outcome = GIS_SQLITE_CANNOT;
+    if (sink->request.overwrite && sink->format.sqlite && gis_sqlite_can_replace(path)) {
+        char *inside = gis_sink_inside(sink, sink->main_file);
+        outcome = gis_sqlite_replace(inside, path, error);
+        CPLFree(inside);
+    }
+    return outcome == GIS_SQLITE_CANNOT ? rename_over(sink, error) : outcome == GIS_SQLITE_DONE;
 }
 
 bool gis_sink_publish(gis_sink *sink, gis_error *error)

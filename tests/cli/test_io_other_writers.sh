@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A GeoPackage that others have open. --update writes into the database itself, in one transaction under its lock; what
-# cannot have the lock says so; nobody's work is lost, and the mode of the journal stays.
+# A GeoPackage that others have open. --update and --overwrite write into the database itself, in one transaction under its
+# lock; what cannot have the lock says so; nobody's work is lost, and the mode of the journal stays.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null && python3 -c 'import sqlite3' 2>/dev/null || { echo "skipped: no Python with SQLite"; exit 77; }
 
@@ -18,11 +18,16 @@ if how == "read":
 if how == "write":
     held.execute("BEGIN IMMEDIATE")
     held.execute("CREATE TABLE held (x)")
+if how == "open" and held.execute("PRAGMA journal_mode").fetchone() == ("delete",):
+    held.execute("PRAGMA journal_mode = MEMORY") # then SQLite does not look whether the file still has its name
 held.execute("SELECT count(*) FROM houses").fetchall()
 print("held", flush=True)
 sys.stdin.readline()
 if how == "write":
     held.execute("COMMIT")
+if how == "open":
+    held.execute("CREATE TABLE IF NOT EXISTS later (x)")
+    held.execute("INSERT INTO later VALUES (1)")
 held.close()
 X
 ask() { python3 -c 'import sqlite3, sys; print(*(sqlite3.connect(sys.argv[1]).execute(sys.argv[2]).fetchone()))' "$1" "$2"; }
@@ -59,17 +64,28 @@ for mode in delete wal; do
         [ "$status" -eq 0 ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name LIKE '%apart%'")" 0 "$mode, $how"
         [ "$how" != write ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'held'")" 1 "$mode: what another wrote"
 
-        # To be replaced it must be nobody's.
+        # To be replaced is no other matter: what the holder writes afterwards is there, whatever it had open.
         rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
         held o.gpkg "$how"
-        if [ "$mode-$how" != delete-open ]; then # (which holds no lock)
-            refused 1 'in use by another program' separate in.gpkg o.gpkg --overwrite
-        fi
+        run separate in.gpkg o.gpkg --gap 1 --overwrite --config SQLITE_BUSY_TIMEOUT 200 -q
+        case $mode-$how in
+        delete-open | wal-read | wal-open) [ "$status" -eq 0 ] || fail "$mode, $how: status $status, --overwrite" ;;
+        *) [ "$status" -eq 1 ] && grep -q 'in use by another program.*within 0.2 s' err || fail "$mode, $how: status $status, --overwrite" ;;
+        esac
         let_go
+        same "$(ask o.gpkg 'PRAGMA journal_mode')" "$mode" "$how, --overwrite: the mode of the journal"
+        same "$(ask o.gpkg 'PRAGMA integrity_check')" ok "$mode, $how, --overwrite"
+        same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'houses_displacement'")" $((status == 0)) "$mode, $how, --overwrite: layers"
+        [ "$how" != open ] || same "$(ask o.gpkg 'SELECT count(*) FROM later')" 1 "$mode: what an idle holder wrote after --overwrite"
         expect 0 separate in.gpkg o.gpkg --overwrite -q
-        [ ! -e o.gpkg-wal ] || fail "a log is left beside a new file"
+        same "$(count o.gpkg houses)" 2 "$mode, $how: written over"
     done
 done
+
+# What is no database any more, though it begins as one, is renamed over.
+head -c 5000 delete.gpkg >o.gpkg && dd if=/dev/zero of=o.gpkg bs=1 seek=16 count=4984 conv=notrunc 2>/dev/null
+expect 0 separate in.gpkg o.gpkg --overwrite -q
+same "$(ask o.gpkg 'PRAGMA integrity_check')" ok 'over a damaged file'
 
 # ---- runs at once: every layer of a run that says 0 is there
 for mode in delete wal; do
