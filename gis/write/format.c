@@ -34,6 +34,8 @@ static const facts known[] = {
     {"GML",             false, false, false, true,  false, false},
 };
 
+static const char *const texts[] = {"GeoJSON", "GeoJSONSeq", "CSV", "GML", "KML", NULL};
+
 static bool can_create(GDALDriverH driver)
 {
     return GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL) && GDALGetMetadataItem(driver, GDAL_DCAP_CREATE, NULL);
@@ -108,6 +110,7 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
             format.reprojects = known[i].reprojects;
             format.one_layer = known[i].one_layer;
         }
+    format.lines = CSLFindString((CSLConstList)texts, format.name) >= 0;
     format.keeps_vertices = format.keeps_doubles || format.shapefile;
     if (EQUAL(format.name, "GeoJSON") && CPLFetchBool((CSLConstList)layer_options, "RFC7946", false))
         format.reprojects = true;

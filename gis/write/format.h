@@ -18,6 +18,7 @@ typedef struct gis_format {
     bool only_written;   /* GDAL cannot read it */
     bool keeps_order;    /* features come back in the order written */
     bool reprojects;     /* turns coordinates to WGS 84 */
+    bool lines;          /* a text, and its last line is ended, too */
     bool shapefile, geopackage;
     bool sqlite; /* a file that is a SQLite database, GeoPackages among them */
 } gis_format;

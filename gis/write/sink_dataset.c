@@ -149,6 +149,23 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
         sink->dataset = NULL;
 }
 
+/* The last byte of a text is a line break, which GDAL does not hear of if it could not be written, and which no reader
+ * misses: so it is looked for, and written where it is not. */
+static bool end_last_line(const gis_sink *sink, const char *file, gis_error *error)
+{
+    char last, *path = gis_sink_inside(sink, file);
+    bool plain = sink->format.lines && gis_sink_exists(path) && !gis_sink_is_directory(path);
+    VSILFILE *text = plain ? VSIFOpenL(path, "rb+") : NULL;
+    bool done = !plain || (text && VSIFSeekL(text, 0, SEEK_END) == 0);
+    if (text && done && VSIFTellL(text) > 0)
+        done = VSIFSeekL(text, VSIFTellL(text) - 1, SEEK_SET) == 0 && VSIFReadL(&last, 1, 1, text) == 1 &&
+               (last == '\n' || (VSIFSeekL(text, 0, SEEK_END) == 0 && VSIFWriteL("\n", 1, 1, text) == 1));
+    if (text && VSIFCloseL(text) != 0)
+        done = false;
+    CPLFree(path);
+    return done || gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path, file);
+}
+
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
     GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
@@ -170,7 +187,7 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
     for (size_t i = 0; i < listener.warnings.n; i++)
         gis_list_add(&sink->warnings, "%s", listener.warnings.items[i]);
     gis_listener_clear(&listener);
-    return done;
+    return done && end_last_line(sink, layer && layer->file ? layer->file : sink->main_file, error);
 }
 
 void gis_sink_drop(gis_sink *sink)
