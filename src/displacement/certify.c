@@ -36,8 +36,8 @@ sunder_status sunder_i_certify(const sunder_i_question *question, sunder_i_answe
 {
     *answer = (sunder_i_answer){.verdict = SUNDER_I_UNKNOWN};
     sunder_i_inquiry c = {.question = question, .town = question->town};
-    bool limited = true;
-    for (size_t k = 0; k < question->bodies; k++) {
+    bool limited = question->bodies <= question->most;
+    for (size_t k = 0; k < question->bodies && limited; k++) {
         const sunder_i_body *b = &question->town->body[question->body[k]];
         limited = limited && (b->fixed || isfinite(b->limit));
         sunder_i_inquiry_place(&c, question->body[k]);

@@ -23,12 +23,14 @@ typedef struct sunder_i_question {
     size_t bodies;
     const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
     size_t reserves;
+    double farthest; /* their longest limit that is finite */
     uint32_t a, b;             /* features, a < b, that owe the gap, held or not; or SUNDER_I_NOBODY */
     const sunder_i_held *held; /* sorted */
     size_t held_n;
     const uint32_t *feature; /* NULL, or the only features to be heeded, ascending */
     size_t features;
     uint64_t effort; /* in constraints looked at */
+    size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_question;
 
 typedef struct sunder_i_solution {

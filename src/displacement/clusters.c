@@ -94,7 +94,8 @@ bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body
     return w->members && bsearch(&wanted, w->member, w->members, sizeof wanted, by_member);
 }
 
-const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_t *n)
+/* The first member of the cluster of that root, or of a later one. */
+static size_t first_member(const sunder_i_job *w, uint64_t root)
 {
     size_t low = 0, high = w->members;
     while (low < high) {
@@ -104,9 +105,14 @@ const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_
         else
             high = middle;
     }
-    while (high < w->members && w->member[high].root == root) high++;
-    *n = high - low;
-    return w->body + low;
+    return low;
+}
+
+const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_t *n)
+{
+    const size_t first = first_member(w, root);
+    *n = first_member(w, (uint64_t)root + 1) - first;
+    return w->body + first;
 }
 
 /* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some

@@ -9,9 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How long a solution is looked for, in constraints looked at: so many for each body, and at most. */
+/* How long a solution is looked for, in constraints looked at: so many for each body. Among more than these bodies none
+ * was ever found, and the pairs are asked about one by one. */
 #define EFFORT 100000u
-#define MOST_EFFORT 20000000u
+#define MOST_BODIES 64
 
 /* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
 typedef struct component {
@@ -147,7 +148,8 @@ static sunder_status certify_some(void *context, size_t begin, size_t end, sunde
                                             .b = SUNDER_I_NOBODY,
                                             .held = g->held,
                                             .held_n = g->held_n,
-                                            .effort = n < MOST_EFFORT / EFFORT ? EFFORT * n : MOST_EFFORT};
+                                            .effort = EFFORT * (uint64_t)n,
+                                            .most = MOST_BODIES};
         if (!status) status = sunder_i_certify(&question, &g->answer[k], err);
         sunder_i_free(body);
     }

@@ -115,11 +115,11 @@ sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, unsigned level,
 /* The part of the record below a node, by itself. NULL if memory is out. */
 sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *inquiry, size_t root);
 
-/* Work done so far, and whether it is all that was allowed. */
+/* Work done so far, and whether that, or who takes part, is more than was allowed. */
 static inline uint64_t sunder_i_inquiry_work(const sunder_i_inquiry *c) { return c->looked + c->program.work; }
 static inline bool sunder_i_inquiry_is_over(const sunder_i_inquiry *c)
 {
-    return sunder_i_inquiry_work(c) > c->question->effort;
+    return sunder_i_inquiry_work(c) > c->question->effort || c->bodies > c->question->most;
 }
 
 #endif

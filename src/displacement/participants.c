@@ -51,19 +51,38 @@ static bool is_in_reach(const sunder_i_town *town, const sunder_i_body *p, const
     return p->pieces && q->pieces && sunder_i_box_meet(box, q->box);
 }
 
+/* Those of the reserve that could meet body `of`: appended to c->near. */
+static bool find_in_reach(sunder_i_inquiry *c, uint32_t of)
+{
+    const sunder_i_town *town = c->town;
+    const sunder_i_question *q = c->question;
+    const sunder_i_body *p = &town->body[of];
+    const double reach = (p->fixed ? 0 : p->limit) + q->farthest + town->rules.gap;
+    double box[4];
+    const size_t before = c->near.n;
+    size_t out = before;
+    for (uint32_t x = 0; x < 4; x++) box[x] = p->box[x] + p->origin[x & 1];
+    sunder_i_box_grow(box, reach, box);
+    if (!sunder_i_index_query(&town->tree, box, &c->near)) return false;
+    c->looked += c->near.n - before;
+    for (size_t k = before; k < c->near.n; k++) {
+        const uint32_t b = town->body_of[c->near.item[k]];
+        const sunder_i_body *r = &town->body[b];
+        if ((r->fixed || isfinite(r->limit)) && sunder_i_set_has(q->reserve, q->reserves, b) && is_in_reach(town, p, r))
+            c->near.item[out++] = b;
+    }
+    c->near.n = out;
+    return true;
+}
+
 bool sunder_i_inquiry_widen(sunder_i_inquiry *c)
 {
-    const sunder_i_question *q = c->question;
     const size_t before = c->bodies;
-    for (size_t k = 0; k < q->reserves && !c->failed; k++) {
-        const sunder_i_body *b = &c->town->body[q->reserve[k]];
-        bool near = false, known = !b->fixed && !isfinite(b->limit);
-        for (size_t i = 0; i < c->bodies && !known; i++) known = c->body[i] == q->reserve[k];
-        for (size_t i = 0; i < before && !known && !near; i++)
-            near = is_in_reach(c->town, &c->town->body[c->body[i]], b);
-        c->looked += before;
-        if (near) sunder_i_inquiry_place(c, q->reserve[k]);
-    }
+    c->near.n = 0;
+    for (size_t i = 0; i < before && c->question->reserves && !c->failed; i++)
+        if (!find_in_reach(c, c->body[i])) c->failed = true;
+    c->near.n = sunder_i_set_make(c->near.item, c->near.n);
+    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_inquiry_place(c, c->near.item[k]);
     return c->bodies > before;
 }
 

@@ -7,15 +7,22 @@
 #include "displacement/job.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Effort, in constraints looked at (some hundred million a second): what a cluster has for its conflicts together, so
- * much for each of its first bodies, and less for each of all. */
-#define EFFORT 5000000u
-#define FIRST 20
-#define EFFORT_EACH 200000u
-/* Making a proof irreducible takes no more than this many times what finding it was allowed. */
+/* Effort, in constraints looked at (some hundred million a second). Inquiries that found no proof may take so much
+ * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
+#define EFFORT 20000000u
+#define EFFORT_EACH 10000u
+/* One inquiry is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No more
+ * bodies than these take part in one: all proofs that were ever found had fewer. */
+#define FIRST 10000u
+#define GROWTH 8
+#define MOST 8000000u
+#define MOST_BODIES 32
+/* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
 #define REDUCING 4
+#define LITTLE 1000000u
 
 /* ---- What listed pairs are held to ---------------------------------------------------------------------------------
  */
@@ -60,17 +67,8 @@ static sunder_status hold_some(void *context, size_t begin, size_t end, sunder_e
     return SUNDER_OK;
 }
 
-/* ---- One conflict --------------------------------------------------------------------------------------------------
+/* ---- A proof that needs all it says --------------------------------------------------------------------------------
  */
-
-typedef struct asking {
-    sunder_i_job *job;
-    const uint32_t *listed;
-    const uint32_t *root;  /* of the clusters that they belong to */
-    const uint32_t *count; /* [bodies] by root: how many belong to it */
-    const sunder_i_held *held;
-    size_t n;
-} asking;
 
 /* The features of a proof, ascending: into set, which has room for two a node. */
 static size_t features_of(const sunder_proof *proof, uint32_t *set)
@@ -95,7 +93,8 @@ static sunder_status reduce(const sunder_i_question *question, sunder_proof **pr
     const size_t n = status ? 0 : features_of(*proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
-    uint64_t budget = REDUCING * question->effort;
+    q.effort = question->effort < LITTLE ? LITTLE : question->effort;
+    uint64_t budget = REDUCING * q.effort;
     q.reserves = 0;
     for (size_t k = 0; k < n && !status; k++) {
         if (all[k] == q.a || all[k] == q.b || !sunder_i_set_has(set, left, all[k])) continue;
@@ -129,78 +128,130 @@ static sunder_status reduce(const sunder_i_question *question, sunder_proof **pr
     return status;
 }
 
-/* A conflict's share of what its cluster has. */
-static uint64_t effort_for(size_t bodies, uint32_t conflicts)
+/* ---- The conflicts of a cluster ------------------------------------------------------------------------------------
+ */
+
+/* A conflict of the report, and the cluster that it belongs to. */
+typedef struct matter {
+    uint32_t root, conflict;
+    bool open;
+} matter;
+
+typedef struct asking {
+    sunder_i_job *job;
+    matter *matter;
+    const size_t *first; /* [clusters + 1] matters, cluster after cluster */
+    const sunder_i_held *held;
+    size_t held_n;
+} asking;
+
+static int by_root(const void *a, const void *b)
 {
-    return (EFFORT * (uint64_t)(bodies < FIRST ? bodies : FIRST) + EFFORT_EACH * (uint64_t)bodies) / conflicts;
+    const matter *p = a, *q = b;
+    if (p->root != q->root) return p->root < q->root ? -1 : 1;
+    return p->conflict < q->conflict ? -1 : p->conflict > q->conflict;
 }
 
-static sunder_status ask(void *context, size_t begin, size_t end, sunder_error *err)
+static double farthest_of(const sunder_i_town *town, const uint32_t *body, size_t n)
+{
+    double farthest = 0;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *b = &town->body[body[k]];
+        if (!b->fixed && isfinite(b->limit)) farthest = fmax(farthest, b->limit);
+    }
+    return farthest;
+}
+
+/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
+static sunder_status ask(const asking *g, matter *m, sunder_i_question *q, uint64_t *pool, sunder_error *err)
+{
+    sunder_report *report = g->job->report;
+    sunder_conflict *c = &report->conflict[m->conflict];
+    const uint32_t body[2] = {g->job->town.body_of[c->a], g->job->town.body_of[c->b]};
+    q->body = body;
+    q->bodies = 2;
+    q->a = (uint32_t)c->a;
+    q->b = (uint32_t)c->b;
+    sunder_i_answer answer;
+    sunder_status status = sunder_i_certify(q, &answer, err);
+    sunder_proof **proof = &report->proof[m->conflict];
+    *proof = answer.proof;
+    answer.proof = NULL;
+    m->open = !*proof && answer.verdict == SUNDER_I_UNKNOWN && answer.work > q->effort;
+    if (!*proof) *pool = *pool > answer.work ? *pool - answer.work : 0;
+    sunder_i_answer_clear(&answer);
+    if (!status && *proof) status = reduce(q, proof, err);
+    if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
+    return status;
+}
+
+/* All conflicts of a cluster at one effort, before any is asked about at the next. */
+static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
-    const sunder_i_town *town = &g->job->town;
+    sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end; k++) {
-        sunder_report *report = g->job->report;
-        sunder_conflict *c = &report->conflict[g->listed[k]];
-        if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
-        const uint32_t body[2] = {town->body_of[c->a], town->body_of[c->b]};
-        size_t more;
-        const uint32_t *cluster = sunder_i_job_members(g->job, g->root[k], &more);
-        const sunder_i_question question = {.town = town,
-                                            .body = body,
-                                            .bodies = 2,
-                                            .reserve = cluster,
-                                            .reserves = more,
-                                            .a = (uint32_t)c->a,
-                                            .b = (uint32_t)c->b,
-                                            .held = g->held,
-                                            .held_n = g->n,
-                                            .effort = effort_for(more + 2, g->count[g->root[k]])};
-        sunder_i_answer answer;
-        sunder_status status = sunder_i_certify(&question, &answer, err);
-        sunder_proof **proof = &report->proof[g->listed[k]];
-        *proof = answer.proof;
-        answer.proof = NULL;
-        sunder_i_answer_clear(&answer);
-        if (!status && *proof) status = reduce(&question, proof, err);
-        if (status) return status;
-        if (*proof) c->reason = SUNDER_REASON_NO_ROOM;
+        matter *first = g->matter + g->first[k], *last = g->matter + g->first[k + 1];
+        sunder_i_question q = {.town = &g->job->town, .held = g->held, .held_n = g->held_n, .most = MOST_BODIES};
+        q.reserve = sunder_i_job_members(g->job, first->root, &q.reserves);
+        q.farthest = farthest_of(q.town, q.reserve, q.reserves);
+        uint64_t pool = EFFORT + EFFORT_EACH * (uint64_t)(q.reserves + 2);
+        for (uint64_t effort = FIRST; effort <= MOST && pool; effort *= GROWTH)
+            for (matter *m = first; m < last && pool; m++) {
+                if (!m->open) continue;
+                q.effort = effort < pool ? effort : pool;
+                status = ask(g, m, &q, &pool, err);
+                if (status) return status;
+            }
     }
-    return SUNDER_OK;
+    return status;
 }
 
 /* ---- All of them ---------------------------------------------------------------------------------------------------
  */
 
+/* The conflicts to be asked about, by clusters; first: where each begins, and the end. Returns how many clusters. */
+static size_t group(sunder_i_job *w, const uint32_t *listed, size_t n, matter *list, size_t *first)
+{
+    const sunder_i_town *town = &w->town;
+    size_t open = 0, groups = 0;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_conflict *c = &w->report->conflict[listed[k]];
+        if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
+        const uint32_t i = town->body_of[c->a], j = town->body_of[c->b];
+        list[open++] = (matter){sunder_i_union_find(w->parent, town->body[i].fixed ? j : i), listed[k], true};
+    }
+    if (open) qsort(list, open, sizeof *list, by_root);
+    for (size_t k = 0; k < open; k++)
+        if (k == 0 || list[k].root != list[k - 1].root) first[groups++] = k;
+    first[groups] = open;
+    return groups;
+}
+
 sunder_status sunder_i_job_prove(sunder_i_job *w, sunder_error *err)
 {
     sunder_report *report = w->report;
     const unsigned threads = w->town.rules.threads;
-    report->proof = sunder_i_calloc(report->conflicts, sizeof *report->proof);
-    uint32_t *listed = sunder_i_alloc(report->conflicts, sizeof *listed);
-    uint32_t *root = sunder_i_alloc(report->conflicts, sizeof *root);
-    uint32_t *count = sunder_i_calloc(w->town.bodies, sizeof *count);
-    sunder_i_held *held = sunder_i_alloc(report->conflicts, sizeof *held);
-    sunder_status status = report->proof && listed && root && count && held ? SUNDER_OK : sunder_i_no_memory(err);
-    size_t n = 0, open = 0;
-    for (size_t k = 0; !status && k < report->conflicts; k++) {
-        const sunder_conflict *c = &report->conflict[k];
-        if (c->inside_block) continue;
-        const uint32_t i = w->town.body_of[c->a], j = w->town.body_of[c->b];
-        root[n] = sunder_i_union_find(w->parent, w->town.body[i].fixed ? j : i);
-        count[root[n]]++;
-        listed[n++] = (uint32_t)k;
-        open += c->reason == SUNDER_REASON_UNRESOLVED;
-    }
-    if (open) {
+    const size_t most = report->conflicts;
+    report->proof = sunder_i_calloc(most, sizeof *report->proof);
+    uint32_t *listed = sunder_i_alloc(most, sizeof *listed);
+    matter *list = sunder_i_alloc(most, sizeof *list);
+    size_t *first = sunder_i_alloc(most + 1, sizeof *first);
+    sunder_i_held *held = sunder_i_alloc(most, sizeof *held);
+    sunder_status status = report->proof && listed && list && first && held ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t k = 0; !status && k < most; k++)
+        if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;
+    const size_t groups = status ? 0 : group(w, listed, n, list, first);
+    if (groups) {
         holding h = {w, listed, held};
         status = sunder_i_parallel(threads, n, 8, hold_some, &h, err);
-        asking g = {w, listed, root, count, held, n};
-        if (!status) status = sunder_i_parallel(threads, n, 1, ask, &g, err);
+        asking g = {w, list, first, held, n};
+        if (!status) status = sunder_i_parallel(threads, groups, 1, ask_clusters, &g, err);
     }
     sunder_i_free(listed);
-    sunder_i_free(root);
-    sunder_i_free(count);
+    sunder_i_free(list);
+    sunder_i_free(first);
     sunder_i_free(held);
     return status;
 }
