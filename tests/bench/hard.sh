@@ -78,6 +78,7 @@ heap-erode|heap|-|70 139 278|buffer IN OUT --dissolve --operation erode --shape 
 heap-close|heap|-|70 139 278|buffer IN OUT --dissolve --operation close --shape square:4
 far|pairs-far|pairs|1000 4000 16000|separate IN OUT
 outline|outline|-|3000 12000 48000|separate IN OUT --gap 3 --max-shift 9 --contained ignore --touch-tolerance 0.1 --fixed-where fixed=1
+crowd|crowd-full|crowd|400 1500 6000|separate IN OUT --gap 3 --max-shift 10 --fixed-where fixed=1
 detail-sum|detail|-|4000 8000 16000|sum P Q --stats -
 stairs-pair|stairs|-|4000 8000 16000|pair P Q
 ragged-pair|ragged|-|4000 8000 16000|pair P Q

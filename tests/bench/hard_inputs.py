@@ -21,6 +21,9 @@ layers  pairs          SIZE pairs of squares that overlap, far from each other
         heap           SIZE nearly coincident rectangles
         houses         SIZE detached houses on a grid
         houses-bows    the same, 40 of them with a tiny crossing
+        crowd          SIZE houses that stand too near each other, hundreds in one crowd, and in two walled yards among them
+                       two houses each, one in the gate
+        crowd-full     the same with four houses in each yard, for which there is no room
 """
 import math
 import random
@@ -185,11 +188,30 @@ def houses(n, draw, bows=0):
     return [(swapped(body, 1), fixed) if i % step == step // 2 else (body, fixed) for i, (body, fixed) in enumerate(rows)]
 
 
+def crowd(n, draw, full=False):
+    side, rows = math.ceil(math.sqrt(n)), []
+    yards = [(0.3 * side, 0.3 * side), (0.7 * side, 0.6 * side)]
+    for i in range(n):
+        u, v = i % side, i // side
+        if any(abs(u - a) < 2.2 and abs(v - b) < 2.2 for a, b in yards):
+            continue
+        rows.append((rectangle(EAST + 13.6 * u + draw.uniform(-1, 1), NORTH + 13.6 * v + draw.uniform(-1, 1),
+                               draw.uniform(8, 13), draw.uniform(7, 11), draw.uniform(-0.1, 0.1)), 0))
+    for a, b in yards:
+        x, y = EAST + 13.6 * a - 8.0, NORTH + 13.6 * b - 8.0
+        rows += [(rectangle(x + u, y + v, width, height), 1) for u, v, width, height in
+                 ((-1, -1, 28, 1), (-1, 0, 1, 27), (26, 0, 1, 27), (0, 26, 6, 1), (20, 26, 6, 1))]
+        places = ((3, 3), (13.5, 3.5), (2.5, 13), (13, 14)) if full else ((8, 3), (8, 22))
+        rows += [(rectangle(x + u, y + v, 10, 10), 0) for u, v in places]
+    return rows
+
+
 PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
          "slivers": slivers, "stairs": stairs, "copies": copies, "ragged": ragged, "detail": detail}
 LAYERS = {"pairs": pairs, "pairs-far": lambda n, draw: pairs(n, draw, True), "outline": outline, "heap": heap,
           "versions-layer": lambda n, draw: [(body, 0) for body in outline_versions(n, draw)], "houses": houses,
-          "houses-bows": lambda n, draw: houses(n, draw, 40)}
+          "houses-bows": lambda n, draw: houses(n, draw, 40), "crowd": crowd,
+          "crowd-full": lambda n, draw: crowd(n, draw, True)}
 
 
 def main(kind, size, seed="1"):
