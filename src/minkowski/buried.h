@@ -5,7 +5,7 @@
 #include "minkowski/subsums.h"
 
 /* Takes the mark of a candidate from sides that are inside one subsum, ends included: nothing on them is boundary or
- * degenerate. Not all such are found. Nothing is done but on a narrow lattice. Fails only with SUNDER_ENOMEM. */
+ * degenerate. Not all such are found. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_bury_candidates(sunder_i_subsums *subsums, sunder_error *err);
 
 #endif

@@ -50,8 +50,8 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
-    /* Members grown by one convex shape overlap as they stand; else few sides are inside a single subsum. */
-    if ((p->polygons > 1 && q->pieces == 1) || (q->polygons > 1 && p->pieces == 1))
+    /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
+    if (p->polygons > 1 || q->polygons > 1)
         status = sunder_i_bury_candidates(&subsums, err);
     sum->seconds[1] = now() - start;
     if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
