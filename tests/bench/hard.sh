@@ -1,25 +1,31 @@
 #!/usr/bin/env bash
 # Everyday inputs that make geometry code slow, at three sizes each: seconds, peak memory and growth.
 #
-#   hard.sh [ROW ...]        all rows unless some are named, as in the first column
+#   hard.sh [--instructions] [ROW ...]     all rows unless some are named, as in the first column
 #
-# Seconds are of processor time (user and system) of the whole command. Growth is the exponent in the size between a row and
+# Seconds are of processor time (user and system) of the whole command; with --instructions what is printed are millions of
+# instructions instead, counted by callgrind, less those of a command that has nothing to do: the same on every machine, loaded
+# or not. Growth is the exponent in the size between a row and
 # the one above it. `times` is the ratio to the row's plain twin: the same shapes without the defect, the same layer without
 # the feature that must go far. hard_inputs.py draws the inputs and says what is hard about them.
 #
 #   SUNDER_BUILD             build directory (./build/release)
-#   SUNDER_BENCH_LIMIT       seconds that a command may take (60)
+#   SUNDER_BENCH_LIMIT       seconds that a command may take (60; under callgrind 900)
+#   SUNDER_BENCH_TIMES       by what all sizes are multiplied (1)
 #   SUNDER_BENCH_HARD        a folder of further inputs, NAME.wkt with P and Q in two lines (../shared/hard beside the repository,
 #                            if it is there): rows `file`
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source_dir=$(cd "$here/../.." && pwd)
 sunder=${SUNDER_BUILD:-$source_dir/build/release}/sunder
-limit=${SUNDER_BENCH_LIMIT:-60}
+counting=false
+if [[ ${1:-} == --instructions ]]; then counting=true; shift; fi
+limit=${SUNDER_BENCH_LIMIT:-$($counting && echo 900 || echo 60)}
 hard=${SUNDER_BENCH_HARD:-$source_dir/../shared/hard}
 [[ -x $sunder ]] || { echo "hard.sh: no $sunder; set SUNDER_BUILD" >&2; exit 77; }
 command -v python3 >/dev/null || { echo "hard.sh: python3 is not installed" >&2; exit 77; }
 command -v ogr2ogr >/dev/null || { echo "hard.sh: ogr2ogr is not installed" >&2; exit 77; }
+if $counting; then command -v valgrind >/dev/null || { echo "hard.sh: valgrind is not installed" >&2; exit 77; }; fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wanted=("$@")
@@ -42,6 +48,14 @@ used = resource.getrusage(resource.RUSAGE_CHILDREN)
 print("%.3f" % (used.ru_utime + used.ru_stime), round(used.ru_maxrss / 1000),
       "" if status in (0, 3) else "stopped" if status is None else "status %d" % status)
 PYTHON
+}
+
+# Runs a command and prints its millions of instructions, less those of idling, "-", and what became of it.
+count() {
+  local note='' status=0
+  timeout "$limit" valgrind --tool=callgrind --callgrind-out-file=/dev/null "$@" >/dev/null 2>"$scratch/counted" || status=$?
+  case $status in 0 | 3) ;; 124) note=stopped ;; *) note="status $status" ;; esac
+  awk -v idle="${idle:-0}" -v note="$note" '/Collected/ { n = $NF } END { printf "%.1f - %s\n", n / 1e6 - idle, note }' "$scratch/counted"
 }
 
 # What is measured: P and Q in files, or a layer in $scratch/in.gpkg.
@@ -73,6 +87,7 @@ versions-sum|versions|-|6 12 24|sum P Q --stats -
 versions-disc|versions|-|6 12 24|sum P disc:5 --stats -
 versions-dissolve|versions-layer|-|6 12 24|buffer IN OUT --dissolve --shape disc:5
 slivers-sum|slivers|-|4 8 16|sum P Q --stats -
+pile-sum|pile|-|70 139 278|sum P Q --stats -
 heap-dilate|heap|-|70 139 278|buffer IN OUT --dissolve --shape square:4
 heap-erode|heap|-|70 139 278|buffer IN OUT --dissolve --operation erode --shape square:4
 heap-close|heap|-|70 139 278|buffer IN OUT --dissolve --operation close --shape square:4
@@ -97,17 +112,23 @@ run() { # kind, size, command
     esac
     command+=("$word")
   done
-  measure "$sunder" "${command[0]}" --quiet "${command[@]:1}"
+  $figure "$sunder" "${command[0]}" --quiet "${command[@]:1}"
 }
 
 chosen() { [[ ${#wanted[@]} -eq 0 || " ${wanted[*]} " == *" $1 "* ]]; }
 
-echo "| row | size | s | MB | growth | times the plain one | |"
+figure=measure unit=s
+if $counting; then
+  figure=count unit='million instructions'
+  read -r idle _ <<<"$(count "$sunder" pair --quiet 'POLYGON((0 0,1 0,0 1,0 0))' 'POLYGON((9 9,10 9,9 10,9 9))')"
+fi
+echo "| row | size | $unit | MB | growth | times the plain one | |"
 echo "|---|---|---|---|---|---|---|"
 while IFS='|' read -r name kind twin sizes command; do
   chosen "$name" || continue
   before='' before_size=''
   for size in $sizes; do
+    size=$((size * ${SUNDER_BENCH_TIMES:-1}))
     read -r seconds megabytes note <<<"$(run "$kind" "$size" "$command")"
     times=-
     if [[ $twin != - ]]; then
@@ -130,6 +151,6 @@ for file in "$hard"/*.wkt; do
   gap_*) command=pair options=(--gap 32) ;;
   *) command=sum options=(--stats -) ;;
   esac
-  read -r seconds megabytes note <<<"$(measure "$sunder" "$command" --quiet "${options[@]}" "@$scratch/p.wkt" "@$scratch/q.wkt")"
+  read -r seconds megabytes note <<<"$($figure "$sunder" "$command" --quiet "${options[@]}" "@$scratch/p.wkt" "@$scratch/q.wkt")"
   echo "| file $name | - | $seconds | $megabytes | - | - | $note |"
 done

@@ -10,6 +10,7 @@ pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, t
         track          a walk that wanders and is closed at last: about SIZE crossings; Q a small square
         versions       SIZE copies of one outline, every corner off by up to a millimetre; Q a disc's polygon
         slivers        SIZE long rectangles, shifted by up to a micrometre; Q an L
+        pile           SIZE nearly coincident rectangles as one set; Q an L
         stairs         a blob as it is traced along pixels, and the same beside it
         copies         a coast, and the same coast digitised again
         ragged         a star of long thin spikes, and another a little aside
@@ -176,6 +177,10 @@ def heap(n, draw):
                        12.0 + draw.uniform(0, 1e-3), 0.4 + draw.uniform(0, 1e-5)), 0) for _ in range(n)]
 
 
+def pile(n, draw):
+    return [multipolygon([body for body, _ in heap(n, draw)]), "POLYGON ((0 0, 4 0, 4 1, 1 1, 1 4, 0 4, 0 0))"]
+
+
 def houses(n, draw, bows=0):
     side, rows = math.ceil(math.sqrt(n)), []
     for i in range(n):
@@ -207,7 +212,7 @@ def crowd(n, draw, full=False):
 
 
 PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
-         "slivers": slivers, "stairs": stairs, "copies": copies, "ragged": ragged, "detail": detail}
+         "slivers": slivers, "stairs": stairs, "pile": pile, "copies": copies, "ragged": ragged, "detail": detail}
 LAYERS = {"pairs": pairs, "pairs-far": lambda n, draw: pairs(n, draw, True), "outline": outline, "heap": heap,
           "versions-layer": lambda n, draw: [(body, 0) for body in outline_versions(n, draw)], "houses": houses,
           "houses-bows": lambda n, draw: houses(n, draw, 40), "crowd": crowd,
