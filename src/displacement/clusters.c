@@ -39,6 +39,8 @@ void sunder_i_job_free(sunder_i_job *w)
     sunder_i_free(w->move);
     free_clusters(w);
     sunder_report_free(w->report);
+    sunder_i_free(w->layer.feature);
+    sunder_i_free(w->number);
 }
 
 sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)

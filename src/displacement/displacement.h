@@ -28,6 +28,10 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
 /* Tells how far it is; false when the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
+/* A copy of the layer in the order that it is worked on in: number[k] is what feature k was. Failure leaves what
+ * sunder_i_free() takes. */
+sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out, size_t **number, sunder_error *err);
+
 /* Is the feature there at all (not ignored, not empty)? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
@@ -462,6 +466,8 @@ struct sunder_report {
 };
 
 sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err);
+/* The report on a layer in the order of work, as one on the layer as it was given: number[k] is what feature k was. */
+sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err);
 
 /* Adds one to the count of the conflict's kind. */
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);

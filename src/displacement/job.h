@@ -22,6 +22,8 @@ typedef struct sunder_i_entry {
 } sunder_i_entry;
 
 typedef struct sunder_i_job {
+    sunder_layer layer; /* in the order of work; its own copy of the features */
+    size_t *number;     /* [features] what they were; NULL: nothing was put in order */
     sunder_i_town town;
     sunder_i_scene scene;
     sunder_i_relations start, now;

@@ -28,7 +28,8 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Moves, statuses and their sums; in feature order, so that the sums are the same however the work was shared out. */
+/* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
+ * features were listed. */
 static void fill_moves(const sunder_i_job *w)
 {
     const sunder_i_town *town = &w->town;
@@ -107,7 +108,8 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
 {
     const double began = seconds();
     bool lifted = false, back = false;
-    sunder_status status = start(w, layer, options, err);
+    sunder_status status = sunder_i_order_layer(layer, &w->layer, &w->number, err);
+    if (!status) status = start(w, &w->layer, options, err);
     if (!status) status = sunder_i_job_judge(w, err);
     if (!status) status = sunder_i_town_cut(&w->town, err);
     if (!status) status = sunder_i_job_init(w, err);
@@ -147,6 +149,8 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (status) return status;
     fill_moves(w);
     report->summary.clusters = w->clusters;
+    status = sunder_i_report_renumber(report, w->number, err);
+    if (status) return status;
     sunder_i_progress(&w->town.rules, 1);
     return SUNDER_OK;
 }
