@@ -13,6 +13,9 @@
 /* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
  * nothing was ever gained below. */
 #define FAR 1.5
+/* So many orders are tried in which bodies are put back one by one, where they are no more than that. */
+#define MOST_ORDERS 24
+#define MOST_ORDERED 16
 /* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
 #define PATIENCE 10000
 
@@ -174,7 +177,9 @@ static bool has_time(const sunder_i_search *s) { return s->steps + s->program.wo
 static bool attempt(sunder_i_search *s, double *best, double *cost)
 {
     const size_t size = 2 * s->n * sizeof *best;
+    s->hope = *cost;
     const bool free_now = sunder_i_search_descend(s);
+    s->hope = INFINITY;
     const double now = sunder_i_search_cost(s, s->t);
     if (!s->failed && free_now && now < *cost * (1 - 1e-6)) {
         memcpy(best, s->t, size);
@@ -309,6 +314,65 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
     }
 }
 
+/* ---- Other orders --------------------------------------------------------------------------------------------------
+ */
+
+/* All that may move is taken out and put back one by one, each at the free place nearest to where it came from: then down
+ * from there. Who comes late makes way for who came before, whatever stood there in the best solution so far. */
+static void put_back(sunder_i_search *s, const uint32_t *order, size_t n, double *best, double *cost)
+{
+    for (size_t k = 0; k < n; k++) {
+        s->away[order[k]] = true;
+        s->t[2 * order[k]] = s->t[2 * order[k] + 1] = 0;
+    }
+    bool found = true;
+    for (size_t k = 0; k < n && found; k++) {
+        double place[2];
+        found = sunder_i_search_free_body(s, order[k], sunder_i_search_limit(s, order[k]), place);
+        if (found) memcpy(s->t + 2 * order[k], place, sizeof place);
+        s->away[order[k]] = false;
+    }
+    memset(s->away, 0, s->n * sizeof *s->away);
+    s->program.n = 0;
+    if (found) attempt(s, best, cost);
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+}
+
+/* Shuffled by a sequence that is always the same (xorshift). */
+static void shuffle(uint32_t *order, size_t n, uint64_t *state)
+{
+    for (size_t k = n; k-- > 1;) {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        const size_t with = (size_t)(*state % (k + 1));
+        const uint32_t swap = order[k];
+        order[k] = order[with];
+        order[with] = swap;
+    }
+}
+
+/* In MOST_ORDERS orders, of clusters in which the order matters; for half of the effort that was spent before. What one
+ * order takes is known only afterwards, but for what it takes to look for room, in pairs of pieces. */
+static void try_orders(sunder_i_search *s, uint32_t *order, double *best, double *cost)
+{
+    const sunder_i_town *town = s->town;
+    const uint64_t most = s->steps + s->program.work + (s->steps + s->program.work) / 2;
+    uint64_t own = 0, all = 0, state = UINT64_C(0x9e3779b97f4a7c15);
+    size_t n = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        all += town->body[s->body[k]].pieces;
+        if (!(s->mass[k] > 0)) continue;
+        own += town->body[s->body[k]].pieces;
+        order[n++] = k;
+    }
+    for (int k = 0; n > 2 && n <= MOST_ORDERED && k < MOST_ORDERS && !s->failed; k++) {
+        if (s->steps + s->program.work + 4 * own * all > most) break;
+        shuffle(order, n, &state);
+        put_back(s, order, n, best, cost);
+    }
+}
+
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
@@ -316,6 +380,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     double *all = NULL, *best = NULL, *near = NULL;
     size_t n = 0;
     rank *order = NULL;
+    uint32_t *shuffled = NULL;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
     bool ok = add_strangers(town, cluster, &body, &all, &n, move);
@@ -323,7 +388,8 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
         best = sunder_i_alloc(2 * n, sizeof *best);
         near = sunder_i_alloc(2 * n, sizeof *near);
         order = sunder_i_alloc(n, sizeof *order);
-        ok = best && near && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        shuffled = sunder_i_alloc(n, sizeof *shuffled);
+        ok = best && near && order && shuffled && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
         s.settled = 1e-5;
@@ -349,6 +415,10 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
                 cost = near_cost;
             }
             memcpy(s.t, best, 2 * n * sizeof *best);
+            const double ordered = cost;
+            try_orders(&s, shuffled, best, &cost);
+            if (cost < ordered) try_all(&s, order, best, &cost);
+            memcpy(s.t, best, 2 * n * sizeof *best);
             s.n = cluster->n;
             if (cost < before && !s.failed) finish(&s, move, SUNDER_OK, err);
         }
@@ -360,5 +430,6 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_free(best);
     sunder_i_free(near);
     sunder_i_free(order);
+    sunder_i_free(shuffled);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -21,6 +21,7 @@
 #define MOST_IDLE 3      /* ... and those of them that do not halve what is missed */
 #define SOFT 1e-3 /* at first; less each round that clashes, so that long chains are not taken for contradictions */
 #define HARDEST 1e-6
+#define HOPEFUL 4
 #define MOST_ADDITIONS 24 /* times that constraints are added to one program */
 
 /* ---- Constraints
@@ -335,6 +336,8 @@ bool sunder_i_search_descend(sunder_i_search *s)
         const bool free_next = left <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
+        /* Rounds gain less and less: what so many times the last gain does not reach is out of reach. */
+        if (free_now && free_next && next_cost - HOPEFUL * (cost - next_cost) > s->hope) break;
         if (free_now && (!free_next || next_cost > cost - s->settled * cost)) {
             /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
             if (free_next && next_cost < cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);

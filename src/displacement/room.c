@@ -182,7 +182,7 @@ static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double 
     for (size_t k = 0; k < s->n + foreign->n; k++) {
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
         const sunder_i_body *q = &town->body[body];
-        if (k == i || q->pieces == 0) continue;
+        if (k == i || q->pieces == 0 || (k < s->n && s->away[k])) continue;
         const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
         double box[4];
         for (int c = 0; c < 4; c++)
@@ -202,7 +202,7 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
     const sunder_i_body *p = &town->body[s->body[i]];
     const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
     for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
-        if (k == i) continue;
+        if (k == i || (k < s->n && s->away[k])) continue;
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
         const sunder_i_body *q = &town->body[body];
         if (q->pieces == 0) continue;

@@ -19,12 +19,14 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->settled = 1e-3;
     s->cap = INFINITY;
     s->patience = UINT64_MAX;
+    s->hope = INFINITY;
     s->mass = sunder_i_alloc(n, sizeof *s->mass);
+    s->away = sunder_i_calloc(n, sizeof *s->away);
     s->t = sunder_i_alloc(2 * n, sizeof *s->t);
     s->next = sunder_i_alloc(2 * n, sizeof *s->next);
     s->box = sunder_i_alloc(4 * n, sizeof *s->box);
     s->order = sunder_i_alloc(n, sizeof *s->order);
-    if (!s->mass || !s->t || !s->next || !s->box || !s->order) return false;
+    if (!s->mass || !s->away || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &town->body[body[k]];
         s->mass[k] = b->fixed || b->pinned ? 0 : 0.5 / b->weight;
@@ -40,6 +42,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
 void sunder_i_search_free(sunder_i_search *s)
 {
     sunder_i_free(s->mass);
+    sunder_i_free(s->away);
     sunder_i_free(s->t);
     sunder_i_free(s->next);
     sunder_i_free(s->box);

@@ -17,6 +17,7 @@ typedef struct sunder_i_search {
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
+    bool *away;                 /* [n] taken out: not there for others that look for room */
     double *t;                  /* [2 n] where they stand */
     double *box;                /* [4 n] of the bodies as they stand, relative to the first body's origin */
     uint32_t *order;            /* [n] for sweeps over boxes */
@@ -34,7 +35,8 @@ typedef struct sunder_i_search {
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
-    uint64_t patience;      /* a descent gives up when so much has been done */
+    uint64_t patience;      /* a descent gives up when so much has been done ... */
+    double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
     bool failed;            /* memory is out */
 } sunder_i_search;
 
