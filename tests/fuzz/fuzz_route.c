@@ -14,10 +14,18 @@ static sunder_place choose_place(fuzz_bytes *bytes, fuzz_scale scale)
     return (sunder_place){{x, y}, {NULL, NULL}};
 }
 
-/* Far places are refused; nothing else is. */
-static bool allowed(sunder_status status, bool failing)
+/* Far places are refused, and what is not finite always; nothing else is. */
+static bool allowed(sunder_status status, bool finite, bool failing)
 {
-    return status == SUNDER_OK || status == SUNDER_ERANGE || (failing && status == SUNDER_ENOMEM);
+    return (finite ? status == SUNDER_OK || status == SUNDER_ERANGE : status == SUNDER_EARG) ||
+           (failing && status == SUNDER_ENOMEM);
+}
+
+static bool all_finite(const double *v, size_t n)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (!isfinite(v[i])) return false;
+    return true;
 }
 
 static void demand_same(const sunder_route *there, const sunder_route *back)
@@ -56,10 +64,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sunder_error error;
         fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);
         sunder_status status = sunder_route_find(obstacle, 2, robot, &from, &to, &options, &there, &error);
-        FUZZ_DEMAND((there != NULL) == (status == SUNDER_OK) && allowed(status, fail > 0 && fail < 128));
+        const bool finite = all_finite(from.xy, 2) && all_finite(to.xy, 2) && all_finite(xy, 2 * points);
+        FUZZ_DEMAND((there != NULL) == (status == SUNDER_OK) && allowed(status, finite, fail > 0 && fail < 128));
         fuzz_fail_allocations(0);
         status = sunder_route_find(obstacle, 2, robot, &to, &from, &options, &back, &error);
-        FUZZ_DEMAND((back != NULL) == (status == SUNDER_OK) && allowed(status, false));
+        FUZZ_DEMAND((back != NULL) == (status == SUNDER_OK) && allowed(status, finite, false));
         if (there && back) demand_same(there, back);
     }
     sunder_route_free(there);
