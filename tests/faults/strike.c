@@ -2,7 +2,7 @@
  *
  *   strike kill N COMMAND...       SIGKILL just before the Nth such call
  *   strike errno:NAME N COMMAND... that call fails (ENOSPC, EIO, EDQUOT, EINTR); nothing is done
- *   strike short N COMMAND...      that call, if it writes more than one byte, writes half of them
+ *   strike short N COMMAND...      the Nth of those that write more than one byte writes half of them
  *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one
  *                                  in which the disk becomes full is short
  *   strike signal N COMMAND...     SIGTERM at the Nth system call of any kind since the program catches it
@@ -14,10 +14,11 @@
  * with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename,
  * link, unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To
  * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line to file
- * descriptor 3: "COUNT BYTES STATUS NAME SHOWN": the name of the call that was struck, or -; STATUS is the exit status,
- * or 128 + the signal; SHOWN the place of the first call that could change what others see as the output: a rename, or a
- * write into a file that is neither a journal nor in a hidden directory. strike itself exits with 0 if the program
- * ended, whatever came of it. SIGALRM never comes to the program: what it would do then, it must do without.
+ * descriptor 3: "COUNT BYTES STATUS NAME SHOWN WRITES". STATUS is the exit status, or 128 + the signal; NAME the call that
+ * was struck, or -; SHOWN the place of the first call that could change what others see as the output: a rename, or a
+ * write into a file that is neither a journal nor in a hidden directory; WRITES how many calls could be short. strike
+ * itself exits with 0 if the program ended, whatever came of it. SIGALRM never comes to the program: what it would do
+ * then, it must do without.
  *
  * ptrace needs no privilege and no other program. Registers are read and written for x86-64 and AArch64. */
 #define _GNU_SOURCE
@@ -98,7 +99,7 @@ static void set_registers(pid_t pid, const registers *r)
 static enum { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
 static int reason;
 static bool catches; /* the program has a handler for SIGTERM by now */
-static uint64_t place, again, count, written, shown;
+static uint64_t place, again, count, writes, written, shown;
 static char under[PATH_MAX], struck[64] = "-";
 
 typedef struct thread {
@@ -279,6 +280,7 @@ static void call_starts(thread *it, pid_t main_pid)
     if (!at.name)
         return;
     count += !by_signal;
+    writes += at.writes && argument(&r, 2) > 1;
     if (!shown && shows(it->pid, &r, at.name))
         shown = count;
     if (by_signal) {
@@ -290,7 +292,7 @@ static void call_starts(thread *it, pid_t main_pid)
         kill(main_pid, SIGKILL);
     } else if (count == place && way == FAIL) {
         replace(it, &r, -reason, at.name);
-    } else if (count == place && way == SHORT && at.writes && argument(&r, 2) > 1) {
+    } else if (way == SHORT && at.writes && argument(&r, 2) > 1 && writes == place) {
         shorten(it, &r, argument(&r, 2) / 2, at.name);
     }
     if (at.writes && !it->replaced)
@@ -387,8 +389,8 @@ int main(int argc, char **argv)
     thread_of(pid);
     ptrace(PTRACE_SYSCALL, pid, NULL, NULL);
     int ended = follow(pid);
-    dprintf(3, "%llu %llu %d %s %llu\n", (unsigned long long)count, (unsigned long long)written, ended, struck,
-            (unsigned long long)shown);
+    dprintf(3, "%llu %llu %d %s %llu %llu\n", (unsigned long long)count, (unsigned long long)written, ended, struck,
+            (unsigned long long)shown, (unsigned long long)writes);
     return 0;
 }
 #endif

@@ -70,11 +70,11 @@ start() {
     rm -rf dir && cp -a pristine dir
 }
 
-# struck WAY PLACE: the run; sets $calls, $bytes, $status, $call.
+# struck WAY PLACE: the run; sets $calls, $bytes, $status, $call, $writes.
 struck() {
     start
     (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
-    read -r calls bytes status call _ <report
+    read -r calls bytes status call _ writes <report
     runs=$((runs + 1))
 }
 
@@ -124,10 +124,13 @@ for name in ${SUNDER_FAULTS_SCENARIOS:-$scenarios}; do
     [ "$status" -eq 0 ] || fail "$name: the run fails when it is not struck"
     new=$(state)
     [ "$new" != "$old" ] || fail "$name: the run changes nothing"
-    all=$calls length=$bytes
+    all=$calls length=$bytes halves=$writes runs=0
     for way in ${SUNDER_FAULTS_WAYS:-kill errno:ENOSPC errno:EIO short full}; do
-        step=$((length / 64 < 4096 ? length / 64 + 1 : 4096))
-        if [ "$way" = full ]; then where=$(places "$length" $step); else where=$(places "$all" 1); fi
+        case $way in
+        full) where=$(places "$length" $((length / 64 < 4096 ? length / 64 + 1 : 4096))) ;;
+        short) where=$(places "$halves" 1) ;;
+        *) where=$(places "$all" 1) ;;
+        esac
         for place in $where; do
             struck "$way" "$place"
             judge "$name" "$way" "$place"

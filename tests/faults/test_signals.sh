@@ -54,7 +54,7 @@ state() {
 struck() {
     rm -rf dir && cp -a before dir
     (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
-    read -r calls _ status call shown <report
+    read -r calls _ status call shown _ <report
 }
 
 # What a run that is ended by its second signal leaves of a transaction SQLite rolls back.
