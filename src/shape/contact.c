@@ -24,6 +24,7 @@ typedef struct contact {
     const sunder_i_rings *r;
     sunder_i_problem *problem;
     bool touches;
+    size_t left; /* pairs that may still be looked at */
 } contact;
 
 static bool report(contact *c, sunder_i_fault fault, uint32_t e, uint32_t f)
@@ -74,6 +75,7 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     contact *c = user;
     const sunder_i_rings *r = c->r;
     const uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
+    if (c->left-- == 0) return false;
     if (b == g || h == a) return true;
     const int og = sunder_i_rings_orient(r, a, b, g), oh = sunder_i_rings_orient(r, a, b, h);
     if (og * oh > 0) return true;
@@ -90,13 +92,28 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     return true;
 }
 
-void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
-                           sunder_i_problem *problem, bool *touches)
+/* With so many pairs for each edge, boxes do not tell edges apart, as of long thin spikes: a sweep does. By
+ * measurement: coasts, pixels and combs have one to four. */
+#define PAIRS_EACH 24
+
+/* By the tree; where that has too many pairs, only if something does meet. */
+static void find_by_tree(contact *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+                         sunder_i_arena *arena)
 {
-    contact c = {r, problem, false};
+    c->left = PAIRS_EACH * (size_t)tree->edges;
+    if (sunder_i_box_tree_pairs(tree, c->r, pair, c) || c->problem->fault) return;
+    if (!c->touches && (sunder_i_rings_simple(c->r, ring_lo, ring_hi, arena) || arena->failed)) return;
+    c->left = SIZE_MAX;
+    sunder_i_box_tree_pairs(tree, c->r, pair, c);
+}
+
+void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches)
+{
+    contact c = {r, problem, false, SIZE_MAX};
     const uint32_t lo = ring_lo ? r->ring_end[ring_lo - 1] : 0, hi = r->ring_end[ring_hi - 1];
     if (tree) {
-        sunder_i_box_tree_pairs(tree, r, pair, &c);
+        find_by_tree(&c, ring_lo, ring_hi, tree, arena);
     } else {
         /* Few edges: all pairs, by boxes first. */
         for (uint32_t e = lo; e < hi; e++) {

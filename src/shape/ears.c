@@ -54,6 +54,14 @@ static int turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
     return sunder_i_rings_orient(c->r, c->walk->vertex[a], c->walk->vertex[b], c->walk->vertex[d]);
 }
 
+static void include(double box[4], const double *p)
+{
+    for (int k = 0; k < 2; k++) {
+        box[k] = fmin(box[k], p[k]);
+        box[k + 2] = fmax(box[k + 2], p[k]);
+    }
+}
+
 /* Drops the nodes that are no longer blunt and puts the rest into a tree, LEAF to a leaf. */
 static void build_tree(cutter *c)
 {
@@ -66,13 +74,7 @@ static void build_tree(cutter *c)
         double *box = c->box[c->leaves + b];
         box[0] = box[1] = INFINITY;
         box[2] = box[3] = -INFINITY;
-        for (uint32_t i = b * LEAF; i < n && i < (b + 1) * LEAF; i++) {
-            const double *p = place(c, c->list[i]);
-            for (int k = 0; k < 2; k++) {
-                box[k] = fmin(box[k], p[k]);
-                box[k + 2] = fmax(box[k + 2], p[k]);
-            }
-        }
+        for (uint32_t i = b * LEAF; i < n && i < (b + 1) * LEAF; i++) include(box, place(c, c->list[i]));
     }
     for (uint32_t b = c->leaves - 1; b > 0; b--)
         for (int k = 0; k < 2; k++) {
@@ -240,6 +242,22 @@ static void cut_all(cutter *c)
     link_side(c, h + 2, c->walk->next[b]);
 }
 
+/* One ring mostly runs through the plane in good order by itself; many holes come in any order, and the corners between
+ * spikes lie now near, now far. Are the boxes of the leaves more than twice as large as those of points along a curve
+ * that fills the plane, which are as wide as cells of a grid of as many? */
+static bool strays(const cutter *c)
+{
+    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, sum = 0;
+    for (uint32_t lo = 0; lo < c->listed; lo += LEAF) {
+        double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+        for (uint32_t i = lo; i < c->listed && i < lo + LEAF; i++) include(box, place(c, c->list[i]));
+        include(all, box);
+        include(all, box + 2);
+        sum += box[2] - box[0] + (box[3] - box[1]);
+    }
+    return sum > 2 * sqrt(c->leaves) * (all[2] - all[0] + (all[3] - all[1]));
+}
+
 void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *bridge_half, uint32_t bridges,
                        sunder_i_mesh *mesh, sunder_i_arena *arena)
 {
@@ -265,8 +283,7 @@ void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *b
         for (c.leaves = 1; c.leaves * LEAF < c.listed;) c.leaves *= 2;
         c.box = sunder_i_arena_alloc(arena, 2 * (size_t)c.leaves, sizeof *c.box);
         if (!c.box) return;
-        /* One ring runs through the plane in good order by itself; many holes come in any order. */
-        if (bridges > 8) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
+        if (bridges > 8 || strays(&c)) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
         if (arena->failed) return;
     }
     cut_all(&c);
