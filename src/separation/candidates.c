@@ -26,6 +26,7 @@ static bool may_touch_edge(const sunder_i_pairing *g, int side, uint32_t v, uint
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], x = xy[2 * v], y = xy[2 * v + 1], e = 2 * g->error;
+    if (!s->touches && !s->repaired) return false; /* as given, and so cleaned, nothing touches anything */
     sunder_i_steps((last - first) / 16);
     for (uint32_t a = first; a < last; a++) {
         const uint32_t b = s->next[a];

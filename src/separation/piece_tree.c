@@ -2,7 +2,7 @@
  * pieces are parted from short ones, and those of one direction from those of another. */
 #include "separation/piece_tree.h"
 
-#include "number/sort.h"
+#include "number/random.h"
 #include "number/watch.h"
 
 #include <math.h>
@@ -105,15 +105,40 @@ static uint32_t ordered(float v)
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
-static bool sort_by(planter *p, size_t from, size_t n, int bound)
+/* Brings the m least of n keys to the front; no two are equal. Expected linear time [Hoa61]. */
+static void select_least(uint64_t *key, size_t n, size_t m)
+{
+    uint64_t seed = n;
+    size_t low = 0, high = n; /* what is before low is among the least, and what is from high on is not */
+    while (high - low > 1) {
+        const uint64_t pivot = key[low + sunder_i_draw(&seed) % (high - low)];
+        size_t i = low, j = high;
+        for (;;) {
+            while (key[i] < pivot) i++;
+            while (key[--j] > pivot) {}
+            if (i >= j) break;
+            const uint64_t swap = key[i];
+            key[i++] = key[j];
+            key[j] = swap;
+        }
+        if (i == low) i++; /* the pivot is the least of them */
+        if (m < i)
+            high = i;
+        else
+            low = i;
+        if (m == low || m == high) return;
+    }
+}
+
+/* The lesser half of list[from] ... by a bound comes first. */
+static void halve_by(planter *p, size_t from, size_t n, int bound)
 {
     for (size_t i = 0; i < n; i++) {
         const uint32_t piece = p->list[from + i];
         p->key[i] = (uint64_t)ordered(bound_of(p->extent + piece, bound)) << 32 | piece;
     }
-    if (!sunder_i_sort_keys(p->key, n)) return false;
+    select_least(p->key, n, n - n / 2);
     for (size_t i = 0; i < n; i++) p->list[from + i] = (uint32_t)p->key[i];
-    return true;
 }
 
 /* The pieces of list[from] ... below a node; as many to the left as to the right, or one more. */
@@ -125,7 +150,8 @@ static bool plant(planter *p, uint32_t node, size_t from, size_t n)
         t->extent[node] = n ? p->extent[p->list[from]] : NOWHERE;
         return true;
     }
-    if (!sunder_i_steps(n) || (n > 1 && !sort_by(p, from, n, widest(p, from, n)))) return false;
+    if (!sunder_i_steps(n)) return false;
+    if (n > 1) halve_by(p, from, n, widest(p, from, n));
     if (!plant(p, 2 * node, from, n - n / 2) || !plant(p, 2 * node + 1, from + n - n / 2, n / 2)) return false;
     t->extent[node] = t->extent[2 * node];
     include(&t->extent[node], &t->extent[2 * node + 1]);

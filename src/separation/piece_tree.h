@@ -53,10 +53,4 @@ static inline float sunder_i_extents_depth(const sunder_i_extents *u, const sund
     return depth[0];
 }
 
-/* The larger of two nodes is the one to be opened. */
-static inline float sunder_i_extents_size(const sunder_i_extents *u)
-{
-    return u->high[0] - u->low[0] + (u->high[SUNDER_I_WAYS / 2] - u->low[SUNDER_I_WAYS / 2]);
-}
-
 #endif

@@ -15,7 +15,7 @@
 #include <math.h>
 
 #define MOST_TRIES 1000 /* pairs of boxes that are looked at to hold one square */
-#define NODES_A_TRY 64  /* pairs of nodes that a try of a subsum may cost; by measurement on stars */
+#define NODES_A_TRY 16  /* pairs of nodes that a try of a subsum may cost; by measurement on stars */
 
 /* ---- Boxes ---- */
 
@@ -85,12 +85,10 @@ static position position_to_subsum(const sunder_i_squares *q, const double at[4]
     return p < r ? p : r;
 }
 
-/* The halves of the larger one of two nodes, each with the other. */
+/* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
 static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32_t part[2][2])
 {
-    const sunder_i_piece_tree *p = &q->tree[0], *r = &q->tree[1];
-    const bool first = b >= r->leaves || (a < p->leaves && sunder_i_extents_size(p->extent + a) >=
-                                                               sunder_i_extents_size(r->extent + b));
+    const bool first = b >= q->tree[1].leaves || (a < q->tree[0].leaves && a <= b);
     for (uint32_t k = 0; k < 2; k++) {
         part[k][0] = first ? 2 * a + k : a;
         part[k][1] = first ? b : 2 * b + k;

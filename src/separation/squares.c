@@ -1,6 +1,6 @@
-/* Squares that something holds whole (square_pairs.c) are closed; those that few pairs of pieces come near are open, and
- * searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there few
- * pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
+/* Squares that something holds whole (square_pairs.c) are closed; those that few pairs of pieces come near are open,
+ * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
+ * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
 #include "separation/squares_inner.h"
 
 #include "number/watch.h"
@@ -10,7 +10,7 @@
 
 /* With so few pairs a square is searched as it is; with twice as many after each halving from a certain one on, as many
  * may truly meet in one point. So it is with the subsums that are tried to hold one. */
-#define FEW_PAIRS 256
+#define FEW_PAIRS 128
 #define HOLD_TRIES 16
 #define PATIENT 8
 #define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
