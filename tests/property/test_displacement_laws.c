@@ -1,19 +1,21 @@
 /* Laws over whole layers: how the answers to related questions are related.
  *
- * Without a proof of its optimum a search can only be good, so two of them are counted, not demanded:
+ * Without a proof of its optimum a search can only be good, so three of them are counted, not demanded:
  *
  *   (a) a looser limit leaves no more conflicts and, where none are left, costs no more
  *   (c) a smaller gap costs no more where none are left
+ *   (g) features shifted by what all coordinates hold exactly have the same conflicts, and costs within 1 %
  *
- * by groups of features that could meet in either run; few may break them. The aim is one in a hundred; 1.3 (a) and 0.8 (c)
- * were measured over four seeds, and what is asserted keeps them from growing. The rest holds always:
+ * by groups of features that could meet in either run; fewer than one in a hundred may break them (of few groups two). The
+ * rest holds always:
  *
  *   (b) a limit longer than the longest move without one changes nothing, to the byte
  *   (d) a feature farther than anything can reach changes no other's move
  *   (e) a layer scaled by a power of two, lengths too, has its moves scaled, to the byte
+ *   (f) features in another order have the same moves, to the byte, unless two are alike in everything
+ *   (g) where a group's optimum is proved in either place, the costs agree within 1e-9, and what rounding adds
  *
- * (f) Features in another order, or shifted by what all coordinates hold exactly, are counted by towns. Breaches are shown
- * where SUNDER_LAWS_SHOW is set. */
+ * Breaches are shown where SUNDER_LAWS_SHOW is set. */
 #include "random.h"
 #include "upheld.h"
 
@@ -50,6 +52,8 @@ typedef struct outcome {
     double move[2 * MOST], cost, longest;
     size_t conflicts, clusters;
     size_t conflict[2 * MOST * MOST]; /* pairs of features */
+    sunder_bound_pair pair[MOST * MOST]; /* what the lower bound stands on */
+    size_t pairs;
 } outcome;
 
 /* ---- Towns */
@@ -129,6 +133,8 @@ static void separate(const town *t, outcome *o)
         o->conflict[2 * o->conflicts] = c[k].a;
         o->conflict[2 * o->conflicts++ + 1] = c[k].b;
     }
+    const sunder_bound_pair *p = sunder_report_bound_pairs(report, &o->pairs);
+    memcpy(o->pair, p, o->pairs * sizeof *p);
     sunder_report_free(report);
     sunder_layer_free(layer);
     for (size_t k = 0; k < t->n; k++) sunder_shape_free(shape[k]);
@@ -228,12 +234,12 @@ static void compare(tally *sum, size_t i, const town *t, double gap, const outco
     }
 }
 
-/* At most `percent` of the groups, and of few groups two. */
-static void judge(const tally *t, size_t percent)
+/* Fewer than one in a hundred groups, and of few groups two. */
+static void judge(const tally *t)
 {
     const size_t breaches = t->more_conflicts + t->dearer;
     printf("%s: %zu groups, %zu with more conflicts, %zu dearer\n", t->law, t->groups, t->more_conflicts, t->dearer);
-    assert_true(breaches <= 2 || 100 * breaches <= percent * t->groups);
+    assert_true(breaches <= 2 || 100 * breaches < t->groups);
 }
 
 /* ---- Laws */
@@ -265,7 +271,7 @@ static void test_limits(void **state)
         compare(&sum, i, &t, t.gap, run + 1, run + 2);
     }
     free(run);
-    judge(&sum, 4);
+    judge(&sum);
 }
 
 static void test_gaps(void **state)
@@ -287,7 +293,7 @@ static void test_gaps(void **state)
         compare(&sum, i, &t, wide, run + 1, run);
     }
     free(run);
-    judge(&sum, 2);
+    judge(&sum);
 }
 
 static void test_far_feature(void **state)
@@ -348,54 +354,141 @@ static void test_scale(void **state)
     free(run);
 }
 
-/* The same town shifted by a multiple of 1/8, or in another order; to[k]: where feature k went. */
-static void alter(rng *r, const town *t, town *u, size_t to[MOST], bool shift)
+static bool are_twins(const house *p, const house *q)
 {
-    double by[2] = {0, 0};
-    for (int c = 0; shift && c < 2; c++) by[c] = (double)rng_int(r, -800000, 800000) / 8;
-    *u = *t;
-    for (size_t k = 0; k < t->n; k++) to[k] = k;
-    for (size_t k = t->n; !shift && k-- > 1;) {
-        const size_t with = (size_t)rng_int(r, 0, (int64_t)k), swap = to[k];
-        to[k] = to[with];
-        to[with] = swap;
-    }
-    for (size_t k = 0; k < t->n; k++) {
-        house *h = &u->house[to[k]];
-        *h = t->house[k];
-        for (size_t c = 0; c < 2 * h->corners; c++) h->xy[c] += by[c & 1];
-    }
+    return p->corners == q->corners && memcmp(p->xy, q->xy, 2 * p->corners * sizeof *p->xy) == 0 &&
+           p->weight == q->weight && p->limit == q->limit && p->fixed == q->fixed;
 }
 
-static void test_order_and_place(void **state)
+static bool has_twins(const town *t)
+{
+    for (size_t i = 0; i < t->n; i++)
+        for (size_t j = 0; j < i; j++)
+            if (are_twins(&t->house[i], &t->house[j])) return true;
+    return false;
+}
+
+static void test_order(void **state)
 {
     (void)state;
-    size_t towns = 0, conflicts[2] = {0, 0}, percent[2] = {0, 0};
     outcome *run = calloc(2, sizeof *run);
     assert_non_null(run);
-    for (size_t i = 0; i < test_count(30); i++, towns++) {
+    for (size_t i = 0; i < test_count(30); i++) {
         rng r = rng_start(test_seed() + 4, i);
         town t = {0}, u;
         size_t to[MOST];
         found(&r, &t);
         if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
         separate(&t, run);
-        for (int shift = 0; shift < 2; shift++) {
-            alter(&r, &t, &u, to, shift);
-            separate(&u, run + 1);
-            if (run->conflicts != run[1].conflicts)
-                conflicts[shift]++;
-            else if (fabs(run->cost - run[1].cost) > 0.01 * run->cost + slack(&t, run))
-                percent[shift]++;
+        u = t;
+        for (size_t k = 0; k < t.n; k++) to[k] = k;
+        for (size_t k = t.n; k-- > 1;) {
+            const size_t with = (size_t)rng_int(&r, 0, (int64_t)k), swap = to[k];
+            to[k] = to[with];
+            to[with] = swap;
         }
+        for (size_t k = 0; k < t.n; k++) u.house[to[k]] = t.house[k];
+        separate(&u, run + 1);
+        bool same = run->conflicts == run[1].conflicts;
+        for (size_t k = 0; k < t.n; k++)
+            same = same && memcmp(run->move + 2 * k, run[1].move + 2 * to[k], 2 * sizeof *run->move) == 0;
+        if (!same && !has_twins(&t))
+            fail_msg("seed %llu, case %zu: features in another order have other moves",
+                     (unsigned long long)test_seed(), i);
     }
     free(run);
-    for (int shift = 0; shift < 2; shift++)
-        printf("%s: %zu towns, other conflicts in %zu, costs that differ by over 1 %% in %zu\n",
-               shift ? "another place" : "another order", towns, conflicts[shift], percent[shift]);
-    /* Of whole towns, of which one has a dozen groups: four in a hundred and eight in a hundred were seen. */
-    for (int shift = 0; shift < 2; shift++)
-        assert_true(100 * (conflicts[shift] + percent[shift]) <= 10 * towns + 200);
+}
+
+/* What pairs of each group prove of its cost: sum l d - sum (sum l)^2 / 4 w. */
+static void bound_groups(const town *t, const outcome *o, const size_t root[MOST], double bound[MOST])
+{
+    double load[MOST] = {0};
+    for (size_t k = 0; k < t->n; k++) bound[k] = 0;
+    for (size_t k = 0; k < o->pairs; k++) {
+        const sunder_bound_pair *p = &o->pair[k];
+        bound[root[p->a]] += p->multiplier * p->least;
+        load[p->a] += p->multiplier;
+        load[p->b] += p->multiplier;
+    }
+    for (size_t k = 0; k < t->n; k++)
+        if (!t->house[k].fixed) bound[root[k]] -= load[k] * load[k] / (4 * t->house[k].weight);
+}
+
+/* The pairs in conflict of one group, in the same order in both reports. */
+static bool same_conflicts(const outcome *p, const outcome *q, const size_t root[MOST], size_t group)
+{
+    size_t at = 0;
+    for (size_t k = 0; k < p->conflicts; k++) {
+        if (root[p->conflict[2 * k]] != group) continue;
+        while (at < q->conflicts && root[q->conflict[2 * at]] != group) at++;
+        if (at == q->conflicts || memcmp(p->conflict + 2 * k, q->conflict + 2 * at, 2 * sizeof *p->conflict)) return false;
+        at++;
+    }
+    while (at < q->conflicts && root[q->conflict[2 * at]] != group) at++;
+    return at == q->conflicts;
+}
+
+typedef struct agreement {
+    size_t groups, proved, other_conflicts, other_cost;
+} agreement;
+
+/* A bound reckoned by features is less than that of the blocks that they make, so what it proves is proved. */
+static void agree(agreement *sum, size_t i, const town *t, const outcome *p, const outcome *q)
+{
+    size_t root[MOST] = {0};
+    account a[MOST], b[MOST];
+    double pb[MOST], qb[MOST];
+    group(t, t->gap, p, q, root);
+    settle_accounts(t, p, root, a);
+    settle_accounts(t, q, root, b);
+    bound_groups(t, p, root, pb);
+    bound_groups(t, q, root, qb);
+    for (size_t k = 0; k < t->n; k++) {
+        if (root[k] != k || (a[k].cost == 0 && b[k].cost == 0 && a[k].conflicts + b[k].conflicts == 0)) continue;
+        const double off = fabs(a[k].cost - b[k].cost), hair = 1e-9 * fmax(a[k].cost, b[k].cost) + slack(t, p) + slack(t, q);
+        const bool proved = a[k].conflicts + b[k].conflicts == 0 &&
+                            (a[k].cost - pb[k] <= hair || b[k].cost - qb[k] <= hair);
+        const bool same = same_conflicts(p, q, root, k);
+        sum->groups++;
+        sum->proved += proved;
+        if (proved && off > hair)
+            fail_msg("seed %llu, case %zu: costs %.17g and %.17g, of which one is proved to be the least",
+                     (unsigned long long)test_seed(), i, a[k].cost, b[k].cost);
+        sum->other_conflicts += !same;
+        sum->other_cost += same && off > 0.01 * fmin(a[k].cost, b[k].cost) + hair;
+        if ((!same || off > 0.01 * fmin(a[k].cost, b[k].cost) + hair) && getenv("SUNDER_LAWS_SHOW"))
+            printf("another place, case %zu: %zu conflicts, cost %.9g; there %zu, %.9g\n", i, a[k].conflicts, a[k].cost,
+                   b[k].conflicts, b[k].cost);
+    }
+}
+
+static void test_place(void **state)
+{
+    (void)state;
+    agreement sum = {0};
+    outcome *run = calloc(2, sizeof *run);
+    assert_non_null(run);
+    for (size_t i = 0; i < test_count(30); i++) {
+        rng r = rng_start(test_seed() + 5, i);
+        town t = {0}, u;
+        found(&r, &t);
+        if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
+        separate(&t, run);
+        u = t;
+        for (int c = 0; c < 2; c++) {
+            const double by = (double)rng_int(&r, -800000, 800000) / 8;
+            for (size_t k = 0; k < t.n; k++)
+                for (size_t v = 0; v < t.house[k].corners; v++) u.house[k].xy[2 * v + (size_t)c] += by;
+        }
+        separate(&u, run + 1);
+        agree(&sum, i, &t, run, run + 1);
+    }
+    free(run);
+    printf("another place: %zu groups, %zu proved, other conflicts in %zu, costs that differ by over 1 %% in %zu\n",
+           sum.groups, sum.proved, sum.other_conflicts, sum.other_cost);
+    const size_t breaches = sum.other_conflicts + sum.other_cost;
+    assert_true(breaches <= 2 || 100 * breaches < sum.groups);
+    assert_true(sum.proved > 0);
 }
 
 int main(void)
@@ -403,6 +496,6 @@ int main(void)
     printf("seed %llu\n", (unsigned long long)test_seed());
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_limits), cmocka_unit_test(test_gaps),
                                        cmocka_unit_test(test_far_feature), cmocka_unit_test(test_scale),
-                                       cmocka_unit_test(test_order_and_place)};
+                                       cmocka_unit_test(test_order), cmocka_unit_test(test_place)};
     return cmocka_run_group_tests_name("laws over whole layers", tests, NULL, NULL);
 }
