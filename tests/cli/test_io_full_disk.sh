@@ -34,7 +34,7 @@ if [ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null; then
         STRIKE_UNDER=at "$strike" list 0 "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err
         read -r _ bytes status _ <report
         [ "$status" -eq 0 ] || fail "$each is not written at all"
-        for place in $((bytes / 3)) $((bytes - 8)); do
+        for place in $((bytes / 3)) $((bytes - 8)) $((bytes - 1)); do
             rm -rf at/*
             STRIKE_UNDER=at "$strike" full "$place" "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err
             read -r _ _ status _ <report

@@ -105,7 +105,7 @@ while read -r name former words; do
     struck calls 0
     [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$name: the run fails when it is not struck: $(cat err)"
     new=$(state)
-    first=$((shown ? shown : calls))
+    all=$calls first=$((shown ? shown : calls))
     for place in $(places 1 "$first"); do
         struck signal "$place"
         judge signal "$place"
@@ -114,14 +114,14 @@ while read -r name former words; do
         judge signals:$again "$place"
     done
     # And towards the end, where the output comes to its place.
-    for place in $(places $((first - 20)) "$calls"); do
+    for place in $(places $((first - 20)) $((all + 1))); do
         struck signal "$place"
         judge signal "$place"
         struck signals:0 "$place"
         judge signals:0 "$place"
     done
     [ $((interrupted * ended)) -gt 0 ] || fail "$name: interrupted $interrupted, ended $ended times: the test proves nothing"
-    echo "$name: $calls calls, the output shows from call $first on; interrupted $interrupted, done all the same" \
+    echo "$name: $all calls, the output shows from call $first on; interrupted $interrupted, done all the same" \
         "$completed, ended by the second signal $ended"
 done <<<"$scenarios"
 finish
