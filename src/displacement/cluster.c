@@ -1,6 +1,7 @@
 /* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; then
  * round. Afterwards, from a free start, look for cheaper sides. */
 #include "displacement/search.h"
+#include "displacement/vicinity.h"
 
 #include <math.h>
 
@@ -16,6 +17,9 @@
 /* So many orders are tried in which bodies are put back one by one, where they are no more than that. */
 #define MOST_ORDERS 24
 #define MOST_ORDERED 16
+/* Where more bodies than MANY may move, a change is tried with no more than ABOUT of them. */
+#define MANY 64
+#define ABOUT 32
 /* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
 #define PATIENCE 10000
 
@@ -39,87 +43,8 @@ static void hand_over(sunder_i_search *s, sunder_i_cluster *cluster)
     s->ended_n = s->ended_capacity = 0;
 }
 
-/* ---- Neighbours that stay ------------------------------------------------------------------------------------------
+/* ---- Once more -----------------------------------------------------------------------------------------------------
  */
-
-typedef struct rank {
-    double cost;
-    uint32_t index, other;
-} rank;
-
-static int by_cost(const void *a, const void *b)
-{
-    const rank *p = a, *q = b;
-    if (p->cost != q->cost) return p->cost > q->cost ? -1 : 1;
-    if (p->index != q->index) return p->index < q->index ? -1 : 1;
-    return p->other < q->other ? -1 : p->other > q->other;
-}
-
-static double farthest(const double t[2]) { return fmax(fabs(t[0]), fabs(t[1])); }
-
-/* How far bodies of the cluster go, one with another. */
-static double mean_move(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own)
-{
-    double sum = 0;
-    size_t n = 0;
-    for (size_t k = 0; k < cluster->n; k++) {
-        if (town->body[cluster->body[k]].fixed) continue;
-        sum += farthest(own + 2 * k);
-        n++;
-    }
-    return n ? sum / (double)n : 0;
-}
-
-/* Bodies that stand within reach of the cluster, as obstacles that stay: appended to the list of bodies and moves. Each
- * member looks about itself as far as it may be sent by its own move, or by those of the others as they mostly are: one
- * that had to go far does not make all the others look that far. */
-static bool add_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, uint32_t **body, double **move,
-                          size_t *n, const double *own)
-{
-    sunder_i_list hits = {0};
-    bool ok = true;
-    const double mean = mean_move(town, cluster, own);
-    for (size_t k = 0; k < cluster->n && ok; k++) {
-        const sunder_i_body *b = &town->body[cluster->body[k]];
-        if (b->fixed || b->pieces == 0) continue;
-        const double reach = town->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
-        double box[4];
-        for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
-        ok = sunder_i_index_query(town->standing, box, &hits);
-    }
-    for (size_t k = 0; k < hits.n; k++) hits.item[k] = town->body_of[hits.item[k]];
-    /* Sorted and without repetition, and without the cluster's own, which are sorted too. */
-    rank *order = sunder_i_alloc(hits.n, sizeof *order);
-    ok = ok && order;
-    size_t strangers = 0;
-    if (ok) {
-        for (size_t k = 0; k < hits.n; k++) order[k] = (rank){0, hits.item[k], 0};
-        qsort(order, hits.n, sizeof *order, by_cost);
-        size_t own_at = 0;
-        for (size_t k = 0; k < hits.n; k++) {
-            const uint32_t b = order[k].index;
-            if (k && b == order[k - 1].index) continue;
-            while (own_at < cluster->n && cluster->body[own_at] < b) own_at++;
-            if (own_at < cluster->n && cluster->body[own_at] == b) continue;
-            hits.item[strangers++] = b;
-        }
-        *body = sunder_i_alloc(cluster->n + strangers, sizeof **body);
-        *move = sunder_i_alloc(2 * (cluster->n + strangers), sizeof **move);
-        ok = *body && *move;
-    }
-    if (ok) {
-        memcpy(*body, cluster->body, cluster->n * sizeof **body);
-        memcpy(*move, own, 2 * cluster->n * sizeof **move);
-        for (size_t k = 0; k < strangers; k++) {
-            (*body)[cluster->n + k] = hits.item[k];
-            memcpy(*move + 2 * (cluster->n + k), town->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
-        }
-        *n = cluster->n + strangers;
-    }
-    sunder_i_free(order);
-    sunder_i_free(hits.item);
-    return ok;
-}
 
 sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, const sunder_i_suit *suit,
                                      size_t suits, double *move, sunder_error *err)
@@ -129,7 +54,7 @@ sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster
     size_t n = 0;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
-    bool ok = add_strangers(town, cluster, &body, &all, &n, move);
+    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
     if (ok) ok = sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     if (ok) {
         s.own = cluster->n;
@@ -171,6 +96,19 @@ sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster
 
 /* ---- Better sides ---------------------------------------------------------------------------------------------- */
 
+typedef struct rank {
+    double cost;
+    uint32_t index, other;
+} rank;
+
+static int by_cost(const void *a, const void *b)
+{
+    const rank *p = a, *q = b;
+    if (p->cost != q->cost) return p->cost > q->cost ? -1 : 1;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    return p->other < q->other ? -1 : p->other > q->other;
+}
+
 static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
 
 /* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
@@ -188,6 +126,16 @@ static bool attempt(sunder_i_search *s, double *best, double *cost)
     }
     memcpy(s->t, best, size);
     return false;
+}
+
+/* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with them. */
+static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
+{
+    if (!s->vicinity) return attempt(s, best, cost);
+    const double gain = sunder_i_vicinity_descend(s->vicinity, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
+    if (gain > 0) memcpy(best, s->t, 2 * s->n * sizeof *best);
+    *cost -= gain;
+    return gain > 0;
 }
 
 /* The longest move, and the power of two below it. */
@@ -239,7 +187,7 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
         double place[2];
         if (!sunder_i_search_free_body(s, i, 0.98 * length, place)) continue;
         memcpy(s->t + 2 * i, place, sizeof place);
-        attempt(s, best, cost);
+        attempt_about(s, i, i, best, cost);
     }
 }
 
@@ -297,10 +245,25 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
                 s->t[2 * j + (uint32_t)c] += share * change;
                 s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
             }
-            if (attempt(s, best, cost)) break;
+            if (attempt_about(s, i, j, best, cost)) break;
         }
     }
     sunder_i_free(order);
+}
+
+/* One round of both. */
+static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    sunder_i_vicinity about = {0};
+    size_t moving = 0;
+    for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
+    if (moving > MANY) s->vicinity = &about;
+    if (s->vicinity && !sunder_i_vicinity_init(&about, s)) s->failed = true;
+    if (!s->failed) try_places(s, order, best, cost);
+    if (!s->failed) try_sides(s, best, cost);
+    if (s->vicinity && !s->failed) attempt(s, best, cost);
+    s->vicinity = NULL;
+    sunder_i_vicinity_free(&about);
 }
 
 /* Places and sides in turn, until a round of both gains little. */
@@ -308,8 +271,7 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     for (int round = 0; round < 4 && has_time(s) && !s->failed; round++) {
         const double start = *cost;
-        try_places(s, order, best, cost);
-        try_sides(s, best, cost);
+        try_once(s, order, best, cost);
         if (!(*cost < start * (1 - 1e-3))) break;
     }
 }
@@ -383,7 +345,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     uint32_t *shuffled = NULL;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
-    bool ok = add_strangers(town, cluster, &body, &all, &n, move);
+    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
     if (ok) {
         best = sunder_i_alloc(2 * n, sizeof *best);
         near = sunder_i_alloc(2 * n, sizeof *near);

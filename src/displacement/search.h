@@ -31,6 +31,7 @@ typedef struct sunder_i_search {
     sunder_i_couple *ended; /* pairs of bodies for which those of the town do not count; sorted */
     size_t ended_n, ended_capacity;
     double cap;             /* no body is sent farther than this, whatever its limit; INFINITY unless set */
+    struct sunder_i_vicinity *vicinity; /* lent: changes are tried in it; NULL: with all */
     sunder_i_scratch scratch;
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
@@ -44,6 +45,11 @@ typedef struct sunder_i_search {
 bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, const uint32_t *body, size_t n,
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
+
+/* The bodies of a cluster, which stand at `own`, and then those about it: *n bodies and where they stand. False if memory is
+ * out; what there is by then is the caller's, too. */
+bool sunder_i_cluster_about(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
+                            uint32_t **body, double **move, size_t *n);
 
 /* Is there a truce between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where not. */
 bool sunder_i_search_is_torn(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);

@@ -151,37 +151,77 @@ static bool is_free(sunder_i_vicinity *v)
     return !s->failed;
 }
 
-/* Puts those that move where the part has them, or (NULL) back where they were. */
-static void put(sunder_i_vicinity *v, const sunder_i_search *part)
+/* Puts those that move there: a place for each of v->place. */
+static void put(sunder_i_vicinity *v, const double *t)
 {
     for (size_t k = 0; k < v->n; k++) {
         double box[4];
         if (!v->moves[v->place[k]]) continue;
-        memcpy(v->all->t + 2 * (size_t)v->place[k], (part ? part->t : v->t) + 2 * k, 2 * sizeof *v->t);
+        memcpy(v->all->t + 2 * (size_t)v->place[k], t + 2 * k, 2 * sizeof *t);
         box_at(v->all, v->place[k], 0, box);
         if (v->all->town->body[v->body[k]].pieces) sunder_i_index_move(&v->tree, v->place[k], box);
     }
 }
 
+/* Begins with the pair and those about it as they stand. On failure it has ended. */
+static bool open_part(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach, sunder_i_search *part)
+{
+    memset(part, 0, sizeof *part);
+    if (gather(v, i, j, most, reach) && begin(v, part)) return true;
+    part->failed = true;
+    end(v, part);
+    return false;
+}
+
 bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     sunder_i_search part;
-    memset(&part, 0, sizeof part);
-    if (!gather(v, i, j, most, reach) || !begin(v, &part)) {
-        v->all->failed = part.failed = true;
-        end(v, &part);
-        return false;
-    }
+    if (!open_part(v, i, j, most, reach, &part)) return false;
     bool done = v->moving > 0 && sunder_i_search_descend(&part);
     if (!done && v->moving && !part.failed && sunder_i_search_jump(&part)) {
         part.patience += PATIENCE * (uint64_t)v->n;
         done = sunder_i_search_descend(&part);
     }
     if (done && !part.failed) {
-        put(v, &part);
+        put(v, part.t);
         done = is_free(v);
-        if (!done) put(v, NULL);
+        if (!done) put(v, v->t);
     }
     end(v, &part);
     return done && !v->all->failed;
+}
+
+/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for each of
+ * all. */
+static double costs_more(const sunder_i_vicinity *v, const double *t, const double *best)
+{
+    double sum = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        const uint32_t i = v->place[k];
+        const double *to = t + 2 * k, *from = best + 2 * (size_t)i;
+        if (v->moves[i])
+            sum += (to[0] * to[0] + to[1] * to[1] - from[0] * from[0] - from[1] * from[1]) / (2 * v->all->mass[i]);
+    }
+    return sum;
+}
+
+double sunder_i_vicinity_descend(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach,
+                                 const double *best, double least)
+{
+    sunder_i_search part;
+    double gain = 0;
+    if (!open_part(v, i, j, most, reach, &part)) return 0;
+    for (size_t k = 0; k < v->n; k++) memcpy(v->t + 2 * k, best + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
+    part.settled = v->all->settled;
+    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
+    if (gain > least) {
+        put(v, part.t);
+        if (!is_free(v)) gain = 0;
+    }
+    if (!(gain > least)) {
+        put(v, v->t);
+        gain = 0;
+    }
+    end(v, &part);
+    return gain;
 }
