@@ -19,8 +19,9 @@ static const size_t stage[] = {2, 8, 32, 128};
 /* Effort, in constraints looked at: for a cluster, and for each of its bodies. */
 #define EFFORT 2000000u
 #define EFFORT_EACH 5000u
-/* What one descent of the whole may take, for each body. */
-#define PATIENCE 1500u
+/* What one descent of the whole may take: so much, and so much for each body. */
+#define PATIENCE 200000u
+#define PATIENCE_EACH 1500u
 
 typedef struct petition {
     sunder_i_search *search;
@@ -79,10 +80,10 @@ static bool settle_all(petition *p)
     const size_t size = 2 * s->n * sizeof *p->stand;
     memcpy(p->stand, s->t, size);
     s->program.n = 0;
-    s->patience = work_of(s) + PATIENCE * (uint64_t)s->n;
+    s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     bool done = sunder_i_search_descend(s);
     if (!done && !s->failed && sunder_i_search_jump(s)) {
-        s->patience = work_of(s) + PATIENCE * (uint64_t)s->n;
+        s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
         done = sunder_i_search_descend(s);
     }
     s->patience = UINT64_MAX;

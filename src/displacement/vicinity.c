@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-/* What a descent among so many bodies may take, for each of them, in constraints looked at. */
-#define PATIENCE 1500u
+/* What a descent among so many bodies may take, in constraints looked at: so much, and so much for each of them. */
+#define PATIENCE 200000u
+#define PATIENCE_EACH 1500u
 
 static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
 {
@@ -119,7 +120,7 @@ static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
     part->truces = s->truces;
     part->ended = s->ended;
     part->ended_n = s->ended_n;
-    part->patience = PATIENCE * (uint64_t)v->n;
+    part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
 }
 
@@ -179,7 +180,7 @@ bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size
     if (!open_part(v, i, j, most, reach, &part)) return false;
     bool done = v->moving > 0 && sunder_i_search_descend(&part);
     if (!done && v->moving && !part.failed && sunder_i_search_jump(&part)) {
-        part.patience += PATIENCE * (uint64_t)v->n;
+        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
         done = sunder_i_search_descend(&part);
     }
     if (done && !part.failed) {

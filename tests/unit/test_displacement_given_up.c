@@ -1,0 +1,140 @@
+/* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is helped
+ * in whatever crowd. */
+#include "displacement/displacement.h"
+#include "random.h"
+
+#include "sunder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ---- The list ------------------------------------------------------------------------------------------------------
+ */
+
+enum { BODIES = 24 };
+
+static void expect_same(const sunder_i_truces *p, const sunder_i_truces *q)
+{
+    assert_int_equal(p->n, q->n);
+    assert_int_equal(p->torn_n, q->torn_n);
+    for (size_t k = 0; k < p->n; k++) {
+        assert_int_equal(p->item[k].a, q->item[k].a);
+        assert_int_equal(p->item[k].b, q->item[k].b);
+    }
+    for (size_t k = 0; k < p->torn_n; k++) {
+        assert_int_equal(p->torn[k].i, q->torn[k].i);
+        assert_int_equal(p->torn[k].j, q->torn[k].j);
+        assert_true(p->torn[k].reach == q->torn[k].reach);
+    }
+}
+
+/* Truces between bodies of one feature each, all of them or those that are not among `without`. */
+static void index_all(const sunder_i_town *town, const sunder_i_truce *truce, size_t n, const sunder_i_couple *without,
+                      size_t without_n, sunder_i_truces *out)
+{
+    for (size_t k = 0; k < n; k++)
+        if (sunder_i_couple_at(without, without_n, town->body_of[truce[k].a], town->body_of[truce[k].b]) == without_n)
+            assert_true(sunder_i_truces_add(out, &truce[k]));
+    assert_true(sunder_i_truces_index(out, town));
+}
+
+static void check_list(void **state)
+{
+    (void)state;
+    uint32_t body_of[BODIES];
+    sunder_i_town town = {.body_of = body_of, .features = BODIES};
+    printf("seed %llu\n", (unsigned long long)test_seed());
+    for (uint32_t f = 0; f < BODIES; f++) body_of[f] = (7 * f + 3) % BODIES;
+    for (uint64_t round = 0; round < test_count(200); round++) {
+        rng r = rng_start(test_seed(), round);
+        sunder_i_truce truce[40];
+        sunder_i_couple half[40];
+        size_t n = 0, h = 0;
+        sunder_i_truces one = {0}, all = {0}, rest = {0};
+        for (uint32_t k = 0; k < 40; k++) {
+            const uint32_t a = (uint32_t)rng_int(&r, 0, BODIES - 2);
+            const uint32_t b = (uint32_t)rng_int(&r, a + 1, BODIES - 1);
+            const sunder_i_truce t = {.a = a, .b = b, .shift = {(double)rng_int(&r, 0, 2), 0}};
+            if (sunder_i_truces_find(&one, a, b)) continue;
+            assert_true(sunder_i_truces_insert(&one, &town, &t));
+            truce[n++] = t;
+        }
+        index_all(&town, truce, n, NULL, 0, &all);
+        expect_same(&one, &all);
+        for (size_t k = 0; k < n; k += 2) {
+            const uint32_t i = body_of[truce[k].a], j = body_of[truce[k].b];
+            half[h++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
+            sunder_i_truces_remove(&one, &town, &truce[k]);
+        }
+        qsort(half, h, sizeof *half, sunder_i_by_couple);
+        sunder_i_truces_end(&all, &town, half, h);
+        index_all(&town, truce, n, half, h, &rest);
+        expect_same(&one, &rest);
+        expect_same(&all, &rest);
+        sunder_i_truces_free(&one);
+        sunder_i_truces_free(&all);
+        sunder_i_truces_free(&rest);
+    }
+}
+
+/* ---- In a crowd ----------------------------------------------------------------------------------------------------
+ */
+
+enum { MOST = 300 };
+
+static void add_box(sunder_feature *out, double x, double y, double w, double h, bool fixed)
+{
+    const double xy[8] = {x, y, x + w, y, x + w, y + h, x, y + h};
+    const size_t corners = 4, rings = 1;
+    sunder_shape *shape = NULL;
+    sunder_error err;
+    if (sunder_shape_from_rings(xy, &corners, &rings, 1, SUNDER_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    *out = (sunder_feature){.shape = shape, .weight = 1, .max_shift = 1, .block = -1, .fixed = fixed};
+}
+
+/* A row of slabs, each of which overlaps the next: within the limits no more than a handful part. Beneath each stands a
+ * hut that it overlaps by less than it may move. However long the row is, no slab stays on its hut. */
+static void check_row(size_t slabs)
+{
+    sunder_feature feature[2 * MOST];
+    for (size_t k = 0; k < slabs; k++) {
+        add_box(&feature[k], 19.5 * (double)k, 9.5, 20, 6, false);
+        add_box(&feature[slabs + k], 19.5 * (double)k + 6, 0, 8, 9.75, true);
+    }
+    sunder_layer_options options;
+    sunder_layer_options_init(&options);
+    options.no_blocks = true;
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    if (sunder_layer_new(feature, 2 * slabs, &layer, &err)) fail_msg("%s", err.message);
+    if (sunder_layer_separate(layer, &options, &report, &err)) fail_msg("%s", err.message);
+    size_t n;
+    const sunder_conflict *conflict = sunder_report_conflicts(report, &n);
+    for (size_t k = 0; k < n; k++) assert_true(conflict[k].a < slabs && conflict[k].b < slabs);
+    assert_true(n < slabs);
+    sunder_report_free(report);
+    sunder_layer_free(layer);
+    for (size_t k = 0; k < 2 * slabs; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
+}
+
+static void check_rows(void **state)
+{
+    (void)state;
+    for (size_t slabs = 10; slabs <= MOST; slabs *= 5) check_row(slabs);
+    check_row(MOST);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_list), cmocka_unit_test(check_rows)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
