@@ -39,7 +39,8 @@ typedef enum sunder_status {
     SUNDER_ERANGE,   /* a result that doubles cannot hold */
     SUNDER_ENOMEM,   /* an allocation failed; everything made so far has been released */
     SUNDER_ECANCEL,  /* a progress callback, or what watches the thread, asked to stop */
-    SUNDER_ESIZE     /* more parts than can be numbered: vertices, pairs of convex pieces, corners of a sum */
+    SUNDER_ESIZE,    /* more parts than can be numbered: vertices, pairs of convex pieces, corners of a sum */
+    SUNDER_EFAULT    /* a result failed the library's own exact check, and is withheld: a defect to be reported */
 } sunder_status;
 
 #define SUNDER_MESSAGE_MAX 256

@@ -13,6 +13,7 @@ const char *sunder_status_string(sunder_status status)
     case SUNDER_ENOMEM: return "out of memory";
     case SUNDER_ECANCEL: return "stopped on request";
     case SUNDER_ESIZE: return "more parts than can be numbered";
+    case SUNDER_EFAULT: return "internal fault";
     }
     return "unknown status";
 }

@@ -106,7 +106,7 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || doubles_free(p, out->dx, out->dy);
     if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
     if (!sunder_i_gap_verify(p, &a->at) && !g->placed.lattice.arena.failed)
-        return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: a translation failed its exact check");
+        return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
     if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
@@ -127,7 +127,7 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     if (status) return status;
     if (answer.found && !(answer.bound * g->unit > o->upper)) return fill(p, &answer, o->texts, out, err);
     if (!(o->upper < INFINITY)) /* two sets can always be parted */
-        return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: no free translation was found");
+        return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no free translation was found");
     sunder_i_too_far(o->upper, out, beyond);
     return SUNDER_OK;
 }

@@ -149,7 +149,7 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
         out->at = f->spot;
     else if (!sunder_i_gap_clear(s, f, &way, xy, bits, &out->at))
         return s->failed ? sunder_i_no_memory(err)
-                         : sunder_i_fail(err, SUNDER_ERANGE, "internal fault: no way off a free point");
+                         : sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no way off a free point");
     return SUNDER_OK;
 }
 

@@ -51,7 +51,7 @@ static sunder_status answer_without_gap(sunder_i_pairing *g, const sunder_i_near
     sunder_i_answer_numbers(g, &v, out);
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || sunder_i_doubles_free(g, out->dx, out->dy);
     if (!sunder_i_nearest_verify(g, f) && !l->arena.failed)
-        return sunder_i_fail(err, SUNDER_ERANGE, "internal fault: a translation failed its exact check");
+        return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
     if (l->arena.failed) return sunder_i_no_memory(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }

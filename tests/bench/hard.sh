@@ -97,7 +97,11 @@ crowd|crowd-full|crowd|400 1500 6000|separate IN OUT --gap 3 --max-shift 10 --fi
 detail-sum|detail|-|4000 8000 16000|sum P Q --stats -
 stairs-pair|stairs|-|4000 8000 16000|pair P Q
 ragged-pair|ragged|-|4000 8000 16000|pair P Q
-copies-pair|copies|-|500 1000 2000|pair P Q
+rough-pair|rough|-|4000 8000 16000|pair P Q
+hollow-pair|hollow|-|4000 8000 16000|pair P Q
+combs-pair|combs|-|4000 8000 16000|pair P Q
+spikes-box|spikes-box|-|4000 8000 16000|pair P Q
+copies-pair|copies|-|2000 4000 8000 16000|pair P Q
 LIST
 }
 

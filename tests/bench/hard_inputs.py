@@ -14,6 +14,10 @@ pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, t
         stairs         a blob as it is traced along pixels, and the same beside it
         copies         a coast, and the same coast digitised again
         ragged         a star of long thin spikes, and another a little aside
+        rough          the same with spikes of two thirds of the radius
+        hollow         a plate with a star cut out, and a star in it that does not quite fit
+        combs          two combs, one on its head in the other
+        spikes-box     a star, and a small square on its middle
         detail         SIZE vertices on a small outline, far from a large plain one; Q a triangle
 layers  pairs          SIZE pairs of squares that overlap, far from each other
         pairs-far      the same, and one pair more whose squares lie deep in each other
@@ -135,11 +139,34 @@ def copies(n, draw):
             polygon([(x + 1.0 + draw.uniform(-0.3, 0.3), y + 0.5 + draw.uniform(-0.3, 0.3)) for x, y in again])]
 
 
-def ragged(n, draw):
-    def star(x, y):
-        return [(x + r * math.cos(2 * math.pi * i / n), y + r * math.sin(2 * math.pi * i / n))
-                for i in range(n) for r in (draw.uniform(10, 1000),)]
-    return [polygon(star(EAST, NORTH)), polygon(star(EAST + 30.5, NORTH + 20.25))]
+def star(n, draw, x, y, least, most):
+    return [(x + r * math.cos(2 * math.pi * i / n), y + r * math.sin(2 * math.pi * i / n))
+            for i in range(n) for r in (draw.uniform(least, most),)]
+
+
+def ragged(n, draw, least=10):
+    return [polygon(star(n, draw, EAST, NORTH, least, 1000)),
+            polygon(star(n, draw, EAST + 30.5, NORTH + 20.25, least, 1000))]
+
+
+def hollow(n, draw):
+    plate = rectangle(EAST - 1100.0, NORTH - 1100.0, 2200.0, 2200.0)
+    hole = star(n, draw, EAST, NORTH, 300, 1000)
+    return ["POLYGON (%s, %s)" % (ring(plate), ring(hole)), polygon(star(n, draw, EAST + 20.0, NORTH + 30.25, 10, 310))]
+
+
+def combs(n, draw):
+    def comb(x, y, up):
+        step, points = 4000.0 / n, [(0.0, -50.0), (1000.0, -50.0)]
+        for i in reversed(range(n // 4)):
+            foot, top = draw.uniform(0, 15), draw.uniform(90, 300)
+            points += [(step * (i + u), v) for u, v in ((0.6, top), (0.35, top), (0.3, foot), (0.0, foot))]
+        return [(x + up * u, y + up * v) for u, v in points]
+    return [polygon(comb(EAST, NORTH, 1)), polygon(comb(EAST + 1003.0, NORTH + 500.0, -1))]
+
+
+def spikes_box(n, draw):
+    return [polygon(star(n, draw, EAST, NORTH, 10, 1000)), polygon(rectangle(EAST - 5.0, NORTH - 5.0, 10.0, 10.0))]
 
 
 def detail(n, draw):
@@ -212,7 +239,8 @@ def crowd(n, draw, full=False):
 
 
 PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
-         "slivers": slivers, "stairs": stairs, "pile": pile, "copies": copies, "ragged": ragged, "detail": detail}
+         "slivers": slivers, "stairs": stairs, "pile": pile, "copies": copies, "ragged": ragged,
+         "rough": lambda n, draw: ragged(n, draw, 333), "hollow": hollow, "combs": combs, "spikes-box": spikes_box, "detail": detail}
 LAYERS = {"pairs": pairs, "pairs-far": lambda n, draw: pairs(n, draw, True), "outline": outline, "heap": heap,
           "versions-layer": lambda n, draw: [(body, 0) for body in outline_versions(n, draw)], "houses": houses,
           "houses-bows": lambda n, draw: houses(n, draw, 40), "crowd": crowd,

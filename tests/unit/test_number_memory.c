@@ -143,7 +143,7 @@ static void test_words(void **state)
     for (int i = 0; i < 5; i++) assert_string_equal(sunder_conflict_kind_string((sunder_conflict_kind)i), kind[i]);
     for (int i = 0; i < 8; i++) assert_string_equal(sunder_reason_string((sunder_reason)i), reason[i]);
     assert_string_equal(sunder_version(), SUNDER_VERSION);
-    for (int i = 0; i <= SUNDER_ESIZE; i++)
+    for (int i = 0; i <= SUNDER_EFAULT; i++)
         for (int j = 0; j < i; j++)
             assert_string_not_equal(sunder_status_string((sunder_status)i), sunder_status_string((sunder_status)j));
     assert_non_null(sunder_status_string((sunder_status)99));
