@@ -9,10 +9,16 @@
 #include <string.h>
 
 /* With so few pairs a square is searched as it is; with twice as many after each halving from a certain one on, as many
- * may truly meet in one point. So it is with the subsums that are tried to hold one. */
+ * may truly meet in one point. */
 #define FEW_PAIRS 128
-#define HOLD_TRIES 16
 #define PATIENT 8
+/* So many subsums are tried to hold a square: twice as many after each halving from a certain one on, and whenever half
+ * as many squares have been looked at as there are pieces. Few are best where spikes are of all lengths: there is a deep
+ * one, or many that nearly hold it. But of a comb's teeth that are all alike only some in a thousand hold a square, and
+ * without them it falls to dust. */
+#define HOLD_TRIES 16
+#define HOLD_PATIENT 6
+#define HOLD_MOST 18 /* doublings */
 #define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
 #define ORIGIN_TRIES 1024
 /* So many squares, and so many for each piece, are looked at: each is worth some microseconds, and what else could be
@@ -77,13 +83,20 @@ static bool cut(sunder_i_squares *q, const sunder_i_square *s)
 
 typedef enum finding { CLOSED, OPEN, IN_PARTS, NO_MEMORY } finding;
 
+static uint32_t tries_to_hold(const sunder_i_squares *q, int depth)
+{
+    const size_t pieces = (size_t)q->g->shape[0]->pieces + q->g->shape[1]->pieces;
+    const size_t doublings = (size_t)(depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0) + 2 * q->seen / pieces;
+    return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
+}
+
 /* What is to be done with a square; if it is open its pairs are listed. */
 static finding look_at(sunder_i_squares *q, const sunder_i_square *s)
 {
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
     if (!sunder_i_step()) return NO_MEMORY;
     if (sunder_i_squares_boxes_hold(q, s->box)) return CLOSED;
-    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, HOLD_TRIES << patience);
+    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, tries_to_hold(q, s->depth));
     if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? CLOSED : IN_PARTS;
     const size_t few = (size_t)FEW_PAIRS << patience;
     if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? OPEN : CLOSED;
