@@ -101,8 +101,110 @@ static void check_worse(void **state)
     assert_true(ties > trials / 10 && worse_n > trials / 4);
 }
 
+/* ---- The oracle itself --------------------------------------------------------------------------------------------
+ */
+
+/* The greatest of the dot products of n with the corners of p. */
+static void support_of(mpq_t out, const polyset *p, const mpq_t n[2])
+{
+    mpq_t at, t;
+    mpq_inits(at, t, NULL);
+    for (size_t v = 0; v < p->vertices; v++) {
+        mpq_set_d(at, p->xy[2 * v]);
+        mpq_mul(at, at, n[0]);
+        mpq_set_d(t, p->xy[2 * v + 1]);
+        mpq_mul(t, t, n[1]);
+        mpq_add(at, at, t);
+        if (v == 0 || mpq_cmp(at, out) > 0) mpq_set(out, at);
+    }
+    mpq_clears(at, t, NULL);
+}
+
+/* How far, squared, one must go along the normal of p's edge from a to b; 0 where the edge parts them. */
+static void depth_along(mpq_t out, const double *a, const double *b, const polyset *p, const polyset *q)
+{
+    mpq_t n[2], t;
+    mpq_inits(n[0], n[1], t, NULL);
+    for (int c = 0; c < 2; c++) {
+        mpq_set_d(n[c], c == 0 ? b[1] : a[0]);
+        mpq_set_d(t, c == 0 ? a[1] : b[0]);
+        mpq_sub(n[c], n[c], t);
+    }
+    support_of(out, p, (const mpq_t *)n);
+    for (int c = 0; c < 2; c++) mpq_neg(n[c], n[c]);
+    support_of(t, q, (const mpq_t *)n);
+    mpq_add(out, out, t);
+    if (mpq_sgn(out) < 0) mpq_set_ui(out, 0, 1);
+    mpq_mul(out, out, out);
+    mpq_mul(n[0], n[0], n[0]);
+    mpq_mul(n[1], n[1], n[1]);
+    mpq_add(t, n[0], n[1]);
+    mpq_div(out, out, t);
+    mpq_clears(n[0], n[1], t, NULL);
+}
+
+/* Two convex sets are parted with least way along the normal of an edge of one of them. */
+static void convex_depth(mpq_t best, const polyset *p, const polyset *q)
+{
+    mpq_t depth;
+    mpq_init(depth);
+    bool any = false;
+    for (int side = 0; side < 2; side++) {
+        const polyset *own = side ? q : p, *other = side ? p : q;
+        for (size_t v = 0; v < own->vertices; v++, any = true) {
+            depth_along(depth, own->xy + 2 * v, own->xy + 2 * ((v + 1) % own->vertices), own, other);
+            if (!any || mpq_cmp(depth, best) < 0) mpq_set(best, depth);
+        }
+    }
+    mpq_clear(depth);
+}
+
+/* A parallelogram and a copy of it, or another convex polygon, put off by what doubles round: edges are parallel but
+ * for the last place, and contacts cross anywhere. */
+static void check_nearly_parallel(void **state)
+{
+    (void)state;
+    size_t meet = 0;
+    const size_t trials = test_count(400);
+    for (size_t k = 0; k < trials; k++) {
+        rng r = rng_start(test_seed(), k);
+        polyset p, q;
+        polyset_init(&p);
+        polyset_init(&q);
+        const double ax = (double)rng_int(&r, 1, 12), ay = (double)rng_int(&r, 0, 12) / 3;
+        const double bx = -(double)rng_int(&r, 0, 12) / 3, by = (double)rng_int(&r, 1, 12);
+        const double corner[8] = {0, 0, ax, ay, ax + bx, ay + by, bx, by};
+        for (int c = 0; c < 4; c++) polyset_vertex(&p, corner[2 * c], corner[2 * c + 1]);
+        polyset_end_ring(&p);
+        polyset_end_polygon(&p);
+        if (rng_once_in(&r, 4))
+            random_convex(&q, &r, (int)rng_int(&r, 3, 6), 6);
+        else
+            polyset_copy(&q, &p);
+        const double far = (double)rng_int(&r, 0, 100) / 7;
+        polyset_move(&p, far, far);
+        const double x = (double)rng_int(&r, -30, 30) / 7, y = (double)rng_int(&r, -30, 30) / 7;
+        polyset_move(&q, far + x, far + y);
+        standing s;
+        mpq_t expected;
+        mpq_init(expected);
+        standing_of(&s, &p, &q);
+        convex_depth(expected, &p, &q);
+        assert_int_equal(s.meet, mpq_sgn(expected) > 0);
+        if (s.meet && !mpq_equal(s.square, expected))
+            fail_msg("trial %zu: %.17g, but %.17g\n%s\n%s", k, mpq_get_d(s.square), mpq_get_d(expected), polyset_wkt(&p),
+                     polyset_wkt(&q));
+        meet += s.meet;
+        mpq_clear(expected);
+        standing_clear(&s);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+    assert_true(meet > trials / 3);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_worse)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_worse), cmocka_unit_test(check_nearly_parallel)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

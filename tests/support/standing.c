@@ -97,7 +97,16 @@ static void share_of(mpq_t s, const contact *all, const candidate *c)
     mpq_clears(t, u, NULL);
 }
 
-/* In doubles; the length is infinite where it is surely on none of the two. */
+/* The distance of the origin from a contact: no candidate on it is shorter. */
+static double reach_of(const contact *p)
+{
+    const double square = p->along[0] * p->along[0] + p->along[1] * p->along[1];
+    const double s = fmin(1, fmax(0, -(p->at[0] * p->along[0] + p->at[1] * p->along[1]) / square));
+    return hypot(p->at[0] + s * p->along[0], p->at[1] + s * p->along[1]);
+}
+
+/* In doubles; the length is infinite where it is surely on none of the two. Where two are nearly parallel, doubles do
+ * not say where they cross: then it is what the length is not below. */
 static double rough_length(const contact *all, const candidate *c)
 {
     const contact *p = &all[c->first], *q = &all[c->second];
@@ -108,6 +117,8 @@ static double rough_length(const contact *all, const candidate *c)
     if (c->kind == 3) {
         const double x = q->at[0] - p->at[0], y = q->at[1] - p->at[1];
         const double cross = p->along[0] * q->along[1] - p->along[1] * q->along[0];
+        if (fabs(cross) <= 1e-6 * hypot(p->along[0], p->along[1]) * hypot(q->along[0], q->along[1]))
+            return fmax(reach_of(p), reach_of(q));
         s = (x * q->along[1] - y * q->along[0]) / cross;
         const double r = (x * p->along[1] - y * p->along[0]) / cross;
         if (!(r > -1e-6 && r < 1 + 1e-6)) return INFINITY;
@@ -162,17 +173,18 @@ static void least_parting(mpq_t best, const polyset *a, const polyset *b)
     n += add_contacts(all + n, b, a, true);
     candidate *list = test_alloc(3 * n + n * n / 2, sizeof *list);
     const size_t m = list_candidates(list, all, n);
-    double most = INFINITY;
+    double most = INFINITY, extent = 0;
+    for (size_t k = 0; k < n; k++) extent = fmax(extent, hypot(all[k].at[0], all[k].at[1]));
     bool any = false;
     mpq_t x, y, square;
     mpq_inits(x, y, square, NULL);
-    /* Lengths in doubles are right to far better than this. */
+    /* Rough lengths are right to far better than a millionth of the extent, or too small. */
     for (size_t k = 0; k < m && list[k].length <= most; k++) {
         if (!make(all, &list[k], x, y, square) || (any && mpq_cmp(square, best) >= 0)) continue;
         if (interiors_meet(a, b, (const mpq_t *)&x, (const mpq_t *)&y)) continue;
         mpq_set(best, square);
         any = true;
-        most = list[k].length * (1 + 1e-6) + 1e-6;
+        most = sqrt(mpq_get_d(best)) * (1 + 1e-6) + 1e-6 * extent;
     }
     mpq_clears(x, y, square, NULL);
     for (size_t k = 0; k < n; k++) mpq_clears(all[k].x, all[k].y, all[k].dx, all[k].dy, NULL);
