@@ -17,7 +17,7 @@
  *
  * Breaches are shown where SUNDER_LAWS_SHOW is set. */
 #include "random.h"
-#include "upheld.h"
+#include "run_layer.h"
 
 #include "sunder.h"
 
@@ -102,8 +102,6 @@ static void separate(const town *t, outcome *o)
 {
     sunder_shape *shape[MOST];
     sunder_feature feature[MOST];
-    sunder_layer *layer = NULL;
-    sunder_report *report = NULL;
     sunder_error err;
     sunder_layer_options options;
     sunder_layer_summary summary;
@@ -119,10 +117,7 @@ static void separate(const town *t, outcome *o)
         feature[k] = (sunder_feature){
             .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = -1, .fixed = h->fixed};
     }
-    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
-        fail_msg("%s", err.message);
-    char *worse = upheld_breach(feature, t->n, &options, report);
-    if (worse) fail_msg("%s", worse);
+    sunder_report *report = run_separate(feature, t->n, &options);
     sunder_report_summary(report, &summary);
     *o = (outcome){.cost = summary.cost, .longest = summary.max, .clusters = summary.clusters};
     for (size_t k = 0; k < t->n; k++) sunder_report_move(report, k, &o->move[2 * k], &o->move[2 * k + 1]);
@@ -136,7 +131,6 @@ static void separate(const town *t, outcome *o)
     const sunder_bound_pair *p = sunder_report_bound_pairs(report, &o->pairs);
     memcpy(o->pair, p, o->pairs * sizeof *p);
     sunder_report_free(report);
-    sunder_layer_free(layer);
     for (size_t k = 0; k < t->n; k++) sunder_shape_free(shape[k]);
 }
 

@@ -4,7 +4,7 @@
  * conflict may be blamed on the limits or on want of room. Packed: boxes too wide together for the lane they cannot
  * leave: what remains is for want of room, and said to be. */
 #include "random.h"
-#include "upheld.h"
+#include "run_layer.h"
 
 #include "sunder.h"
 
@@ -66,21 +66,13 @@ static void free_town(town *t)
 
 static sunder_report *separate(const town *t, double gap)
 {
-    sunder_layer *layer = NULL;
-    sunder_report *report = NULL;
-    sunder_error err;
     sunder_layer_options options;
     sunder_layer_options_init(&options);
     options.contained = SUNDER_CONTAINED_SEPARATE;
     options.no_blocks = true;
     options.gap = gap;
     options.touch_tolerance = 0;
-    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
-        fail_msg("%s", err.message);
-    sunder_layer_free(layer);
-    char *worse = upheld_breach(t->feature, t->n, &options, report);
-    if (worse) fail_msg("%s", worse);
-    return report;
+    return run_separate(t->feature, t->n, &options);
 }
 
 /* Boxes in rows with alleys between them; each carried off by a multiple of 1/8 within the limit; some fixed instead.

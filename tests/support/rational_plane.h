@@ -1,0 +1,36 @@
+/* Vectors of the plane and convex polygons in rationals, for oracles: plain, slow, and with no code of src/. */
+#ifndef SUNDER_TESTS_RATIONAL_PLANE_H
+#define SUNDER_TESTS_RATIONAL_PLANE_H
+
+#include <gmp.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct vec {
+    mpq_t x, y;
+} vec;
+
+void vec_init(vec *v);
+void vec_clear(vec *v);
+void vec_set_d(vec *v, const double *xy);
+void vec_sub(vec *r, const vec *p, const vec *q);
+void vec_dot(mpq_t r, const vec *p, const vec *q);
+void vec_cross(mpq_t r, const vec *p, const vec *q);
+/* 1 where p, q, r turn left, -1 right, 0 straight. */
+int vec_side(const vec *p, const vec *q, const vec *r);
+
+/* Counter-clockwise, strictly convex; a segment or a point has two corners or one. */
+typedef struct hull {
+    vec *v;
+    size_t n, room; /* room: how many vectors there are to clear */
+} hull;
+
+/* The convex hull of all differences of a corner of a and one of b. */
+hull hull_difference(const double *a, size_t na, const double *b, size_t nb);
+void hull_free(hull *h);
+/* The squared distance of p from the closed polygon. */
+void hull_square_from(mpq_t square, const hull *h, const vec *p);
+/* Does the disc of radius |s| round p lie in the polygon? */
+bool hull_holds_disc(const hull *h, const vec *p, double s);
+
+#endif
