@@ -117,8 +117,9 @@ const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_
     return w->body + first;
 }
 
-/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: some
- * units in the last place of the coordinates; four times as much for each failed check. */
+/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a power of
+ * two, two to four units in the last place of the largest coordinate; four times as much for each failed check. So where
+ * a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins, does the same. */
 static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t n)
 {
     double largest = 0;
@@ -129,7 +130,9 @@ static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t 
         for (int c = 0; c < 4; c++) largest = fmax(largest, fabs(body->origin[c & 1]) + fabs(body->box[c]));
         if (w->widened[m[k].body] > widened) widened = w->widened[m[k].body];
     }
-    return ldexp(largest + w->town.rules.gap, -50 + 2 * (int)widened);
+    int exponent;
+    frexp(largest + w->town.rules.gap, &exponent);
+    return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 
 /* Clusters from the edges, afresh. */
