@@ -83,11 +83,12 @@ static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *
     const sighting *at = pair->at;
     if (look_up(at->known, at->known_n, part->key)) return;
     double gap;
-    const size_t n = sunder_i_search_obstacle(s, part, &gap);
-    if (n == 0) return;
-    sunder_i_support h = sunder_i_support_at(s->scratch.xy, n, at->near);
+    size_t n;
+    const sunder_i_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    sunder_i_support h = sunder_i_support_at(edge, n, at->near);
     if (h.distance > s->gap + at->reach) return;
-    if (at->near != at->u) h = sunder_i_support_at(s->scratch.xy, n, at->u);
+    if (at->near != at->u) h = sunder_i_support_at(edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two

@@ -327,8 +327,30 @@ typedef struct sunder_i_support {
     double distance; /* of u to the obstacle: negative inside, then of the shallowest side */
 } sunder_i_support;
 
-/* The support line of the convex polygon d (n corners) that is farthest below u. */
-sunder_i_support sunder_i_support_at(const double *d, size_t n, const double u[2]);
+/* An edge of an obstacle: where it begins, its outer normal, its length. */
+typedef struct sunder_i_edge {
+    double from[2], n[2], length;
+} sunder_i_edge;
+
+/* The edges of the convex polygon d of n corners, those without length left out, in edge[n]; returns how many. */
+size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_edge *edge);
+/* The support line of the convex polygon of these edges that is farthest below u. */
+sunder_i_support sunder_i_support_at(const sunder_i_edge *edge, size_t n, const double u[2]);
+
+/* Obstacles by key, for those that are asked for again and again; bounded, so what was put there may be gone. */
+typedef struct sunder_i_shelf {
+    struct sunder_i_shelved *slot; /* [slots] open addressing; slots is a power of two, or 0 */
+    size_t slots, used;
+    sunder_i_edge *edge;
+    size_t edges, capacity;
+} sunder_i_shelf;
+
+void sunder_i_shelf_free(sunder_i_shelf *shelf);
+/* The edges put there with that key (not 0), *n of them; NULL: none are there. */
+const sunder_i_edge *sunder_i_shelf_find(const sunder_i_shelf *shelf, uint64_t key, size_t *n);
+/* Puts the edges of the polygon d of n corners there, of whose key there are none; NULL: memory is out. They stay until
+ * something else is put there. */
+const sunder_i_edge *sunder_i_shelf_add(sunder_i_shelf *shelf, uint64_t key, const double *d, size_t *n);
 
 /* ---- Free places
  * --------------------------------------------------------------------------------------------------------- */

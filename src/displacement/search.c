@@ -53,6 +53,8 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_truces_free(&s->truces);
     sunder_i_free(s->ended);
     sunder_i_free(s->scratch.xy);
+    sunder_i_shelf_free(&s->shelf);
+    sunder_i_free(s->shifted);
     memset(s, 0, sizeof *s);
 }
 
@@ -231,25 +233,57 @@ double sunder_i_search_shift(const sunder_i_truce *truce, uint32_t of_j, double 
     return gap;
 }
 
+/* A + (-B), as it is. */
+static size_t make_obstacle(sunder_i_search *s, const sunder_i_part *part)
+{
+    const double *corner = s->town->corner;
+    return sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
+                               corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
+}
+
+/* What a part without a truce owes, n edges of its obstacle given. */
+static double owed(const sunder_i_search *s, const sunder_i_part *part, const sunder_i_edge *edge, size_t n)
+{
+    const double margin = s->gap - s->town->rules.gap, home[2] = {0, 0};
+    if (part->keeping == SUNDER_I_LAPSED) return s->gap;
+    if (part->keeping == SUNDER_I_STRICT) return margin;
+    return fmin(margin, sunder_i_support_at(edge, n, home).distance);
+}
+
+/* The edges of what is in s->scratch. */
+static const sunder_i_edge *take_edges(sunder_i_search *s, size_t *n)
+{
+    if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;
+    *n = sunder_i_edges_of(s->scratch.xy, *n, s->shifted);
+    return s->shifted;
+}
+
+const sunder_i_edge *sunder_i_search_edges(sunder_i_search *s, const sunder_i_part *part, size_t *n, double *gap)
+{
+    const sunder_i_edge *edge = part->truce ? NULL : sunder_i_shelf_find(&s->shelf, part->key, n);
+    *gap = s->gap;
+    s->steps++;
+    if (!edge) {
+        *n = make_obstacle(s, part);
+        if (*n && part->truce) {
+            *gap = fmin(s->gap, sunder_i_search_shift(part->truce, part->b->feature, s->scratch.xy, *n));
+            edge = take_edges(s, n);
+        } else if (*n) {
+            edge = sunder_i_shelf_add(&s->shelf, part->key, s->scratch.xy, n);
+        }
+    }
+    if (!edge || !sunder_i_steps(1 + *n / 8)) s->failed = true;
+    if (edge && !part->truce) *gap = owed(s, part, edge, *n);
+    return edge;
+}
+
 size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_part *part, double *gap)
 {
-    const double *corner = s->town->corner, home[2] = {0, 0};
-    const size_t n =
-        sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
-                            corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
-    if (n == 0 || !sunder_i_steps(1 + n / 8)) s->failed = true;
-    s->steps++;
-    if (part->truce) {
-        *gap = fmin(s->gap, sunder_i_search_shift(part->truce, part->b->feature, s->scratch.xy, n));
-        return n;
-    }
-    const double margin = s->gap - s->town->rules.gap;
-    if (part->keeping == SUNDER_I_LAPSED)
-        *gap = s->gap;
-    else if (part->keeping == SUNDER_I_STRICT)
-        *gap = margin;
-    else
-        *gap = n ? fmin(margin, sunder_i_support_at(s->scratch.xy, n, home).distance) : margin;
+    size_t n = 0;
+    sunder_i_search_edges(s, part, &n, gap);
+    n = s->failed ? 0 : make_obstacle(s, part);
+    if (n && part->truce) sunder_i_search_shift(part->truce, part->b->feature, s->scratch.xy, n);
+    if (n == 0) s->failed = true;
     return n;
 }
 
@@ -262,8 +296,9 @@ static void measure_part(sunder_i_search *s, const sunder_i_part *part, void *co
 {
     missing *m = context;
     double gap;
-    const size_t n = sunder_i_search_obstacle(s, part, &gap);
-    if (n) m->worst = fmax(m->worst, gap - sunder_i_support_at(s->scratch.xy, n, m->u).distance);
+    size_t n;
+    const sunder_i_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (edge) m->worst = fmax(m->worst, gap - sunder_i_support_at(edge, n, m->u).distance);
 }
 
 double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)

@@ -33,6 +33,9 @@ typedef struct sunder_i_search {
     double cap;             /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     struct sunder_i_vicinity *vicinity; /* lent: changes are tried in it; NULL: with all */
     sunder_i_scratch scratch;
+    sunder_i_shelf shelf;  /* obstacles of pairs of pieces */
+    sunder_i_edge *shifted; /* one that is not kept there */
+    size_t shifted_capacity;
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
     uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
@@ -88,6 +91,8 @@ double sunder_i_search_shift(const sunder_i_truce *truce, uint32_t of_j, double 
 /* The part's obstacle A + (-B), in search->scratch, shifted by its truce: how many corners (0: memory is out), and the
  * gap that it owes. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_part *part, double *gap);
+/* The same as edges, *n of them, which stay until the next call; NULL: memory is out. */
+const sunder_i_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_part *part, size_t *n, double *gap);
 
 /* Fills search->clash with the pairs that violate the gap at t, or their truce; returns the worst violation, of a limit
  * of moves too. */

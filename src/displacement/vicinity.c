@@ -102,7 +102,7 @@ static bool gather(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, do
 /* The search among those gathered; what was given up so far is lent by that of the whole. */
 static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
 {
-    const sunder_i_search *s = v->all;
+    sunder_i_search *s = v->all;
     sunder_i_set_make(v->place, v->n);
     for (size_t k = 0; k < v->n; k++) {
         v->body[k] = s->body[v->place[k]];
@@ -120,6 +120,8 @@ static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
     part->truces = s->truces;
     part->ended = s->ended;
     part->ended_n = s->ended_n;
+    part->shelf = s->shelf; /* and goes back there */
+    memset(&s->shelf, 0, sizeof s->shelf);
     part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
 }
@@ -130,6 +132,8 @@ static void end(sunder_i_vicinity *v, sunder_i_search *part)
     v->all->failed = v->all->failed || part->failed;
     memset(&part->truces, 0, sizeof part->truces);
     part->ended = NULL;
+    if (part->shelf.slots) v->all->shelf = part->shelf;
+    memset(&part->shelf, 0, sizeof part->shelf);
     sunder_i_search_free(part);
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
