@@ -159,11 +159,17 @@ typedef struct sunder_i_truce {
     bool hopeless; /* no moves within the limits make peace, which was proved; else the search gave up */
 } sunder_i_truce;
 
-/* Bodies i < j with a truce between members of theirs; no shift is longer than `reach`. */
+/* Bodies i < j with n truces between members of theirs; no shift is longer than `reach`. */
 typedef struct sunder_i_torn {
     uint32_t i, j;
     double reach;
+    size_t n;
 } sunder_i_torn;
+
+/* A truce that does not count any longer: of these bodies, i < j, and these features, a < b. */
+typedef struct sunder_i_ended {
+    sunder_i_couple body, feature;
+} sunder_i_ended;
 
 typedef struct sunder_i_truces {
     sunder_i_truce *item; /* sorted, as `torn` is, by sunder_i_truces_index() */
@@ -199,6 +205,9 @@ typedef struct sunder_i_town {
     sunder_i_couple *held;  /* bodies: a holds b, which therefore goes where a goes; sorted */
     size_t held_n;
     size_t kept_n;
+    sunder_i_couple *lying; /* features in conflict of which the one lies in the other at the start; sorted */
+    bool *lying_a;          /* [lying_n] it is the first */
+    size_t lying_n;
     sunder_i_truces truces;
     sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is at peace; sorted */
     size_t given_n;
@@ -228,7 +237,13 @@ sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_sc
  * leaves a scene that can be freed. */
 sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *scene, sunder_error *err);
 sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, const bool *changed, sunder_error *err);
+/* The same for one body. */
+sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, uint32_t body, sunder_error *err);
 void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene);
+/* Called for the relations of one body's members to those of others, as they stand, until *on is false; near: scratch. */
+typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on, sunder_error *err);
+sunder_status sunder_i_scene_about(const sunder_i_town *town, const sunder_i_scene *scene, uint32_t body,
+                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context, sunder_error *err);
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
 /* Joins what the rules join. */
 sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
@@ -250,11 +265,15 @@ bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town);
 /* The truce of two features, or between members of two bodies; NULL: there is none. */
 const sunder_i_truce *sunder_i_truces_find(const sunder_i_truces *truces, uint32_t f, uint32_t g);
 const sunder_i_torn *sunder_i_truces_between(const sunder_i_truces *truces, uint32_t body, uint32_t other);
-/* One more, or the only one between its bodies less, of truces that stay indexed. */
+/* One more, or one less, of truces that stay indexed. */
 bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce);
 void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce);
-/* Ends all truces between n pairs of bodies, sorted. They stay indexed. */
-void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_couple *body, size_t n);
+/* Those that were ended, n of them, sorted, are no more; to be indexed again. */
+void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_ended *ended, size_t n);
+/* Where it is, or belongs, among n of them, sorted. */
+size_t sunder_i_ended_at(const sunder_i_ended *list, size_t n, const sunder_i_ended *wanted);
+int sunder_i_by_ended(const void *a, const void *b);
+sunder_i_ended sunder_i_ended_of(const sunder_i_town *town, const sunder_i_truce *truce);
 /* A truce for two features, by how they stood at the start. */
 sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t g, sunder_i_truce *out,
                                 sunder_error *err);
@@ -277,6 +296,8 @@ typedef enum sunder_i_keeping {
 sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
 /* One more: a, or else b, is to get inside the other. Before the walls are made. */
 sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, bool a_in_b, sunder_error *err);
+/* Notes the pairs in conflict of which the one lies in the other, and that limits may leave so. */
+sunder_status sunder_i_keep_note(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
 /* The walls, for the search; after the pieces are cut. */
 sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err);
 /* Where the pair is in town->kept; kept_n if it never was. */
@@ -289,7 +310,7 @@ sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations
                                    sunder_error *err);
 /* The bodies that body b holds: *n of them, side b of each couple. */
 const sunder_i_couple *sunder_i_held_by(const sunder_i_town *town, uint32_t b, size_t *n);
-/* Of a pair that is in town->kept: does `inner` lie in `holder`, and not the other way round? */
+/* Does `inner` lie in `holder`, by town->kept or town->lying? */
 bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder);
 /* Does `holder` keep `inner` inside? Then *keeping tells how. */
 bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping);
@@ -422,7 +443,7 @@ typedef struct sunder_i_cluster {
     double margin;          /* what is demanded beyond the gap, to cover rounding */
     bool limited;           /* a limit or a fixed body is in it: it may have no solution */
     sunder_i_truces truces; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
-    sunder_i_couple *ended; /* [ended_n] pairs of bodies that were under a truce, and now are at peace; owned */
+    sunder_i_ended *ended;  /* [ended_n] truces of the town that no longer count: these are at peace; owned */
     size_t ended_n;
 } sunder_i_cluster;
 
@@ -432,9 +453,10 @@ typedef struct sunder_i_suit {
     sunder_i_couple body;
     const uint32_t *truce; /* [truces] between members of theirs: places in the town's */
     size_t truces;
+    size_t part;    /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */
     bool overlap;   /* do members overlap? */
-    bool peace;     /* ask for peace */
-    bool disjoint;  /* ask, at least, that they do not overlap */
+    bool peace;     /* ask for peace, those that are not hopeless */
+    bool disjoint;  /* ask, at least, that they do not overlap, those that can be parted so far */
     double missing; /* what it would take */
 } sunder_i_suit;
 

@@ -82,6 +82,7 @@ sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err)
     const size_t n = w->start.n;
     judging g = {&w->town, &w->start, sunder_i_calloc(n, sizeof *g.truce), sunder_i_calloc(n, sizeof *g.peace)};
     sunder_status status = g.truce && g.peace ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_keep_note(&w->town, &w->start, err);
     if (!status) status = sunder_i_parallel(w->town.rules.threads, n, 8, judge, &g, err);
     for (size_t k = 0; !status && k < n; k++) status = note(w, &w->start.pair[k], &g.truce[k], &g.peace[k], err);
     if (!status && !sunder_i_truces_index(&w->town.truces, &w->town)) status = sunder_i_no_memory(err);
@@ -93,23 +94,25 @@ sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err)
 /* ---- What clusters did ---------------------------------------------------------------------------------------------
  */
 
-/* Pairs of bodies that are at peace again: they are under no truce, and are not given up. */
+/* Pairs that are at peace again: they are under no truce, and bodies between which none is left are not given up. */
 static bool end_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
 {
     size_t n = 0, out = 0;
     for (size_t k = 0; k < clusters; k++) n += cluster[k].ended_n;
     if (n == 0) return true;
-    sunder_i_couple *ended = sunder_i_alloc(n, sizeof *ended);
+    sunder_i_ended *ended = sunder_i_alloc(n, sizeof *ended);
     if (!ended) return false;
     n = 0;
     for (size_t k = 0; k < clusters; k++)
         for (size_t e = 0; e < cluster[k].ended_n; e++) ended[n++] = cluster[k].ended[e];
-    qsort(ended, n, sizeof *ended, sunder_i_by_couple);
+    qsort(ended, n, sizeof *ended, sunder_i_by_ended);
     sunder_i_truces_end(&town->truces, town, ended, n);
-    for (size_t k = 0; k < town->given_n; k++)
-        if (sunder_i_couple_at(ended, n, town->given[k].a, town->given[k].b) == n) town->given[out++] = town->given[k];
-    town->given_n = out;
     sunder_i_free(ended);
+    if (!sunder_i_truces_index(&town->truces, town)) return false;
+    for (size_t k = 0; k < town->given_n; k++)
+        if (sunder_i_truces_between(&town->truces, town->given[k].a, town->given[k].b))
+            town->given[out++] = town->given[k];
+    town->given_n = out;
     return true;
 }
 

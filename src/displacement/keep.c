@@ -26,7 +26,9 @@ bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
 bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder)
 {
     const size_t at = sunder_i_kept_at(town, holder, inner);
-    return at < town->kept_n && town->a_in_b[at] == (inner < holder);
+    if (at < town->kept_n) return town->a_in_b[at] == (inner < holder);
+    const size_t lying = sunder_i_couple_at(town->lying, town->lying_n, holder, inner);
+    return lying < town->lying_n && town->lying_a[lying] == (inner < holder);
 }
 
 bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping)
@@ -52,6 +54,24 @@ sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *
         if (!r->kept) continue;
         town->kept[town->kept_n] = (sunder_i_couple){r->a, r->b};
         town->a_in_b[town->kept_n++] = r->a_in_b;
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_keep_note(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < relations->n; k++) n += relations->pair[k].contained;
+    town->lying = sunder_i_alloc(n, sizeof *town->lying);
+    town->lying_a = sunder_i_alloc(n, sizeof *town->lying_a);
+    if (!town->lying || !town->lying_a) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+        if (!r->contained || r->duplicate || r->kept || i == j) continue;
+        if (!isfinite(sunder_i_limit_of(&town->body[i]) + sunder_i_limit_of(&town->body[j]))) continue;
+        town->lying[town->lying_n] = (sunder_i_couple){r->a, r->b};
+        town->lying_a[town->lying_n++] = r->a_in_b;
     }
     return SUNDER_OK;
 }
@@ -191,11 +211,12 @@ static void add_walls(sunder_i_town *town, sunder_i_body *body, uint32_t f, doub
 
 sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err)
 {
-    if (town->kept_n == 0) return SUNDER_OK;
+    if (town->kept_n + town->lying_n == 0) return SUNDER_OK;
     bool *holds = sunder_i_calloc(town->features, sizeof *holds);
     if (!holds) return sunder_i_no_memory(err);
     size_t edges = 0;
-    for (size_t k = 0; k < town->kept_n; k++) holds[town->a_in_b[k] ? town->kept[k].b : town->kept[k].a] = true;
+    for (size_t k = 0; k < town->kept_n; k++) holds[holder_of(town, k)] = true;
+    for (size_t k = 0; k < town->lying_n; k++) holds[town->lying_a[k] ? town->lying[k].b : town->lying[k].a] = true;
     for (size_t f = 0; f < town->features; f++)
         if (holds[f]) edges += town->layer->feature[f].shape->vertices;
     sunder_status status = list_held(town) ? SUNDER_OK : sunder_i_no_memory(err);

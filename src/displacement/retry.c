@@ -1,10 +1,12 @@
 /* Pairs that were given up are asked for peace again.
  *
  * Pairs that were put under a truce together (yield.c) may be more than need be. So once nothing joins clusters any more
- * each is asked by itself, those that overlap first, the rest keeping what they have: at first with nobody but the pair
- * moving, then with more and more of those about it (vicinity.c), at last with the whole cluster. What overlaps and finds no
- * peace is asked not to overlap, at least. All are asked at one stage before any is at the next, so that where the effort
- * ends the small questions have been put; it grows with the number of bodies, and with nothing else. */
+ * each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several members are
+ * in conflict for all of these, and then for each, since one may have no solution where others do. At first nobody but the
+ * pair moves, then more and more of those about it (vicinity.c), at last the whole cluster. What overlaps and finds no
+ * peace is asked not to overlap, at least, before any pair that is only too near is asked for anything. All are asked at
+ * one stage before any is at the next, so that where the effort ends the small questions have been put; it grows with the
+ * number of bodies and of pairs, and with nothing else. */
 #include "displacement/search.h"
 #include "displacement/vicinity.h"
 
@@ -16,9 +18,10 @@
 static const size_t stage[] = {2, 8, 32, 128};
 #define STAGES (sizeof stage / sizeof *stage)
 #define FEW 8
-/* Effort, in constraints looked at: for a cluster, and for each of its bodies. */
+/* Effort, in constraints looked at: for a cluster, for each of its bodies, and for each pair that is asked. */
 #define EFFORT 2000000u
 #define EFFORT_EACH 5000u
+#define EFFORT_SUIT 200000u
 /* What one descent of the whole may take: so much, and so much for each body. */
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
@@ -40,34 +43,63 @@ static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program
 /* ---- What is asked -------------------------------------------------------------------------------------------------
  */
 
-/* From now on the town's truces between the two do not count; or they do again. */
-static bool end_truce(sunder_i_search *s, const sunder_i_couple *pair)
+static const sunder_i_truce *truce_of(const sunder_i_search *s, const sunder_i_suit *x, size_t k)
 {
-    if (!sunder_i_reserve(&s->ended, &s->ended_capacity, s->ended_n + 1, sizeof *s->ended)) return false;
-    size_t at = s->ended_n++;
-    for (; at > 0 && sunder_i_by_couple(&s->ended[at - 1], pair) > 0; at--) s->ended[at] = s->ended[at - 1];
-    s->ended[at] = *pair;
+    return &s->town->truces.item[x->truce[k]];
+}
+
+static size_t find_ended(const sunder_i_search *s, const sunder_i_truce *t, bool *known)
+{
+    const sunder_i_ended wanted = sunder_i_ended_of(s->town, t);
+    const size_t at = sunder_i_ended_at(s->ended, s->ended_n, &wanted);
+    *known = at < s->ended_n && sunder_i_by_ended(&s->ended[at], &wanted) == 0;
+    return at;
+}
+
+/* From now on the town's truces of this suit do not count, but for those that are hopeless; or they do again. */
+static bool end_truces(sunder_i_search *s, const sunder_i_suit *x)
+{
+    if (!sunder_i_reserve(&s->ended, &s->ended_capacity, s->ended_n + x->truces, sizeof *s->ended)) return false;
+    for (size_t k = 0; k < x->truces; k++) {
+        const sunder_i_truce *t = truce_of(s, x, k);
+        bool known;
+        const size_t at = find_ended(s, t, &known);
+        if (t->hopeless || known) continue;
+        memmove(s->ended + at + 1, s->ended + at, (s->ended_n++ - at) * sizeof *s->ended);
+        s->ended[at] = sunder_i_ended_of(s->town, t);
+    }
     return true;
 }
 
-static void resume_truce(sunder_i_search *s, const sunder_i_couple *pair)
+static void resume_truces(sunder_i_search *s, const sunder_i_suit *x)
 {
-    const size_t at = sunder_i_couple_at(s->ended, s->ended_n, pair->a, pair->b);
-    memmove(s->ended + at, s->ended + at + 1, (--s->ended_n - at) * sizeof *s->ended);
+    for (size_t k = 0; k < x->truces; k++) {
+        bool known;
+        const size_t at = find_ended(s, truce_of(s, x, k), &known);
+        if (known) memmove(s->ended + at, s->ended + at + 1, (--s->ended_n - at) * sizeof *s->ended);
+    }
 }
 
-/* The pair's truces, but that what overlapped no longer does. */
+/* The suit's truces, but that what overlapped no longer does. */
 static bool ask_disjoint(sunder_i_search *s, const sunder_i_suit *x)
 {
     const sunder_i_town *town = s->town;
     for (size_t k = 0; k < x->truces; k++) {
-        sunder_i_truce t = town->truces.item[x->truce[k]];
-        if (t.shift[0] == 0 && t.shift[1] == 0) continue;
+        sunder_i_truce t = *truce_of(s, x, k);
+        if (!sunder_i_suit_parts(town, &t)) continue;
         t.shift[0] = t.shift[1] = 0;
+        t.inside = false;
         t.gap = s->gap - town->rules.gap; /* so that no rounding makes them overlap again */
         if (!sunder_i_truces_insert(&s->truces, town, &t)) return false;
     }
     return true;
+}
+
+static void resume_overlap(sunder_i_search *s, const sunder_i_suit *x)
+{
+    for (size_t k = 0; k < x->truces; k++)
+        if (sunder_i_suit_parts(s->town, truce_of(s, x, k)))
+            sunder_i_truces_remove(&s->truces, s->town, truce_of(s, x, k));
 }
 
 /* ---- At one stage --------------------------------------------------------------------------------------------------
@@ -117,35 +149,66 @@ static bool grant(petition *p, size_t k, size_t level, bool peace)
 {
     sunder_i_search *s = p->search;
     const sunder_i_suit *x = &p->suit[k];
-    if (!(peace ? end_truce(s, &x->body) : ask_disjoint(s, x))) {
+    if (!(peace ? end_truces(s, x) : ask_disjoint(s, x))) {
         s->failed = true;
         return false;
     }
     if (settle_one(p, k, level)) return true;
     if (peace)
-        resume_truce(s, &x->body);
+        resume_truces(s, x);
     else
-        for (size_t t = 0; t < x->truces; t++) sunder_i_truces_remove(&s->truces, s->town, &s->town->truces.item[x->truce[t]]);
+        resume_overlap(s, x);
     return false;
 }
 
+/* What is asked, in this order: as few overlaps as can be, then as few pairs. Truces of two bodies first together; of
+ * those of which that had no solution, each. */
+typedef struct request {
+    bool overlap, peace, part;
+} request;
+
+static const request requests[] = {{true, true, false},  {true, true, true},   {true, false, false},
+                                   {true, false, true},  {false, true, false}, {false, true, true}};
+#define REQUESTS (sizeof requests / sizeof *requests)
+
+/* Was it granted with others, or is it not what this request is for? */
+static bool is_out(const petition *p, size_t k, const request *r)
+{
+    const sunder_i_suit *x = &p->suit[k];
+    bool known;
+    if (p->settled[k] || x->overlap != r->overlap || (x->part > 0) != r->part || !(r->peace ? x->peace : x->disjoint))
+        return true;
+    if (!r->part) return false;
+    const sunder_i_truce *t = truce_of(p->search, x, 0);
+    find_ended(p->search, t, &known);
+    return known || sunder_i_truces_find(&p->search->truces, t->a, t->b);
+}
+
 /* Puts one question to all whom it concerns, stage by stage. */
-static void ask_all(petition *p, bool peace)
+static void ask_all(petition *p, const request *r)
 {
     sunder_i_search *s = p->search;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++)
         for (size_t k = 0; k < p->n && !s->failed && work_of(s) < p->effort; k++) {
-            const sunder_i_suit *x = &p->suit[k];
-            if (p->settled[k] || (p->in_vain[k] && level < STAGES) || !(peace ? x->peace : x->disjoint)) continue;
-            p->settled[k] = grant(p, k, level, peace);
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r)) continue;
+            p->settled[k] = grant(p, k, level, r->peace);
             p->any = p->any || p->settled[k];
         }
 }
 
+/* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. */
+static bool is_in_order(sunder_i_search *s)
+{
+    s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const bool ok = sunder_i_search_look(s, s->t) <= s->tolerance || (!s->failed && sunder_i_search_descend(s));
+    s->patience = UINT64_MAX;
+    return ok && !s->failed;
+}
+
 void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t n)
 {
-    if (sunder_i_search_look(s, s->t) > s->tolerance || s->failed) return;
+    if (!is_in_order(s)) return;
     petition p = {.search = s,
                   .suit = suit,
                   .n = n,
@@ -155,9 +218,10 @@ void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t
     for (size_t k = 0; k < s->n; k++) p.moving += s->mass[k] > 0;
     if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_vicinity_init(&p.vicinity, s)))
         s->failed = true;
-    for (int disjoint = 0; disjoint < 2 && !s->failed; disjoint++) {
-        p.effort = work_of(s) + (EFFORT + EFFORT_EACH * (uint64_t)p.moving) / 2;
-        ask_all(&p, !disjoint);
+    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_SUIT * (uint64_t)n;
+    for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
+        if (!requests[k].part) p.effort = work_of(s) + effort / 2;
+        ask_all(&p, &requests[k]);
     }
     if (p.any && p.moving > FEW) sunder_i_search_lower(s);
     sunder_i_vicinity_free(&p.vicinity);

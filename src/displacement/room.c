@@ -52,7 +52,7 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
     const bool torn = sunder_i_search_is_torn(s, (uint32_t)(p - town->body), (uint32_t)(q - town->body), &shift);
     const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap + shift;
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
-    if (p->walls || q->walls) add_walls(s, o, p, q, offset, v, r, torn);
+    if ((p->walls || q->walls) && (torn || town->kept_n)) add_walls(s, o, p, q, offset, v, r, torn);
     for (uint32_t k = 0; k < np; k++) {
         const sunder_i_piece *a = part_of(town, p, coarse_p, k);
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};

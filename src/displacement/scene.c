@@ -75,6 +75,19 @@ sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, co
     return sunder_i_index_build(scene->box, town->present, town->features, &scene->tree, err);
 }
 
+sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, uint32_t body, sunder_error *err)
+{
+    const sunder_i_body *b = &town->body[body];
+    for (uint32_t m = 0; m < b->members; m++) {
+        const uint32_t f = town->member[b->member + m];
+        if (!town->present[f]) continue;
+        const sunder_status status = stand_feature(town, scene, f, err);
+        if (status) return status;
+        sunder_i_index_move(&scene->tree, f, scene->box + 4 * (size_t)f);
+    }
+    return SUNDER_OK;
+}
+
 /* ---- Near pairs --------------------------------------------------------------------------------------------- */
 
 typedef struct pair_search {
@@ -155,6 +168,32 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
         if (status) return status;
     }
     return SUNDER_OK;
+}
+
+sunder_status sunder_i_scene_about(const sunder_i_town *town, const sunder_i_scene *scene, uint32_t body,
+                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context, sunder_error *err)
+{
+    const sunder_i_body *b = &town->body[body];
+    const double reach = fmax(town->rules.gap, town->rules.tolerance);
+    sunder_status status = SUNDER_OK;
+    bool on = true;
+    for (uint32_t m = 0; m < b->members && on && !status; m++) {
+        const uint32_t f = town->member[b->member + m];
+        double box[4];
+        if (!town->present[f]) continue;
+        sunder_i_box_grow(scene->box + 4 * (size_t)f, reach, box);
+        near->n = 0;
+        if (!sunder_i_index_query(&scene->tree, box, near)) return sunder_i_no_memory(err);
+        if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
+        for (size_t k = 0; k < near->n && on && !status; k++) {
+            const uint32_t g = near->item[k];
+            sunder_i_relation r = {.a = f < g ? f : g, .b = f < g ? g : f};
+            if (town->body_of[g] == body) continue;
+            status = sunder_i_relate(&town->rules, &scene->stand[r.a], &scene->stand[r.b], &r, err);
+            if (!status && (r.near || r.touch || r.kept)) status = visit(context, &r, &on, err);
+        }
+    }
+    return status;
 }
 
 static int by_features(const void *a, const void *b)

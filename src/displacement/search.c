@@ -137,9 +137,20 @@ void sunder_i_search_near_or_home(sunder_i_search *s, double reach, sunder_i_nea
  */
 
 /* Is it one of the town's truces that still counts here? */
-static bool still_counts(const sunder_i_search *s, uint32_t body, uint32_t other)
+static bool still_counts(const sunder_i_search *s, const sunder_i_truce *truce)
 {
-    return sunder_i_couple_at(s->ended, s->ended_n, body, other) == s->ended_n;
+    if (s->ended_n == 0) return true;
+    const sunder_i_ended wanted = sunder_i_ended_of(s->town, truce);
+    const size_t at = sunder_i_ended_at(s->ended, s->ended_n, &wanted);
+    return at == s->ended_n || sunder_i_by_ended(&s->ended[at], &wanted) != 0;
+}
+
+/* Has every truce of the town between the two been ended here? */
+static bool all_ended(const sunder_i_search *s, const sunder_i_torn *torn)
+{
+    const sunder_i_ended first = {{torn->i, torn->j}, {0, 0}}, last = {{torn->i, torn->j}, {UINT32_MAX, UINT32_MAX}};
+    return s->ended_n && sunder_i_ended_at(s->ended, s->ended_n, &last) -
+                                 sunder_i_ended_at(s->ended, s->ended_n, &first) == torn->n;
 }
 
 bool sunder_i_search_is_torn(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)
@@ -148,7 +159,7 @@ bool sunder_i_search_is_torn(const sunder_i_search *s, uint32_t body, uint32_t o
     if (s->truces.n + s->town->truces.n == 0) return false;
     const sunder_i_torn *own = sunder_i_truces_between(&s->truces, body, other),
                         *all = sunder_i_truces_between(&s->town->truces, body, other);
-    if (all && !still_counts(s, body, other)) all = NULL;
+    if (all && all_ended(s, all)) all = NULL;
     if (own) *reach = own->reach;
     if (all) *reach = fmax(*reach, all->reach);
     return own || all;
@@ -159,7 +170,7 @@ const sunder_i_truce *sunder_i_search_truce(const sunder_i_search *s, const sund
     const sunder_i_truce *truce = sunder_i_truces_find(&s->truces, a->feature, b->feature);
     if (truce) return truce;
     truce = sunder_i_truces_find(&s->town->truces, a->feature, b->feature);
-    return truce && still_counts(s, s->town->body_of[a->feature], s->town->body_of[b->feature]) ? truce : NULL;
+    return truce && still_counts(s, truce) ? truce : NULL;
 }
 
 /* Does the wall keep the piece inside, by the rules or by a truce? */
@@ -219,6 +230,7 @@ void sunder_i_search_parts(sunder_i_search *s, uint32_t i, uint32_t j, const dou
     part.torn = yields && sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift);
     reach += shift;
     sunder_i_search_visit(s, town->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    if (!part.torn && town->kept_n == 0) return;
     if (p->walls)
         sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
     if (q->walls)

@@ -28,7 +28,7 @@ typedef struct sunder_i_search {
     sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
     sunder_i_truces truces; /* of pairs that this search has given up; they come before those of the town */
-    sunder_i_couple *ended; /* pairs of bodies for which those of the town do not count; sorted */
+    sunder_i_ended *ended;  /* those of the town that do not count; sorted */
     size_t ended_n, ended_capacity;
     double cap;             /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     struct sunder_i_vicinity *vicinity; /* lent: changes are tried in it; NULL: with all */
@@ -130,7 +130,10 @@ void sunder_i_search_yield(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
 void sunder_i_search_lower(sunder_i_search *search);
 
-/* ---- retry.c ---- */
+/* ---- suits.c, retry.c ---- */
+
+/* Do the two features overlap now, and could limits let them be parted, if not to the gap? */
+bool sunder_i_suit_parts(const sunder_i_town *town, const sunder_i_truce *truce);
 
 /* From a free position, pairs under a truce are asked for peace, or at least not to overlap. What came of it is in
  * search->ended and search->truces. */

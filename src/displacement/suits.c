@@ -1,5 +1,6 @@
 /* Whom to ask once more: the pairs of bodies under a truce that might have a solution, by the clusters they are of. */
 #include "displacement/job.h"
+#include "displacement/search.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -33,7 +34,8 @@ static int by_ease(const void *a, const void *b)
     if (p->root != q->root) return p->root < q->root ? -1 : 1;
     if (p->overlap != q->overlap) return p->overlap ? -1 : 1;
     if (p->missing != q->missing) return p->missing < q->missing ? -1 : 1;
-    return sunder_i_by_couple(&p->body, &q->body);
+    const int order = sunder_i_by_couple(&p->body, &q->body);
+    return order ? order : (p->part > q->part) - (p->part < q->part);
 }
 
 static size_t list_claims(const sunder_i_job *w, claim *list)
@@ -51,30 +53,43 @@ static size_t list_claims(const sunder_i_job *w, claim *list)
     return n;
 }
 
-/* The suit of a pair of bodies, from the truces between them. */
+bool sunder_i_suit_parts(const sunder_i_town *town, const sunder_i_truce *t)
+{
+    const sunder_i_body *p = &town->body[town->body_of[t->a]], *q = &town->body[town->body_of[t->b]];
+    const double depth = hypot(t->shift[0], t->shift[1]);
+    return depth > 0 && town->rules.gap > 0 && depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
+}
+
+/* The suit of truces between two bodies. */
 static sunder_i_suit suit_of(const sunder_i_town *town, const claim *c, const uint32_t *truce, size_t n)
 {
-    sunder_i_suit x = {.root = c->root, .body = c->body, .truce = truce, .truces = n, .peace = true};
+    sunder_i_suit x = {.root = c->root, .body = c->body, .truce = truce, .truces = n};
     double deepest = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_truce *t = &town->truces.item[truce[k]];
         const double depth = hypot(t->shift[0], t->shift[1]);
-        if (t->hopeless) x.peace = false;
+        x.peace = x.peace || !t->hopeless;
+        x.disjoint = x.disjoint || sunder_i_suit_parts(town, t);
         deepest = fmax(deepest, depth);
         if (!(depth > 0)) x.missing = fmax(x.missing, town->rules.gap - t->gap);
     }
     x.overlap = deepest > 0;
     if (x.overlap) x.missing = deepest;
-    const double reach = sunder_i_limit_of(&town->body[c->body.a]) + sunder_i_limit_of(&town->body[c->body.b]);
-    x.disjoint = x.overlap && town->rules.gap > 0 && deepest <= reach;
     return x;
 }
 
+static void add_suit(suits *out, const sunder_i_suit *x)
+{
+    if (x->peace || x->disjoint) out->suit[out->n++] = *x;
+}
+
+/* For each two bodies one of all truces between them, and where these are several one of each, in case not all have a
+ * solution. */
 static bool list_suits(const sunder_i_job *w, suits *out)
 {
     const size_t most = w->town.truces.n;
     claim *list = sunder_i_alloc(most, sizeof *list);
-    out->suit = sunder_i_alloc(most, sizeof *out->suit);
+    out->suit = sunder_i_alloc(2 * most, sizeof *out->suit);
     out->truce = sunder_i_alloc(most, sizeof *out->truce);
     const bool ok = list && out->suit && out->truce;
     const size_t n = ok ? list_claims(w, list) : 0;
@@ -82,8 +97,13 @@ static bool list_suits(const sunder_i_job *w, suits *out)
     for (size_t first = 0, end; first < n; first = end) {
         const claim *c = &list[first];
         for (end = first; end < n && list[end].root == c->root && !sunder_i_by_couple(&list[end].body, &c->body);) end++;
-        const sunder_i_suit x = suit_of(&w->town, c, out->truce + first, end - first);
-        if (x.peace || x.disjoint) out->suit[out->n++] = x;
+        sunder_i_suit x = suit_of(&w->town, c, out->truce + first, end - first);
+        add_suit(out, &x);
+        for (size_t k = first; k < end && end - first > 1; k++) {
+            x = suit_of(&w->town, c, out->truce + k, 1);
+            x.part = k - first + 1;
+            add_suit(out, &x);
+        }
     }
     if (out->n) qsort(out->suit, out->n, sizeof *out->suit, by_ease);
     sunder_i_free(list);
@@ -142,11 +162,53 @@ static bool join_torn(sunder_i_job *w)
     return true;
 }
 
+/* Who could be run into by body b, were it to move that far, becomes a member of its cluster, unless it is of another:
+ * clusters stay what they are. */
+static bool join_about(sunder_i_job *w, bool *alone, uint32_t b, double far, sunder_i_list *near)
+{
+    const sunder_i_town *town = &w->town;
+    const sunder_i_body *p = &town->body[b];
+    const double *t = town->move + 2 * (size_t)b, reach = town->rules.gap + far;
+    double box[4];
+    if (p->fixed || p->pinned || p->pieces == 0) return true;
+    for (uint32_t c = 0; c < 4; c++) box[c] = p->box[c] + p->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
+    near->n = 0;
+    if (!sunder_i_index_query(town->standing, box, near)) return false;
+    for (size_t k = 0; k < near->n; k++) {
+        const uint32_t other = town->body_of[near->item[k]];
+        if (!alone[other] || other == b) continue;
+        if (!sunder_i_job_add_edge(w, b, other)) return false;
+        alone[other] = false;
+    }
+    return true;
+}
+
+/* What is to be asked may take others to make way: those about who stands under a truce that might end. */
+static bool join_neighbours(sunder_i_job *w)
+{
+    const sunder_i_town *town = &w->town;
+    sunder_i_list near = {0};
+    bool *alone = sunder_i_alloc(town->bodies, sizeof *alone), ok = alone != NULL;
+    for (size_t b = 0; b < town->bodies && ok; b++) alone[b] = !town->body[b].fixed && !town->body[b].pinned;
+    for (size_t e = 0; e < w->edges && ok; e++) alone[w->edge[e].a] = alone[w->edge[e].b] = false;
+    for (size_t k = 0; k < town->truces.n && ok; k++) {
+        const sunder_i_truce *t = &town->truces.item[k];
+        const double depth = hypot(t->shift[0], t->shift[1]), missing = depth > 0 ? depth : town->rules.gap - t->gap;
+        const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
+        if (t->hopeless && !sunder_i_suit_parts(town, t)) continue;
+        ok = join_about(w, alone, i, fmin(missing, sunder_i_limit_of(&town->body[i])), &near) &&
+             join_about(w, alone, j, fmin(missing, sunder_i_limit_of(&town->body[j])), &near);
+    }
+    sunder_i_free(near.item);
+    sunder_i_free(alone);
+    return ok;
+}
+
 sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err)
 {
     suits all = {0};
     if (w->town.truces.n == 0) return SUNDER_OK;
-    if (!join_torn(w)) return sunder_i_no_memory(err);
+    if (!join_torn(w) || !join_neighbours(w)) return sunder_i_no_memory(err);
     sunder_status status = sunder_i_job_gather(w, err);
     if (!status) status = sunder_i_job_unite_blocks(w, err);
     if (!status && !list_suits(w, &all)) status = sunder_i_no_memory(err);

@@ -22,6 +22,8 @@ void sunder_i_town_free(sunder_i_town *town)
     sunder_i_free(town->enters);
     sunder_i_free(town->keeping);
     sunder_i_free(town->held);
+    sunder_i_free(town->lying);
+    sunder_i_free(town->lying_a);
     sunder_i_free(town->wall);
     sunder_i_truces_free(&town->truces);
     sunder_i_free(town->given);

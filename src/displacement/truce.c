@@ -59,7 +59,14 @@ bool sunder_i_truces_add(sunder_i_truces *truces, const sunder_i_truce *truce)
 static sunder_i_torn torn_of(const sunder_i_town *town, const sunder_i_truce *t)
 {
     const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
-    return (sunder_i_torn){i < j ? i : j, i < j ? j : i, hypot(t->shift[0], t->shift[1])};
+    return (sunder_i_torn){i < j ? i : j, i < j ? j : i, t->inside ? 0 : hypot(t->shift[0], t->shift[1]), 1};
+}
+
+/* One more between its bodies. */
+static void join_torn(sunder_i_torn *between, const sunder_i_torn *more)
+{
+    between->reach = fmax(between->reach, more->reach);
+    between->n++;
 }
 
 bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
@@ -73,7 +80,7 @@ bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
     for (size_t k = 0; k < truces->n; k++) {
         sunder_i_torn *last = truces->torn_n ? &truces->torn[truces->torn_n - 1] : NULL;
         if (last && by_bodies(last, &truces->torn[k]) == 0)
-            last->reach = fmax(last->reach, truces->torn[k].reach);
+            join_torn(last, &truces->torn[k]);
         else
             truces->torn[truces->torn_n++] = truces->torn[k];
     }
@@ -105,7 +112,7 @@ bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, 
     truces->item[at] = *truce;
     const size_t of = place_of(&torn, truces->torn, truces->torn_n, sizeof torn, by_bodies);
     if (of < truces->torn_n && by_bodies(&truces->torn[of], &torn) == 0) {
-        truces->torn[of].reach = fmax(truces->torn[of].reach, torn.reach);
+        join_torn(&truces->torn[of], &torn);
         return true;
     }
     memmove(truces->torn + of + 1, truces->torn + of, (truces->torn_n++ - of) * sizeof torn);
@@ -116,26 +123,43 @@ bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, 
 void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce)
 {
     const sunder_i_torn torn = torn_of(town, truce);
-    const sunder_i_truce *item = sunder_i_truces_find(truces, truce->a, truce->b);
-    const sunder_i_torn *between = sunder_i_truces_between(truces, torn.i, torn.j);
-    const size_t at = item ? (size_t)(item - truces->item) : 0, of = between ? (size_t)(between - truces->torn) : 0;
-    if (item) memmove(truces->item + at, truces->item + at + 1, (--truces->n - at) * sizeof *item);
-    if (between) memmove(truces->torn + of, truces->torn + of + 1, (--truces->torn_n - of) * sizeof *between);
+    const size_t at = place_of(truce, truces->item, truces->n, sizeof *truce, by_features);
+    const size_t of = place_of(&torn, truces->torn, truces->torn_n, sizeof torn, by_bodies);
+    memmove(truces->item + at, truces->item + at + 1, (--truces->n - at) * sizeof *truce);
+    /* What remains between the bodies may reach less far than is said then. */
+    if (--truces->torn[of].n == 0)
+        memmove(truces->torn + of, truces->torn + of + 1, (--truces->torn_n - of) * sizeof torn);
 }
 
-void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_couple *body, size_t n)
+/* ---- Those that were ended -----------------------------------------------------------------------------------------
+ */
+
+int sunder_i_by_ended(const void *x, const void *y)
+{
+    const sunder_i_ended *p = x, *q = y;
+    const int order = sunder_i_by_couple(&p->body, &q->body);
+    return order ? order : sunder_i_by_couple(&p->feature, &q->feature);
+}
+
+sunder_i_ended sunder_i_ended_of(const sunder_i_town *town, const sunder_i_truce *truce)
+{
+    const sunder_i_torn torn = torn_of(town, truce);
+    return (sunder_i_ended){{torn.i, torn.j}, {truce->a, truce->b}};
+}
+
+size_t sunder_i_ended_at(const sunder_i_ended *list, size_t n, const sunder_i_ended *wanted)
+{
+    return place_of(wanted, list, n, sizeof *list, sunder_i_by_ended);
+}
+
+void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_ended *ended, size_t n)
 {
     size_t out = 0;
     for (size_t k = 0; k < truces->n; k++) {
-        const sunder_i_torn torn = torn_of(town, &truces->item[k]);
-        if (sunder_i_couple_at(body, n, torn.i, torn.j) == n) truces->item[out++] = truces->item[k];
+        const sunder_i_ended key = sunder_i_ended_of(town, &truces->item[k]);
+        if (!bsearch(&key, ended, n, sizeof key, sunder_i_by_ended)) truces->item[out++] = truces->item[k];
     }
     truces->n = out;
-    out = 0;
-    for (size_t k = 0; k < truces->torn_n; k++)
-        if (sunder_i_couple_at(body, n, truces->torn[k].i, truces->torn[k].j) == n)
-            truces->torn[out++] = truces->torn[k];
-    truces->torn_n = out;
 }
 
 /* ---- What is demanded ----------------------------------------------------------------------------------------------
@@ -150,6 +174,7 @@ sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t 
     const size_t kept = sunder_i_kept_at(town, f, g);
     out->inside = kept < town->kept_n && !town->enters[kept];
     if (out->inside) return SUNDER_OK;
+    out->inside = sunder_i_is_inner(town, f, g) || sunder_i_is_inner(town, g, f);
     bool overlap;
     sunder_status status = sunder_i_overlap(a, none, b, none, &overlap, err);
     if (status) return status;

@@ -3,7 +3,8 @@
  * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair may
  * stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
  *
- *   - one of the two is put a unit beside its place, or takes the other's move, where it is then in nobody's way;
+ *   - one of the two is put a unit beside its place, or takes the other's move, or all that moved alike take one move, where
+ *     they are then in nobody's way;
  *   - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
  *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *
@@ -13,7 +14,12 @@
 #include "displacement/peace.h"
 
 #include <float.h>
+#include <math.h>
 #include <string.h>
+
+/* Moves alike: they differ by no more than so many units. Of more than MOST_ALIKE that are, none is moved for the others. */
+#define HAIR 16
+#define MOST_ALIKE 1000
 
 /* ---- The rule ------------------------------------------------------------------------------------------------------
  */
@@ -65,85 +71,182 @@ sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder
 /* ---- A place nearby ------------------------------------------------------------------------------------------------
  */
 
+/* Bodies that go somewhere together, and where they stood. */
+typedef struct trial {
+    sunder_i_job *job;
+    uint32_t *body;
+    double *stood; /* [2 n] */
+    size_t n, body_capacity, stood_capacity;
+    sunder_i_list near;
+    bool well; /* so far */
+} trial;
+
 static bool can_move(const sunder_i_job *w, uint32_t b) { return !w->town.body[b].fixed && !w->town.body[b].pinned; }
 
-/* Puts body b there. */
-static sunder_status put(sunder_i_job *w, uint32_t b, const double to[2], sunder_error *err)
+static bool take(trial *t, uint32_t b)
 {
-    memset(w->changed, 0, w->town.features * sizeof *w->changed);
-    sunder_i_job_place(w, b, to);
-    return sunder_i_job_check(w, err);
+    const double *move = t->job->town.move + 2 * (size_t)b;
+    if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
+        !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
+        return false;
+    t->body[t->n] = b;
+    memcpy(t->stood + 2 * t->n++, move, 2 * sizeof *move);
+    return true;
 }
 
-/* Is all well with body b where it stands: is it in no conflict but those it was in, and in none that is worse? */
-static sunder_status is_well(const sunder_i_job *w, uint32_t b, const sunder_i_relations *before, bool *well,
-                             sunder_error *err)
+/* Is the pair in no conflict but one that it was in, and stands no worse than at the start? */
+static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
+    trial *t = context;
+    if (!is_listed(t->job, r)) return SUNDER_OK;
+    const sunder_i_relation *old = sunder_i_relations_find(&t->job->now, r->a, r->b);
+    bool breaks = !old || sunder_i_is_at_peace(old);
+    const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->job, r, &breaks, err);
+    t->well = *on = !breaks;
+    return status;
+}
+
+/* Can all of them go there, exactly and within their limits, and does one of them stand elsewhere? */
+static bool can_go(const trial *t, const double to[2])
+{
+    bool any = false;
+    for (size_t k = 0; k < t->n; k++) {
+        double exact[2];
+        any = any || t->stood[2 * k] != to[0] || t->stood[2 * k + 1] != to[1];
+        if (!sunder_i_within(to, t->job->town.body[t->body[k]].limit) ||
+            !sunder_i_round_move(&t->job->town, t->body[k], to, exact, NULL) || exact[0] != to[0] || exact[1] != to[1])
+            return false;
+    }
+    return any;
+}
+
+/* Puts the bodies of a trial there, or back where they stood (to: NULL). */
+static sunder_status put(trial *t, const double *to, sunder_error *err)
+{
+    sunder_i_job *w = t->job;
     sunder_status status = SUNDER_OK;
-    *well = true;
-    for (size_t k = 0; k < w->now.n && *well && !status; k++) {
-        const sunder_i_relation *r = &w->now.pair[k];
-        if ((w->town.body_of[r->a] != b && w->town.body_of[r->b] != b) || !is_listed(w, r)) continue;
-        const sunder_i_relation *old = sunder_i_relations_find(before, r->a, r->b);
-        bool breaks = !old || sunder_i_is_at_peace(old);
-        if (!breaks) status = breaks_rule(w, r, &breaks, err);
-        *well = !breaks;
+    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    for (size_t k = 0; k < t->n && !status; k++) {
+        sunder_i_job_place(w, t->body[k], to ? to : t->stood + 2 * k);
+        status = sunder_i_scene_place(&w->town, &w->scene, t->body[k], err);
     }
     return status;
 }
 
-/* Tries one place for body b: stays there if all is well, else goes back. */
-static sunder_status try_place(sunder_i_job *w, uint32_t b, const double to[2], bool *well, sunder_error *err)
+/* Tries one place for them all: they stay there if all is well, else go back. */
+static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
 {
-    const double *move = w->town.move + 2 * (size_t)b;
-    const double stood[2] = {move[0], move[1]};
-    *well = false;
-    double exact[2];
-    if (!sunder_i_within(to, w->town.body[b].limit) || (to[0] == stood[0] && to[1] == stood[1])) return SUNDER_OK;
-    if (!sunder_i_round_move(&w->town, b, to, exact, NULL) || exact[0] != to[0] || exact[1] != to[1]) return SUNDER_OK;
-    sunder_i_relations before = w->now;
-    w->now.pair = sunder_i_alloc(before.n, sizeof *before.pair);
-    sunder_status status = w->now.pair ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status && before.n) memcpy(w->now.pair, before.pair, before.n * sizeof *before.pair);
-    if (!status) status = put(w, b, to, err);
-    if (!status) status = is_well(w, b, &before, well, err);
-    if (!status && !*well) status = put(w, b, stood, err);
-    sunder_i_free(before.pair);
-    return status;
+    sunder_i_job *w = t->job;
+    t->well = false;
+    if (!can_go(t, to)) return SUNDER_OK;
+    t->well = true;
+    sunder_status status = put(t, to, err);
+    for (size_t k = 0; k < t->n && t->well && !status; k++)
+        status = sunder_i_scene_about(&w->town, &w->scene, t->body[k], &t->near, look_at_pair, t, err);
+    if (status) return status;
+    return t->well ? sunder_i_job_check(w, err) : put(t, NULL, err);
 }
 
-/* The eight places a unit beside its own. */
-static sunder_status try_nearby(sunder_i_job *w, uint32_t b, bool *well, sunder_error *err)
+/* The units of what the body may be moved by from where it stands. */
+static void units_of(const sunder_i_job *w, uint32_t b, double unit[2])
 {
-    const double *move = w->town.move + 2 * (size_t)b;
-    const double stood[2] = {move[0], move[1]};
-    double unit[2], same[2];
-    sunder_status status = SUNDER_OK;
-    *well = false;
+    const double *stood = w->town.move + 2 * (size_t)b;
+    double same[2];
     for (int c = 0; c < 2; c++) {
         /* A move of nothing has no unit. */
         double along[2] = {0, 0};
         along[c] = stood[c] != 0 ? stood[c] : DBL_MIN;
         sunder_i_round_move(&w->town, b, along, same, &unit[c]);
     }
-    for (int k = 0; k < 9 && !*well && !status; k++) {
+}
+
+/* The eight places a unit beside its own. */
+static sunder_status try_nearby(trial *t, sunder_error *err)
+{
+    const double stood[2] = {t->stood[0], t->stood[1]};
+    double unit[2];
+    sunder_status status = SUNDER_OK;
+    units_of(t->job, t->body[0], unit);
+    t->well = false;
+    for (int k = 0; k < 9 && !t->well && !status; k++) {
         const double to[2] = {stood[0] + (k % 3 - 1) * unit[0], stood[1] + (k / 3 - 1) * unit[1]};
-        if (k != 4) status = try_place(w, b, to, well, err);
+        if (k != 4) status = try_place(t, to, err);
     }
     return status;
+}
+
+/* ---- All that move as one ------------------------------------------------------------------------------------------
+ */
+
+static bool is_taken(const trial *t, uint32_t b)
+{
+    for (size_t k = 0; k < t->n; k++)
+        if (t->body[k] == b) return true;
+    return false;
+}
+
+/* Those about body b who moved as it did, up to a few units. */
+static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error *err)
+{
+    const sunder_i_town *town = &t->job->town;
+    const sunder_i_body *p = &town->body[b];
+    const double *move = town->move + 2 * (size_t)b;
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = town->member[p->member + m];
+        double box[4];
+        if (!town->present[f]) continue;
+        sunder_i_box_grow(t->job->scene.box + 4 * (size_t)f, town->rules.gap, box);
+        t->near.n = 0;
+        if (!sunder_i_index_query(&t->job->scene.tree, box, &t->near)) return sunder_i_no_memory(err);
+        for (size_t k = 0; k < t->near.n; k++) {
+            const uint32_t other = town->body_of[t->near.item[k]];
+            const double *to = town->move + 2 * (size_t)other;
+            if (!can_move(t->job, other) || fabs(to[0] - move[0]) > hair || fabs(to[1] - move[1]) > hair) continue;
+            if (!is_taken(t, other) && !take(t, other)) return sunder_i_no_memory(err);
+        }
+    }
+    return SUNDER_OK;
+}
+
+/* A row that was pushed along, each of which must not stand worse to the next, has to move as one to the last bit: all
+ * take the move of the one whose coordinates are the coarsest. */
+static sunder_status try_together(trial *t, sunder_error *err)
+{
+    double coarsest = 0, to[2] = {0, 0};
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < t->n && t->n <= MOST_ALIKE && !status; k++) {
+        double unit[2];
+        units_of(t->job, t->body[k], unit);
+        const double coarse = fmax(unit[0], unit[1]);
+        if (coarse > coarsest) {
+            coarsest = coarse;
+            memcpy(to, t->stood + 2 * k, sizeof to);
+        }
+        status = take_alike(t, t->body[k], HAIR * coarsest, err);
+    }
+    t->well = false;
+    return status || t->n > MOST_ALIKE ? status : try_place(t, to, err);
 }
 
 static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, bool *well, sunder_error *err)
 {
     const uint32_t pair[2] = {i, j};
+    trial t = {.job = w};
     sunder_status status = SUNDER_OK;
-    *well = false;
-    for (int e = 0; e < 2 && !*well && !status; e++)
-        if (can_move(w, pair[e])) status = try_nearby(w, pair[e], well, err);
-    for (int e = 0; e < 2 && !*well && !status; e++) {
-        const double *other = w->town.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
-        if (can_move(w, pair[e])) status = try_place(w, pair[e], to, well, err);
-    }
+    for (int way = 0; way < 3 && !t.well && !status; way++)
+        for (int e = 0; e < 2 && !t.well && !status; e++) {
+            const double *other = w->town.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
+            t.n = 0;
+            if (!can_move(w, pair[e])) continue;
+            if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
+            if (!status && way == 0) status = try_nearby(&t, err);
+            if (!status && way == 1) status = try_place(&t, to, err);
+            if (!status && way == 2) status = try_together(&t, err);
+        }
+    *well = t.well;
+    sunder_i_free(t.body);
+    sunder_i_free(t.stood);
+    sunder_i_free(t.near.item);
     return status;
 }
 
@@ -163,7 +266,9 @@ static sunder_status pin(sunder_i_job *w, uint32_t i, uint32_t j, sunder_error *
     uint32_t b = can_move(w, i) ? i : j;
     if (can_move(w, i) && can_move(w, j) && cost_of(w, j) < cost_of(w, i)) b = j;
     if (can_move(w, i) && can_move(w, j) && cost_of(w, b) == 0) b = b == i ? j : i;
-    const sunder_status status = put(w, b, home, err);
+    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    sunder_i_job_place(w, b, home);
+    const sunder_status status = sunder_i_job_check(w, err);
     w->town.body[b].pinned = true;
     return status;
 }
