@@ -269,17 +269,34 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *g, double limit, boo
 /* Operands of so many pairs of pieces are searched square by square. Where that is not the way, most of their pairs may
  * still be far off, as of neighbouring countries, and would fill the memory: so the search begins in a small disc then,
  * and in a larger one where that holds no free point. */
-#define WIDEN_FROM 65536 /* pairs of pieces */
+#define WIDEN_FROM 16384 /* pairs of pieces, those with many corners cut up; */
+#define WIDEN_WHOLE 64   /* and of whole ones */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
+
+/* By squares, with pieces of few corners; where that leads nowhere the pairing is as it was. */
+static sunder_status by_parts(sunder_i_pairing *g, double limit, bool *done, sunder_i_nearest *out, sunder_error *err)
+{
+    const sunder_i_pairing whole = *g;
+    if (!sunder_i_pairing_cut(g)) return sunder_i_no_memory(err);
+    const sunder_status status = sunder_i_nearest_by_squares(g, limit, done, out, err);
+    if (status || *done) return status;
+    for (int k = 0; k < 2; k++) {
+        g->shape[k] = whole.shape[k];
+        g->piece_box[k] = whole.piece_box[k];
+        g->ring[k] = whole.ring[k];
+    }
+    return SUNDER_OK;
+}
 
 sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const bool many = (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_FROM;
+    const bool many = (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_WHOLE &&
+                      sunder_i_pairing_parts(g) >= WIDEN_FROM;
     if (many) {
-        bool done;
-        const sunder_status status = sunder_i_nearest_by_squares(g, limit, &done, out, err);
+        bool done = false;
+        const sunder_status status = by_parts(g, limit, &done, out, err);
         if (status || done) return status;
     }
     search s = begin(g, limit);

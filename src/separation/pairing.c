@@ -18,7 +18,7 @@ static void grow_box(double box[4], double x, double y)
 
 static const double EMPTY_BOX[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
 
-static void fill_boxes(sunder_i_pairing *g, int side)
+void sunder_i_pairing_fill_boxes(sunder_i_pairing *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
@@ -198,8 +198,8 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     const sunder_status status = place(g, options, err);
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
-    fill_boxes(g, 0);
-    fill_boxes(g, 1);
+    sunder_i_pairing_fill_boxes(g, 0);
+    sunder_i_pairing_fill_boxes(g, 1);
     g->error = COORDINATE_ERROR * g->magnitude;
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
     g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;

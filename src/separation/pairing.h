@@ -60,6 +60,14 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *pairing, const sunder_shap
                                     const sunder_i_pairing_options *options, sunder_error *err);
 void sunder_i_pairing_free(sunder_i_pairing *pairing);
 
+/* The boxes of an operand's pieces, and its own. */
+void sunder_i_pairing_fill_boxes(sunder_i_pairing *pairing, int side);
+
+/* Cuts up the pieces that have many corners (cut_pieces.c); false if memory is out. */
+bool sunder_i_pairing_cut(sunder_i_pairing *pairing);
+/* About how many pairs of pieces there would be then. */
+uint64_t sunder_i_pairing_parts(const sunder_i_pairing *pairing);
+
 /* Do the boxes of P + tp and Q + tq stand at least gap apart in one coordinate? True only if that is certain. */
 bool sunder_i_boxes_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                           double gap);

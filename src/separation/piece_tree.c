@@ -17,18 +17,17 @@ static const double WAY[SUNDER_I_WAYS][2] = {{1, 0},
                                              {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
                                              {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
 
-/* Floats are of coordinates over this power of two, so that they stay in their range whatever the units. */
-static double scale_of(const sunder_i_pairing *g) { return ldexp(1, -ilogb(g->magnitude)); }
+double sunder_i_float_scale(const sunder_i_pairing *g) { return ldexp(1, -ilogb(g->magnitude)); }
 
-/* With coordinates up to M, a bound of a piece is below 1.42 M and, as a float, off by 2^-24 of that; so is that of the
- * other, and their sum by 2^-24 of 2.9 M. Squares reach to 4 M, so their bounds to 5.7 M, with the same error again;
- * doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
+/* With coordinates up to M, themselves floats, a bound of a body is below 1.42 M and off by 2^-24 of 2.9 M; so is that
+ * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
+ * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20
 
 sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4])
 {
     const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
-    const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = scale_of(g);
+    const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = sunder_i_float_scale(g);
     sunder_i_extents out;
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
         const double middle = x * WAY[k][0] + y * WAY[k][1];
@@ -51,19 +50,13 @@ static void include(sunder_i_extents *all, const sunder_i_extents *one)
     }
 }
 
-static sunder_i_extents extents_of_piece(const sunder_i_pairing *g, int side, uint32_t piece)
+sunder_i_extents sunder_i_extents_nowhere(void) { return NOWHERE; }
+
+void sunder_i_extents_add(sunder_i_extents *all, float x, float y)
 {
-    const sunder_shape *s = g->shape[side];
-    const double scale = scale_of(g);
-    sunder_i_extents out = NOWHERE;
-    for (uint32_t i = piece ? s->piece_end[piece - 1] : 0; i < s->piece_end[piece]; i++) {
-        const double *p = g->xy[side] + 2 * (size_t)s->piece_vertex[i];
-        sunder_i_extents at;
-        for (int k = 0; k < SUNDER_I_WAYS; k++)
-            at.low[k] = at.high[k] = (float)(scale * (p[0] * WAY[k][0] + p[1] * WAY[k][1]));
-        include(&out, &at);
-    }
-    return out;
+    sunder_i_extents at;
+    for (int k = 0; k < SUNDER_I_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
+    include(all, &at);
 }
 
 typedef struct planter {
@@ -85,10 +78,10 @@ static int widest(const planter *p, size_t from, size_t n)
     for (size_t i = from + 1; i < from + n; i++) {
         const sunder_i_extents *e = p->extent + p->list[i];
         for (int k = 0; k < SUNDER_I_WAYS; k++) {
-            least.low[k] = fminf(least.low[k], e->low[k]);
-            least.high[k] = fminf(least.high[k], e->high[k]);
-            most.low[k] = fmaxf(most.low[k], e->low[k]);
-            most.high[k] = fmaxf(most.high[k], e->high[k]);
+            least.low[k] = e->low[k] < least.low[k] ? e->low[k] : least.low[k];
+            least.high[k] = e->high[k] < least.high[k] ? e->high[k] : least.high[k];
+            most.low[k] = e->low[k] > most.low[k] ? e->low[k] : most.low[k];
+            most.high[k] = e->high[k] > most.high[k] ? e->high[k] : most.high[k];
         }
     }
     int best = 0;
@@ -158,22 +151,16 @@ static bool plant(planter *p, uint32_t node, size_t from, size_t n)
     return true;
 }
 
-bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_pairing *g, int side)
+bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents *extent, uint32_t n)
 {
-    const uint32_t n = g->shape[side]->pieces;
     *tree = (sunder_i_piece_tree){.leaves = 1};
     while (tree->leaves < n) tree->leaves *= 2;
     tree->piece = sunder_i_alloc(tree->leaves, sizeof *tree->piece);
     tree->extent = sunder_i_alloc(2 * (size_t)tree->leaves, sizeof *tree->extent);
-    sunder_i_extents *extent = sunder_i_alloc(n, sizeof *extent);
     planter p = {tree, extent, sunder_i_alloc(n, sizeof *p.list), sunder_i_alloc(n, sizeof *p.key)};
-    bool ok = tree->piece && tree->extent && extent && p.list && p.key;
-    for (uint32_t i = 0; ok && i < n; i++) {
-        p.list[i] = i;
-        extent[i] = extents_of_piece(g, side, i);
-    }
+    bool ok = tree->piece && tree->extent && p.list && p.key;
+    for (uint32_t i = 0; ok && i < n; i++) p.list[i] = i;
     ok = ok && plant(&p, 1, 0, n);
-    sunder_i_free(extent);
     sunder_i_free(p.list);
     sunder_i_free(p.key);
     return ok;

@@ -10,21 +10,20 @@
 
 /* With so few pairs a square is searched as it is; with twice as many after each halving from a certain one on, as many
  * may truly meet in one point. */
-#define FEW_PAIRS 128
+#define FEW_PAIRS 32
 #define PATIENT 8
-/* So many subsums are tried to hold a square: twice as many after each halving from a certain one on, and whenever half
- * as many squares have been looked at as there are pieces. Few are best where spikes are of all lengths: there is a deep
- * one, or many that nearly hold it. But of a comb's teeth that are all alike only some in a thousand hold a square, and
- * without them it falls to dust. */
+/* So many sums are tried to hold a square: twice as many after each halving from a certain one on, where there may be
+ * one that does among thousands that nearly do. */
 #define HOLD_TRIES 16
 #define HOLD_PATIENT 6
 #define HOLD_MOST 18 /* doublings */
 #define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
 #define ORIGIN_TRIES 1024
-/* So many squares, and so many for each piece, are looked at: each is worth some microseconds, and what else could be
- * done takes all pairs of pieces. */
+/* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
+ * microseconds, and what else could be done takes all pairs of pieces. */
 #define MOST_SQUARES 20000
 #define MOST_EACH 8
+#define MOST_PAIRS 32
 
 /* ---- The heap ---- */
 
@@ -60,9 +59,11 @@ static double distance_of(const double box[4])
 bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
 {
     static const double origin[4] = {0, 0, 0, 0};
-    *covered = sunder_i_squares_boxes_hold(q, origin) ||
-               sunder_i_squares_one_holds(q, origin, ORIGIN_TRIES) == SUNDER_I_HELD;
+    *covered = sunder_i_squares_boxes_hold(q, origin);
     if (*covered) return true;
+    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
+    *covered = how == SUNDER_I_HELD;
+    if (*covered || how == SUNDER_I_HOLD_FAILED) return *covered;
     const bool all = sunder_i_squares_gather(q, origin, SIZE_MAX);
     *covered = q->held;
     return *covered || (all && sunder_i_squares_take_subsums(q));
@@ -73,7 +74,7 @@ bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
 static bool cut(sunder_i_squares *q, const sunder_i_square *s)
 {
     for (int k = 0; k < 4; k++) {
-        sunder_i_square part = {.depth = s->depth + 1};
+        sunder_i_square part = {.depth = s->depth + 1, .best = {q->best[0], q->best[1]}};
         sunder_i_inner_quarter(s->box, k, part.box);
         part.distance = distance_of(part.box);
         if (!push(q, part)) return false;
@@ -83,10 +84,9 @@ static bool cut(sunder_i_squares *q, const sunder_i_square *s)
 
 typedef enum finding { CLOSED, OPEN, IN_PARTS, NO_MEMORY } finding;
 
-static uint32_t tries_to_hold(const sunder_i_squares *q, int depth)
+static uint32_t tries_to_hold(int depth)
 {
-    const size_t pieces = (size_t)q->g->shape[0]->pieces + q->g->shape[1]->pieces;
-    const size_t doublings = (size_t)(depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0) + 2 * q->seen / pieces;
+    const int doublings = depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0;
     return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
 }
 
@@ -96,7 +96,8 @@ static finding look_at(sunder_i_squares *q, const sunder_i_square *s)
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
     if (!sunder_i_step()) return NO_MEMORY;
     if (sunder_i_squares_boxes_hold(q, s->box)) return CLOSED;
-    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, tries_to_hold(q, s->depth));
+    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
+    if (how == SUNDER_I_HOLD_FAILED) return NO_MEMORY;
     if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? CLOSED : IN_PARTS;
     const size_t few = (size_t)FEW_PAIRS << patience;
     if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? OPEN : CLOSED;
@@ -138,11 +139,15 @@ sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach)
     sunder_i_squares *q = sunder_i_calloc(1, sizeof *q);
     if (!q) return NULL;
     q->g = g;
-    q->most = MOST_SQUARES + (size_t)MOST_EACH * ((size_t)g->shape[0]->pieces + g->shape[1]->pieces);
+    const size_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
+    q->most = MOST_SQUARES + MOST_EACH * (m + n) + m * n / MOST_PAIRS;
     const double r = reach + 64 * g->error;
+    q->reach = (float)(sunder_i_float_scale(g) * r);
+    for (int k = 0; k < SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY; k++) q->memory[k][0] = q->memory[k][1] = 1;
     const bool ok = sunder_i_inner_build(&q->inner[0], g, 0) && sunder_i_inner_build(&q->inner[1], g, 1) &&
-                    sunder_i_piece_tree_build(&q->tree[0], g, 0) && sunder_i_piece_tree_build(&q->tree[1], g, 1) &&
-                    make_tables(q, 0) && make_tables(q, 1) && push(q, (sunder_i_square){{-r, -r, r, r}, 0, 0});
+                    sunder_i_bodies_build(&q->bodies[0], g, 0, &q->inner[0]) &&
+                    sunder_i_bodies_build(&q->bodies[1], g, 1, &q->inner[1]) &&
+                    make_tables(q, 0) && make_tables(q, 1) && push(q, (sunder_i_square){{-r, -r, r, r}, 0, 0, {1, 1}});
     if (ok) return q;
     sunder_i_squares_free(q);
     return NULL;
@@ -153,12 +158,13 @@ void sunder_i_squares_free(sunder_i_squares *q)
     if (!q) return;
     for (int k = 0; k < 2; k++) {
         sunder_i_inner_free(&q->inner[k]);
-        sunder_i_piece_tree_free(&q->tree[k]);
+        sunder_i_bodies_free(&q->bodies[k]);
         sunder_i_free(q->first_piece[k]);
         sunder_i_free(q->corner[k]);
         sunder_i_free(q->state[k]);
     }
     sunder_i_free(q->heap);
     sunder_i_free(q->pair);
+    sunder_i_free(q->node);
     sunder_i_free(q);
 }

@@ -98,6 +98,10 @@ detail-sum|detail|-|4000 8000 16000|sum P Q --stats -
 stairs-pair|stairs|-|4000 8000 16000|pair P Q
 ragged-pair|ragged|-|4000 8000 16000|pair P Q
 rough-pair|rough|-|4000 8000 16000|pair P Q
+even-pair|even|-|1000 2000 4000|pair P Q
+round-pair|round|-|4000 8000 16000|pair P Q
+even-round-pair|even-round|-|4000 8000 16000|pair P Q
+coast-pair|coast|-|4000 8000 16000|pair P Q
 hollow-pair|hollow|-|4000 8000 16000|pair P Q
 combs-pair|combs|-|4000 8000 16000|pair P Q
 spikes-box|spikes-box|-|4000 8000 16000|pair P Q

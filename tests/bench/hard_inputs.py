@@ -15,6 +15,10 @@ pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, t
         copies         a coast, and the same coast digitised again
         ragged         a star of long thin spikes, and another a little aside
         rough          the same with spikes of two thirds of the radius
+        even           two stars whose spikes are all of one length
+        round          a star of spikes, and a round outline as large
+        even-round     the same with spikes of one length
+        coast          a star of spikes, and a coast as large
         hollow         a plate with a star cut out, and a star in it that does not quite fit
         combs          two combs, one on its head in the other
         spikes-box     a star, and a small square on its middle
@@ -149,6 +153,31 @@ def ragged(n, draw, least=10):
             polygon(star(n, draw, EAST + 30.5, NORTH + 20.25, least, 1000))]
 
 
+def even_star(n, x, y):
+    return [(x + r * math.cos(2 * math.pi * i / n), y + r * math.sin(2 * math.pi * i / n))
+            for i in range(n) for r in ((1000, 10)[i % 2],)]
+
+
+def even(n, _):
+    return [polygon(even_star(n, EAST, NORTH)), polygon(even_star(n, EAST + 30.5, NORTH + 20.25))]
+
+
+def round_outline(n):
+    return [(EAST + 30.5 + x, NORTH + 20.25 + y) for x, y in disc(1000.0, n)]
+
+
+def against_round(n, draw, even=False):
+    return [polygon(even_star(n, EAST, NORTH) if even else star(n, draw, EAST, NORTH, 10, 1000)), polygon(round_outline(n))]
+
+
+def coast(n, draw):
+    shape = blob(draw)
+    return [polygon(star(n, draw, EAST, NORTH, 10, 1000)),
+            polygon([(EAST + 30.5 + (x - EAST - 30.5) * shape(2 * math.pi * i / n),
+                      NORTH + 20.25 + (y - NORTH - 20.25) * shape(2 * math.pi * i / n))
+                     for i, (x, y) in enumerate(round_outline(n))])]
+
+
 def hollow(n, draw):
     plate = rectangle(EAST - 1100.0, NORTH - 1100.0, 2200.0, 2200.0)
     hole = star(n, draw, EAST, NORTH, 300, 1000)
@@ -240,7 +269,8 @@ def crowd(n, draw, full=False):
 
 PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
          "slivers": slivers, "stairs": stairs, "pile": pile, "copies": copies, "ragged": ragged,
-         "rough": lambda n, draw: ragged(n, draw, 333), "hollow": hollow, "combs": combs, "spikes-box": spikes_box, "detail": detail}
+         "rough": lambda n, draw: ragged(n, draw, 333), "even": even, "round": against_round,
+         "even-round": lambda n, draw: against_round(n, draw, True), "coast": coast, "hollow": hollow, "combs": combs, "spikes-box": spikes_box, "detail": detail}
 LAYERS = {"pairs": pairs, "pairs-far": lambda n, draw: pairs(n, draw, True), "outline": outline, "heap": heap,
           "versions-layer": lambda n, draw: [(body, 0) for body in outline_versions(n, draw)], "houses": houses,
           "houses-bows": lambda n, draw: houses(n, draw, 40), "crowd": crowd,

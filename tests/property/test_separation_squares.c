@@ -1,6 +1,7 @@
 /* The nearest free placement, searched square by square as for large operands, and in one go: the same point, the same
  * contact, on pairs of all kinds of trouble, also translated so that they overlap by little; and of ragged outlines
- * that are large enough for the squares to matter. Every fourth on a wide lattice. */
+ * that are large enough for the squares to matter, stars of equal spikes and round outlines, whose pieces are cut up,
+ * among them. Every fourth on a wide lattice. */
 #include "failing.h"
 #include "generate.h"
 #include "separation/nearest.h"
@@ -69,6 +70,7 @@ static bool compare(const polyset *p, const polyset *q, const double *move, bool
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
     sunder_i_pairing g = pair_up(a, b, move, wide), h = pair_up(a, b, move, wide);
+    assert_true(sunder_i_pairing_cut(&g));
     const result r = look(&g, true), s = look(&h, false);
     *same = !r.done || r.nearest.origin == s.nearest.origin;
     if (r.done && *same && !r.nearest.origin)
@@ -127,6 +129,15 @@ static void random_large(polyset *p, rng *r, size_t kind, int n)
     }
 }
 
+/* Moved at random, by up to so far. */
+static void expect_same_moved(polyset *p, polyset *q, rng *r, double far, size_t *done, uint64_t seed, size_t i)
+{
+    const double move[2] = {rint(far * rng_unit(r)), rint(far * rng_unit(r))};
+    expect_same(p, q, move, done, seed, i);
+    polyset_free(p);
+    polyset_free(q);
+}
+
 static void test_large(void **state)
 {
     (void)state;
@@ -139,10 +150,44 @@ static void test_large(void **state)
         random_large(&p, &r, i, (int)rng_int(&r, 20, 240));
         random_large(&q, &r, i + (i / 3) % 2, (int)rng_int(&r, 20, 240));
         const double far = rng_once_in(&r, 2) ? 20 : 1200;
-        const double move[2] = {rint(far * rng_unit(&r)), rint(far * rng_unit(&r))};
-        expect_same(&p, &q, move, &done, seed, i);
-        polyset_free(&p);
-        polyset_free(&q);
+        expect_same_moved(&p, &q, &r, far, &done, seed, i);
+    }
+    assert_true(done > n / 2);
+}
+
+/* n corners round a circle, every second at `inner` of its radius. */
+static void round_outline(polyset *p, rng *r, int n, double size, double inner)
+{
+    const double turn = rng_once_in(r, 2) ? 0 : rng_unit(r);
+    polyset_init(p);
+    for (int i = 0; i < n; i++) {
+        const double angle = 2 * 3.14159265358979 * (i + turn) / n, length = i % 2 ? size : inner * size;
+        polyset_vertex(p, rint(length * cos(angle)), rint(length * sin(angle)));
+    }
+    polyset_end_ring(p);
+    polyset_end_polygon(p);
+}
+
+/* Equal spikes, round outlines, and stars of unequal ones, against each other. */
+static void test_even(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(36);
+    const double size = 200000;
+    size_t done = 0;
+    for (size_t i = 0; i < n; i++) {
+        rng r = rng_start(seed * 47, i);
+        polyset set[2];
+        for (size_t k = 0; k < 2; k++) {
+            const int corners = 2 * (int)rng_int(&r, 10, 100);
+            switch ((k ? i / 3 : i) % 3) {
+            case 0: round_outline(&set[k], &r, corners, size, 0.05 + 0.5 * rng_unit(&r)); break;
+            case 1: round_outline(&set[k], &r, corners, size, 1); break;
+            default: polyset_init(&set[k]), random_star(&set[k], &r, corners, size);
+            }
+        }
+        expect_same_moved(&set[0], &set[1], &r, rng_once_in(&r, 2) ? 2000 : 120000, &done, seed, i);
     }
     assert_true(done > n / 2);
 }
@@ -176,7 +221,7 @@ static void test_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_large),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_large), cmocka_unit_test(test_even),
                                        cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("square by square", tests, NULL, NULL);
 }
