@@ -129,12 +129,11 @@ static bool rank_directions(sunder_i_subsums *out, operand *p, operand *q)
     return ok;
 }
 
-/* Does the exterior angle at vertex v hold the rank r? The vertex is convex (a left turn), or another stands at its
- * place: then the local picture is not one chain's alone, and the answer is yes to be safe. */
+/* Does the exterior angle at vertex v hold the rank r? The vertex is convex then, a left turn. Where others stand at its
+ * place each has a sector of its own (shape.h), and what one of them covers is covered. */
 static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 {
     const sunder_shape *s = o->shape;
-    if (s->shared[v]) return true;
     const uint32_t full = 2 * classes, in = o->edge_rank[s->prev[v]], out = o->edge_rank[v];
     const uint32_t turn = out >= in ? out - in : out + full - in;
     const uint32_t step = r >= in ? r - in : r + full - in;

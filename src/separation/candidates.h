@@ -25,15 +25,6 @@ static inline double sunder_i_segment_square(double ax, double ay, double dx, do
     return x * x + y * y;
 }
 
-/* A vertex as edges of the other operand see it, in doubles: convex, or one where rings touch (then `in` and `out`, the
- * edges that arrive and leave, are zero, which every edge passes). */
-typedef struct sunder_i_corner {
-    double x, y, in_x, in_y, out_x, out_y;
-} sunder_i_corner;
-
-/* False: no edge that passes the vertex can be boundary there. */
-bool sunder_i_corner_of(const sunder_i_pairing *pairing, int side, uint32_t vertex, sunder_i_corner *out);
-
 /* Adds a candidate; order() then makes a heap of them all. */
 bool sunder_i_candidates_push(sunder_i_pairing *pairing, sunder_i_candidates *heap, sunder_i_candidate candidate);
 void sunder_i_candidates_order(sunder_i_candidates *heap);

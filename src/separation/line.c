@@ -81,10 +81,55 @@ int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sun
     return sunder_i_orient_hpoint(l, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0], &x);
 }
 
+/* What side k says of the point in doubles: 1 left of it, -1 right, both for certain. */
+static int side_says(const sunder_i_subsum *s, uint32_t k, double x, double y)
+{
+    const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+    return v > s->bound[k] ? 1 : v < -s->bound[k] ? -1 : 0;
+}
+
+/* The same of the diagonal from the lowest corner to corner k. Coordinates are within e, and so both differences u, w
+ * within 2 e and an ulp, which e exceeds by far: their cross product is within 2 e (|u| + |w|) + 8 e^2, in sums of
+ * absolute coordinates, and its own rounding, which is below e |u|. */
+static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double y, double e)
+{
+    const double u[2] = {s->cx[k] - s->cx[0], s->cy[k] - s->cy[0]}, w[2] = {x - s->cx[0], y - s->cy[0]};
+    const double v = u[0] * w[1] - u[1] * w[0];
+    const double bound = 4 * e * (fabs(u[0]) + fabs(u[1]) + fabs(w[0]) + fabs(w[1]) + 4 * e);
+    return v > bound ? 1 : v < -bound ? -1 : 0;
+}
+
+/* Is the point inside, 1, or not, -1? 0 where doubles do not say. The fan of triangles from the lowest corner is halved
+ * until one is left: whoever is for certain in a triangle of corners is inside, and whoever is for certain on the right
+ * of a side is not. */
+static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
+{
+    uint32_t low = 1, high = s->sides - 1;
+    while (high - low > 1) {
+        const uint32_t k = low + (high - low) / 2;
+        if ((s->cx[k] - s->cx[0]) * (y - s->cy[0]) - (s->cy[k] - s->cy[0]) * (x - s->cx[0]) >= 0)
+            low = k;
+        else
+            high = k;
+    }
+    const int across = side_says(s, low, x, y);
+    const int left = low == 1 ? side_says(s, 0, x, y) : diagonal_says(s, low, x, y, e);
+    const int right = high == s->sides - 1 ? side_says(s, high, x, y) : -diagonal_says(s, high, x, y, e);
+    if (across < 0 || (low == 1 && left < 0) || (high == s->sides - 1 && right < 0)) return -1;
+    return across > 0 && left > 0 && right > 0;
+}
+
+#define SIDES_MANY 24 /* fewer are looked at one by one */
+
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
 static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
                    const sunder_i_subsum *s)
 {
+    if (s->sides >= SIDES_MANY) {
+        const int where = inside_fan(s, x, y, g->error);
+        if (where != 0) return where > 0;
+    }
+    g->placed.lattice.operations.orientation_tests += s->sides;
     bool certain = true;
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
@@ -107,7 +152,7 @@ static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
     sunder_i_subsum *s = g->subsum + k;
     if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) return false;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
-    g->placed.lattice.operations.orientation_tests += s->sides;
+    g->placed.lattice.operations.orientation_tests++;
     return inside(g, line, t, x, y, s);
 }
 
@@ -153,8 +198,6 @@ long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const s
 typedef struct stretch {
     uint32_t first, n;
 } stretch;
-
-#define SIDES_MANY 24 /* fewer are looked at one by one */
 
 /* The first side whose angle in [0, 2 pi) is above that of (dx, dy), in doubles; as many as there are sides if none. */
 static uint32_t first_above(const sunder_i_subsum *s, double dx, double dy)

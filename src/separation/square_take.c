@@ -7,10 +7,10 @@
 
 enum { UNKNOWN = 0, NO_CORNER, CORNER };
 
-static const sunder_i_corner *corner_of(sunder_i_squares *q, int side, uint32_t v)
+static const sunder_i_cone *corner_of(sunder_i_squares *q, int side, uint32_t v)
 {
     if (q->state[side][v] == UNKNOWN)
-        q->state[side][v] = sunder_i_corner_of(q->g, side, v, &q->corner[side][v]) ? CORNER : NO_CORNER;
+        q->state[side][v] = sunder_i_cone_of(q->g, side, v, &q->corner[side][v]) ? CORNER : NO_CORNER;
     return q->state[side][v] == CORNER ? &q->corner[side][v] : NULL;
 }
 
@@ -35,7 +35,7 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
         const uint32_t v = o->piece_vertex[k];
         const double *c = g->xy[!side] + 2 * (size_t)v;
         if (q->first_piece[!side][v] != j || !comes_near(at, 32 * g->error, a[0] + c[0], a[1] + c[1], dx, dy)) continue;
-        const sunder_i_corner *w = corner_of(q, !side, v);
+        const sunder_i_cone *w = corner_of(q, !side, v);
         if (!w || !(w->in_x * dy - w->in_y * dx >= bound) || !(dx * w->out_y - dy * w->out_x >= bound)) continue;
         const double norm = sunder_i_segment_square(a[0] + c[0], a[1] + c[1], dx, dy, inverse);
         if (norm > reach * reach) continue;

@@ -3,6 +3,7 @@
 #define SUNDER_I_SQUARES_INNER_H
 
 #include "separation/bodies.h"
+#include "separation/cones.h"
 #include "separation/squares.h"
 
 typedef struct sunder_i_square {
@@ -24,7 +25,7 @@ struct sunder_i_squares {
     sunder_i_inner inner[2];
     sunder_i_bodies bodies[2];
     uint32_t *first_piece[2];   /* [vertices] the first piece that each is a corner of */
-    sunder_i_corner *corner[2]; /* [vertices] once it is known */
+    sunder_i_cone *corner[2];   /* [vertices] once it is known */
     uint8_t *state[2];          /* [vertices] UNKNOWN, ... */
     sunder_i_square *heap;
     size_t n, capacity, seen, most;

@@ -1,51 +1,51 @@
 /* Area and anchor of a shape with corners that are no doubles. */
+#include "predicate/kernel.h"
 #include "predicate/vector.h"
 #include "shape/shape.h"
 
 /* ---- Area ---- */
 
-/* Twice the area of a convex piece, counter-clockwise, in units of 2^-bits: the sum of cross products taken from its
- * first corner, each rounded down; *lost counts those. */
-static sunder_i_big twice_area(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_point *at,
-                               const uint32_t *corner, uint32_t n, unsigned long bits, int64_t *lost)
+/* The cross product of the ends of an edge, in units of 2^-bits and rounded down; *lost counts those that were. */
+static sunder_i_big edge_area(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
+                              unsigned long bits, int64_t *lost)
 {
-    sunder_i_big sum = {NULL, 0};
-    const sunder_i_vector o = sunder_i_vector_get(arena, l, at[corner[0]]);
-    sunder_i_vector v = sunder_i_vector_sub(arena, sunder_i_vector_get(arena, l, at[corner[1]]), o);
-    for (uint32_t i = 1; i + 1 < n; i++) {
-        const sunder_i_vector u = v;
-        v = sunder_i_vector_sub(arena, sunder_i_vector_get(arena, l, at[corner[i + 1]]), o);
-        const sunder_i_big den = sunder_i_times(arena, u.w, v.w);
-        sunder_i_big term = sunder_i_big_shl(arena, sunder_i_vector_cross(arena, u, v), bits);
-        if (!sunder_i_is_one(den)) {
-            term = sunder_i_big_div_floor(arena, term, den);
-            ++*lost;
-        }
-        sum = sunder_i_big_add(arena, sum, term);
-    }
-    return sum;
+    const sunder_i_vector u = sunder_i_vector_get(arena, l, a), v = sunder_i_vector_get(arena, l, b);
+    const sunder_i_big den = sunder_i_times(arena, u.w, v.w);
+    const sunder_i_big term = sunder_i_big_shl(arena, sunder_i_vector_cross(arena, u, v), bits);
+    if (sunder_i_is_one(den)) return term;
+    ++*lost;
+    return sunder_i_big_div_floor(arena, term, den);
 }
 
-/* The sum over convex pieces, which is the sum over members, with so many bits behind the point; it is true, or too
- * small by less than *lost in the last of them. */
-static sunder_i_big sum_pieces(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
-                               unsigned long bits, int64_t *lost)
+/* Twice the area, the sum over all edges (rings run with the interior on their left), with so many bits behind the
+ * point; it is true, or too small by less than *lost in the last of them. Most corners of most shapes are plain
+ * numbers, whose products, below 2^124, are summed by themselves until they overflow. */
+static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
+                              unsigned long bits, int64_t *lost)
 {
-    sunder_i_big sum = {NULL, 0};
+    sunder_i_big sum = {NULL, 0}, plain = {NULL, 0};
+    sunder_i_i128 run = 0;
     sunder_i_arena scratch;
     *lost = 0;
     sunder_i_arena_init(&scratch);
-    for (uint32_t i = 0, at = 0; i < shape->pieces; at = shape->piece_end[i++]) {
+    for (uint32_t i = 0; i < shape->vertices && !arena->failed; i++) {
+        const sunder_i_point a = placed->p[i], b = placed->p[shape->next[i]];
+        if (sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b)) {
+            const sunder_i_i128 term = sunder_i_narrow_cross(a, b), before = run;
+            if (!__builtin_add_overflow(before, term, &run)) continue;
+            plain = sunder_i_big_add(arena, plain, sunder_i_big_i128(arena, before));
+            run = term;
+            continue;
+        }
         const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
-        const uint32_t *corner = shape->piece_vertex + at, n = shape->piece_end[i] - at;
-        sum = sunder_i_big_add(arena, sum,
-                               sunder_i_big_copy(arena, twice_area(&scratch, &placed->lattice, placed->p, corner, n,
-                                                                   bits, lost)));
+        const sunder_i_big term = edge_area(&scratch, &placed->lattice, a, b, bits, lost);
+        sum = sunder_i_big_add(arena, sum, sunder_i_big_copy(arena, term)); /* a sum with zero is its other term */
         arena->failed |= scratch.failed;
         if (!scratch.failed) sunder_i_arena_release(&scratch, mark);
     }
     sunder_i_arena_free(&scratch);
-    return sum;
+    plain = sunder_i_big_add(arena, plain, sunder_i_big_i128(arena, run));
+    return sunder_i_big_add(arena, sum, sunder_i_big_shl(arena, plain, bits));
 }
 
 /* Numerators of points over one denominator. */
@@ -58,13 +58,14 @@ static common over_one(sunder_i_arena *arena, const sunder_i_lattice *l, const s
 {
     common c = {sunder_i_arena_alloc(arena, n, sizeof *c.xy), sunder_i_big_i64(arena, 1)};
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
+        if (sunder_i_point_is_plain(at[corner[i]])) continue;
         const sunder_i_big w = sunder_i_vector_get(arena, l, at[corner[i]]).w;
         const sunder_i_big g = sunder_i_big_gcd(arena, c.den, w);
         if (!arena->failed) c.den = sunder_i_big_mul(arena, c.den, sunder_i_big_div_floor(arena, w, g));
     }
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
         const sunder_i_vector v = sunder_i_vector_get(arena, l, at[corner[i]]);
-        const sunder_i_big factor = sunder_i_big_div_floor(arena, c.den, v.w);
+        const sunder_i_big factor = sunder_i_is_one(v.w) ? c.den : sunder_i_big_div_floor(arena, c.den, v.w);
         c.xy[i][0] = sunder_i_big_mul(arena, v.x, factor);
         c.xy[i][1] = sunder_i_big_mul(arena, v.y, factor);
     }
@@ -97,7 +98,7 @@ static double area_of(sunder_i_arena *arena, const sunder_shape *shape, const su
     const sunder_i_big one = sunder_i_big_i64(arena, 1);
     for (unsigned long bits = 128; bits <= 2048; bits *= 4) {
         int64_t lost;
-        const sunder_i_big low = sum_pieces(arena, shape, placed, bits, &lost);
+        const sunder_i_big low = sum_edges(arena, shape, placed, bits, &lost);
         const double area = sunder_i_big_ratio(arena, low, one, e - (long)bits);
         const sunder_i_big high = sunder_i_big_add(arena, low, sunder_i_big_i64(arena, lost));
         if (lost == 0 || sunder_i_big_ratio(arena, high, one, e - (long)bits) == area) return area;

@@ -79,7 +79,9 @@ ratio() { awk -v a="$1" -v b="$2" 'BEGIN { if (a > 0) printf "%.1f", b / a; else
 rows() {
   cat <<'LIST'
 bows-pair|bows|arcs|500 1000 2000|pair P Q
+bows4-pair|bows4|arcs|500 1000 2000|pair P Q
 bows-gap|bows|arcs|500 1000 2000|pair P Q --gap 3
+bows4-gap|bows4|arcs|500 1000 2000|pair P Q --gap 3
 scribble-sum|scribble|-|40 80 160|sum P Q --stats -
 track-sum|track|-|500 1000 2000|sum P Q --stats -
 bows-route|houses-bows|houses|3000 6000 11700|route IN --robot disc:2m --from=451220,5411220 --to=452000,5412000

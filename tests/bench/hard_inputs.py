@@ -5,7 +5,7 @@
 
 Coordinates are printed so that they read back as the same doubles. Kinds, and what is hard about them:
 
-pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, two neighbouring vertices swapped in each
+pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, two neighbouring vertices swapped in each; bows4: at four places
         scribble       a ring through random places: about SIZE^2 / 6 crossings; Q a small square
         track          a walk that wanders and is closed at last: about SIZE crossings; Q a small square
         versions       SIZE copies of one outline, every corner off by up to a millimetre; Q a disc's polygon
@@ -267,7 +267,8 @@ def crowd(n, draw, full=False):
     return rows
 
 
-PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "scribble": scribble, "track": track, "versions": versions,
+PAIRS = {"arcs": arcs, "bows": lambda n, draw: arcs(n, draw, 1), "bows4": lambda n, draw: arcs(n, draw, 4),
+         "scribble": scribble, "track": track, "versions": versions,
          "slivers": slivers, "stairs": stairs, "pile": pile, "copies": copies, "ragged": ragged,
          "rough": lambda n, draw: ragged(n, draw, 333), "even": even, "round": against_round,
          "even-round": lambda n, draw: against_round(n, draw, True), "coast": coast, "hollow": hollow, "combs": combs, "spikes-box": spikes_box, "detail": detail}

@@ -1,6 +1,8 @@
 /* Brute force for gaps: the figures, and the gap in rationals. */
 #include "gap_oracle_inner.h"
 
+#include "slabs.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -131,7 +133,12 @@ bool gap_oracle_keeps(const polyset *p, const polyset *q, double gap, const mpq_
         for (size_t j = 0; j < f.m && keeps; j++)
             keeps = far_enough(&f.a[i], f.b[j].ax, f.b[j].ay, x, y, 1, gap) &&
                     far_enough(&f.b[j], f.a[i].ax, f.a[i].ay, x, y, -1, gap);
-    keeps = keeps && interiors_apart(&f, mpq_get_d(x), mpq_get_d(y));
     figure_close(&f);
+    mpq_t at[2];
+    mpq_inits(at[0], at[1], NULL);
+    mpq_set(at[0], x);
+    mpq_set(at[1], y);
+    keeps = keeps && !interiors_meet(p, q, (const mpq_t *)&at[0], (const mpq_t *)&at[1]);
+    mpq_clears(at[0], at[1], NULL);
     return keeps;
 }
