@@ -22,6 +22,9 @@ static const size_t stage[] = {2, 8, 32, 128};
 #define EFFORT 2000000u
 #define EFFORT_EACH 5000u
 #define EFFORT_SUIT 200000u
+#define MOST_SUITS 50 /* ... of no more than these */
+/* So many in vain, one after the other, and with so many who move none of the others is asked. */
+#define USELESS 32
 /* What one descent of the whole may take: so much, and so much for each body. */
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
@@ -189,12 +192,15 @@ static void ask_all(petition *p, const request *r)
 {
     sunder_i_search *s = p->search;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
-    for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++)
+    for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
+        size_t useless = 0;
         for (size_t k = 0; k < p->n && !s->failed && work_of(s) < p->effort; k++) {
-            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r)) continue;
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == USELESS)) continue;
             p->settled[k] = grant(p, k, level, r->peace);
             p->any = p->any || p->settled[k];
+            useless = p->settled[k] ? 0 : useless + 1;
         }
+    }
 }
 
 /* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. */
@@ -218,7 +224,8 @@ void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t
     for (size_t k = 0; k < s->n; k++) p.moving += s->mass[k] > 0;
     if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_vicinity_init(&p.vicinity, s)))
         s->failed = true;
-    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_SUIT * (uint64_t)n;
+    const uint64_t pairs = n < MOST_SUITS ? n : MOST_SUITS;
+    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_SUIT * pairs;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
         if (!requests[k].part) p.effort = work_of(s) + effort / 2;
         ask_all(&p, &requests[k]);

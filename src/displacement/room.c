@@ -42,6 +42,17 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
         sunder_i_search_visit(s, town->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
 }
 
+static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+
+/* Might they, or what a truce shifts, be within r of each other at v? No least translation is longer than the boxes. */
+static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
+{
+    const double far = r + extent(p->box) + extent(q->box);
+    const double box[4] = {p->box[0] - v[0] - far, p->box[1] - v[1] - far, p->box[2] - v[0] + far,
+                           p->box[3] - v[1] + far};
+    return sunder_i_box_meet(box, q->box);
+}
+
 /* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
 static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
                           const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
@@ -49,8 +60,10 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
 {
     const sunder_i_town *town = s->town;
     double shift;
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
+    if (!are_near(p, q, v, reach + s->gap)) return;
     const bool torn = sunder_i_search_is_torn(s, (uint32_t)(p - town->body), (uint32_t)(q - town->body), &shift);
-    const double v[2] = {offset[0] + u[0], offset[1] + u[1]}, r = reach + s->gap + shift;
+    const double r = reach + s->gap + shift;
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
     if ((p->walls || q->walls) && (torn || town->kept_n)) add_walls(s, o, p, q, offset, v, r, torn);
     for (uint32_t k = 0; k < np; k++) {
@@ -77,8 +90,6 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
         }
     }
 }
-
-static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
 
 /* Beyond everything, in the four directions: always free, for when all else is full. */
 static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])

@@ -3,8 +3,8 @@
  * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair may
  * stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
  *
- *   - one of the two is put a unit beside its place, or takes the other's move, or all that moved alike take one move, where
- *     they are then in nobody's way;
+ *   - one of the two is put a unit beside its place, or takes the other's move, or all that moved alike take one move, or
+ *     one coordinate of it, where they are then in nobody's way;
  *   - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
  *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *
@@ -17,9 +17,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Moves alike: they differ by no more than so many units. Of more than MOST_ALIKE that are, none is moved for the others. */
+/* Moves are alike that differ by no more than so many units. */
 #define HAIR 16
-#define MOST_ALIKE 1000
+/* So many bodies in all may be moved together in vain. */
+#define IN_VAIN 20000
 
 /* ---- The rule ------------------------------------------------------------------------------------------------------
  */
@@ -71,15 +72,24 @@ sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder
 /* ---- A place nearby ------------------------------------------------------------------------------------------------
  */
 
-/* Bodies that go somewhere together, and where they stood. */
+/* Bodies that are to have one move, or one coordinate of it, and where they stood. */
 typedef struct trial {
     sunder_i_job *job;
     uint32_t *body;
     double *stood; /* [2 n] */
     size_t n, body_capacity, stood_capacity;
+    unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
+    bool *taken;    /* [bodies] where many are asked; else NULL */
+    size_t *budget; /* bodies that may yet be moved in vain */
     sunder_i_list near;
     bool well; /* so far */
 } trial;
+
+/* What body k of the trial is to move by, if they are all to move by `to`. */
+static void goal_of(const trial *t, size_t k, const double to[2], double goal[2])
+{
+    for (unsigned c = 0; c < 2; c++) goal[c] = t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
+}
 
 static bool can_move(const sunder_i_job *w, uint32_t b) { return !w->town.body[b].fixed && !w->town.body[b].pinned; }
 
@@ -111,10 +121,12 @@ static bool can_go(const trial *t, const double to[2])
 {
     bool any = false;
     for (size_t k = 0; k < t->n; k++) {
-        double exact[2];
-        any = any || t->stood[2 * k] != to[0] || t->stood[2 * k + 1] != to[1];
-        if (!sunder_i_within(to, t->job->town.body[t->body[k]].limit) ||
-            !sunder_i_round_move(&t->job->town, t->body[k], to, exact, NULL) || exact[0] != to[0] || exact[1] != to[1])
+        double exact[2], goal[2];
+        goal_of(t, k, to, goal);
+        any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
+        if (!sunder_i_within(goal, t->job->town.body[t->body[k]].limit) ||
+            !sunder_i_round_move(&t->job->town, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
+            exact[1] != goal[1])
             return false;
     }
     return any;
@@ -127,7 +139,9 @@ static sunder_status put(trial *t, const double *to, sunder_error *err)
     sunder_status status = SUNDER_OK;
     memset(w->changed, 0, w->town.features * sizeof *w->changed);
     for (size_t k = 0; k < t->n && !status; k++) {
-        sunder_i_job_place(w, t->body[k], to ? to : t->stood + 2 * k);
+        double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
+        if (to) goal_of(t, k, to, goal);
+        sunder_i_job_place(w, t->body[k], goal);
         status = sunder_i_scene_place(&w->town, &w->scene, t->body[k], err);
     }
     return status;
@@ -178,19 +192,20 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
 /* ---- All that move as one ------------------------------------------------------------------------------------------
  */
 
-static bool is_taken(const trial *t, uint32_t b)
+/* Do the two move alike, as far as the trial asks, up to a few units? */
+static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
 {
-    for (size_t k = 0; k < t->n; k++)
-        if (t->body[k] == b) return true;
-    return false;
+    const double *p = t->job->town.move + 2 * (size_t)b, *q = t->job->town.move + 2 * (size_t)other;
+    for (unsigned c = 0; c < 2; c++)
+        if ((t->along >> c & 1) && !(fabs(p[c] - q[c]) <= hair)) return false;
+    return true;
 }
 
-/* Those about body b who moved as it did, up to a few units. */
+/* Those about body b who moved as it did. */
 static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error *err)
 {
     const sunder_i_town *town = &t->job->town;
     const sunder_i_body *p = &town->body[b];
-    const double *move = town->move + 2 * (size_t)b;
     for (uint32_t m = 0; m < p->members; m++) {
         const uint32_t f = town->member[p->member + m];
         double box[4];
@@ -200,9 +215,9 @@ static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error 
         if (!sunder_i_index_query(&t->job->scene.tree, box, &t->near)) return sunder_i_no_memory(err);
         for (size_t k = 0; k < t->near.n; k++) {
             const uint32_t other = town->body_of[t->near.item[k]];
-            const double *to = town->move + 2 * (size_t)other;
-            if (!can_move(t->job, other) || fabs(to[0] - move[0]) > hair || fabs(to[1] - move[1]) > hair) continue;
-            if (!is_taken(t, other) && !take(t, other)) return sunder_i_no_memory(err);
+            if (t->taken[other] || !can_move(t->job, other) || !is_alike(t, b, other, hair)) continue;
+            if (!take(t, other)) return sunder_i_no_memory(err);
+            t->taken[other] = true;
         }
     }
     return SUNDER_OK;
@@ -214,7 +229,10 @@ static sunder_status try_together(trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < t->n && t->n <= MOST_ALIKE && !status; k++) {
+    if (!t->taken) t->taken = sunder_i_calloc(t->job->town.bodies, sizeof *t->taken);
+    if (!t->taken) return sunder_i_no_memory(err);
+    t->taken[t->body[0]] = true;
+    for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
         double unit[2];
         units_of(t->job, t->body[k], unit);
         const double coarse = fmax(unit[0], unit[1]);
@@ -224,28 +242,40 @@ static sunder_status try_together(trial *t, sunder_error *err)
         }
         status = take_alike(t, t->body[k], HAIR * coarsest, err);
     }
+    for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
     t->well = false;
-    return status || t->n > MOST_ALIKE ? status : try_place(t, to, err);
+    if (!status && t->n <= *t->budget) status = try_place(t, to, err);
+    if (!t->well) *t->budget -= t->n < *t->budget ? t->n : *t->budget;
+    return status;
 }
 
-static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, bool *well, sunder_error *err)
+/* The ways to mend a pair, the smallest first; what is in common: both coordinates, or one. */
+typedef enum way { NEARBY, PARTNER, TOGETHER } way;
+static const struct {
+    way way;
+    unsigned along;
+} ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
+
+static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, size_t *budget, bool *well, sunder_error *err)
 {
     const uint32_t pair[2] = {i, j};
-    trial t = {.job = w};
+    trial t = {.job = w, .budget = budget};
     sunder_status status = SUNDER_OK;
-    for (int way = 0; way < 3 && !t.well && !status; way++)
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
             const double *other = w->town.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
             t.n = 0;
+            t.along = ways[k].along;
             if (!can_move(w, pair[e])) continue;
             if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
-            if (!status && way == 0) status = try_nearby(&t, err);
-            if (!status && way == 1) status = try_place(&t, to, err);
-            if (!status && way == 2) status = try_together(&t, err);
+            if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
+            if (!status && ways[k].way == PARTNER) status = try_place(&t, to, err);
+            if (!status && ways[k].way == TOGETHER) status = try_together(&t, err);
         }
     *well = t.well;
     sunder_i_free(t.body);
     sunder_i_free(t.stood);
+    sunder_i_free(t.taken);
     sunder_i_free(t.near.item);
     return status;
 }
@@ -276,6 +306,7 @@ static sunder_status pin(sunder_i_job *w, uint32_t i, uint32_t j, sunder_error *
 sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
+    size_t budget = IN_VAIN;
     for (bool any = w->now.n > 0, pinned; any && !status;) {
         any = pinned = false;
         for (size_t k = 0; k < w->now.n && !status; k++) {
@@ -285,7 +316,7 @@ sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err)
             status = breaks_rule(w, &r, &breaks, err);
             if (status || !breaks || (!can_move(w, i) && !can_move(w, j))) continue;
             any = true;
-            status = mend(w, i, j, &well, err);
+            status = mend(w, i, j, &budget, &well, err);
             if (status || well) continue;
             pinned = true;
             status = pin(w, i, j, err);
