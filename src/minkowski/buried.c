@@ -5,6 +5,7 @@
  * with one-sided bounds, so that nothing is taken for buried that is not. */
 #include "minkowski/buried.h"
 
+#include "number/sort.h"
 #include "number/watch.h"
 #include "predicate/kernel.h"
 
@@ -22,6 +23,7 @@ typedef struct grid {
     sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
     int64_t error;
     box *reach; /* [subsums] their boxes */
+    uint32_t *order; /* [subsums] the largest first */
     box all;
     int shift;
     uint32_t size[2];
@@ -50,8 +52,8 @@ static bool is_within(const grid *g, const box *b, sunder_i_point p)
     return p.x > b->low[0] + e && p.x < b->high[0] - e && p.y > b->low[1] + e && p.y < b->high[1] - e;
 }
 
-/* Is p strictly inside for certain? The fan of triangles around the first corner is searched for the one that holds p.
- */
+/* Is p strictly inside for certain? The fan of triangles around the first corner is searched for the one that holds p,
+ * or for the diagonal that it is on, or too near to be told on which side: then for the two triangles beside that. */
 static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
 {
     const sunder_i_subsums *s = g->subsums;
@@ -62,7 +64,9 @@ static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
     while (high - low > 1) {
         const uint32_t middle = (low + high) / 2;
         const double where = turn(g, c[0], c[middle], p);
-        if (where == 0) return false; /* on the diagonal, or too near: the two halves might both be wrong */
+        if (where == 0)
+            return turn(g, c[0], c[middle - 1], p) > 0 && turn(g, c[middle - 1], c[middle], p) > 0 &&
+                   turn(g, c[middle], c[middle + 1], p) > 0 && turn(g, c[middle + 1], c[0], p) > 0;
         if (where > 0)
             low = middle;
         else
@@ -123,6 +127,27 @@ static void measure(grid *g)
 
 static uint32_t column(const grid *g, int axis, int64_t at) { return (uint32_t)((at - g->all.low[axis]) >> g->shift); }
 
+/* Boxes stand for what they hold: whether one is larger is of no consequence but for time. */
+static int compare_extents(void *context, uint32_t a, uint32_t b)
+{
+    const double *extent = context;
+    return (extent[a] < extent[b]) - (extent[a] > extent[b]);
+}
+
+static bool order_by_extent(grid *g)
+{
+    const size_t n = g->subsums->n;
+    double *extent = sunder_i_alloc(n, sizeof *extent);
+    for (uint32_t i = 0; extent && i < n; i++) {
+        const box *r = &g->reach[i];
+        g->order[i] = i;
+        extent[i] = ((double)r->high[0] - (double)r->low[0]) * ((double)r->high[1] - (double)r->low[1]);
+    }
+    const bool ok = extent && sunder_i_sort_indices(g->order, n, compare_extents, extent);
+    sunder_i_free(extent);
+    return ok;
+}
+
 /* Squares about as large as half a subsum, but no more than four for each. */
 static void choose_squares(grid *g)
 {
@@ -177,7 +202,8 @@ static bool make_lists(grid *g, bool *made)
         g->end[q] = sum; /* where the next goes; in the end the end */
         sum += count;
     }
-    for (uint32_t i = 0; i < n; i++) visit(g, i, true);
+    if (!order_by_extent(g)) return false;
+    for (uint32_t i = 0; i < n; i++) visit(g, g->order[i], true);
     *made = true;
     return true;
 }
@@ -194,7 +220,8 @@ static bool holds_both(const grid *g, uint32_t subsum, sunder_i_point a, sunder_
 }
 
 /* A subsum that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
- * of the square in which the middle lies; what is found goes to the front, for what holds one side holds others. */
+ * of the square in which the middle lies, the largest first; what is found goes to the front, for what holds one side
+ * holds others. */
 static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
 {
     if (hint != NONE && holds_both(g, hint, a, b)) return hint;
@@ -213,11 +240,13 @@ static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_
 }
 
 /* A side that is buried saves some thousand instructions, about what 64 looks cost; where sides are held by several
- * subsums together, not by one, that is noticed soon, and the rest is left to the cells. */
+ * subsums together, not by one, that is noticed soon, and the rest is left to the cells. The smallest subsums come
+ * first: of features one within the other only the last, which nothing holds, is looked for in vain. */
 static void bury(sunder_i_subsums *s, grid *g)
 {
     g->allowed = 4 * LOOKS + 4 * s->n;
-    for (uint32_t i = 0; i < s->n && g->spent < g->allowed && sunder_i_step(); i++) {
+    for (size_t left = s->n; left-- > 0 && g->spent < g->allowed && sunder_i_step();) {
+        const uint32_t i = g->order[left];
         const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
         uint32_t holder = NONE;
         for (uint32_t k = first; k < end; k++) {
@@ -232,8 +261,10 @@ static void bury(sunder_i_subsums *s, grid *g)
 sunder_status sunder_i_bury_candidates(sunder_i_subsums *subsums, sunder_error *err)
 {
     if (subsums->n == 0) return SUNDER_OK;
-    grid g = {.subsums = subsums, .reach = sunder_i_alloc(subsums->n, sizeof *g.reach)};
-    bool no_memory = !g.reach, made = false;
+    grid g = {.subsums = subsums,
+              .reach = sunder_i_alloc(subsums->n, sizeof *g.reach),
+              .order = sunder_i_alloc(subsums->n, sizeof *g.order)};
+    bool no_memory = !g.reach || !g.order, made = false;
     if (!no_memory && take_corners(&g, &no_memory)) {
         measure(&g);
         choose_squares(&g);
@@ -242,6 +273,7 @@ sunder_status sunder_i_bury_candidates(sunder_i_subsums *subsums, sunder_error *
     }
     sunder_i_free(g.rounded);
     sunder_i_free(g.reach);
+    sunder_i_free(g.order);
     sunder_i_free(g.end);
     sunder_i_free(g.list);
     return no_memory ? sunder_i_no_memory(err) : SUNDER_OK;

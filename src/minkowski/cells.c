@@ -10,9 +10,11 @@
 #define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
 /* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
  * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
- * a subsum have grown by more than this since some ancestor had them. As one split at most doubles them, all leaves
- * together have no more than four times the pairs of the root, whatever the input. */
+ * a subsum have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
+ * split at most doubles them, all leaves together have no more than four times the pairs of the root, whatever the
+ * input. */
 #define MOST_GROWTH 2
+#define TRIAL_PAIRS 4096 /* what fewer cost is no matter */
 /* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
  * its subsums more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
  * way the more pairs it has; or sides that are truly concurrent. */
@@ -289,7 +291,7 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
         return;
     }
     cell c = {h->b, b->entries_n,     b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0,
-              0,    parent->share / 2, growth};
+              0,    parent->share / 2, growth,        0};
     memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
     memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
     if (h->entries_n == 1) {
@@ -304,9 +306,12 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
         return;
     }
     c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
-    const bool enough = growth > MOST_GROWTH || c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
-    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !enough && choose_axis(b, &c);
+    const bool grown = growth > MOST_GROWTH && !b->trial.on;
+    const bool stubborn = c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
+    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !grown && !stubborn && choose_axis(b, &c);
     const size_t lines = at_once ? halve(&c, h) : shrink(b, &c, &h->b);
+    c.trial = grown && pairs_of(lines, h->entries_n) >= TRIAL_PAIRS ? pairs_of(lines, h->entries_n) : 0;
+    const bool enough = stubborn || (grown && !(c.trial > 0));
     const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
     const bool leaf = enough || lines * (h->entries_n - 1) <= few || (lines > 0 && !choose_axis(b, &c));
     if (lines > 0 && !leaf) {
@@ -335,6 +340,7 @@ static bool reserve_halves(builder *b, const cell *c)
 static void split(builder *b, const cell *c)
 {
     if (!reserve_halves(b, c)) return;
+    b->trial.spent += (double)c->sides;
     const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
     half h[2];
     memset(h, 0, sizeof h);
@@ -372,13 +378,16 @@ static sunder_status descend(builder *b, sunder_error *err)
     split(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
+        if (b->stack_n == b->trial.stack_n) b->trial.on = false; /* it has paid */
         const cell c = b->stack[--b->stack_n];
         b->entries_n = c.entry_to; /* lists above belong to cells already done */
         b->runs_n = c.run_to;
         if (b->options && b->options->progress && (++tick & 63) == 0 &&
             !b->options->progress(b->done, b->options->progress_user))
             return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+        if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, b->out->n, b->done, 0};
         split(b, &c);
+        if (b->trial.on) sunder_i_cells_end_trial(b);
     }
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
@@ -403,7 +412,7 @@ sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_
     for (b.recent_bits = 6; b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits; b.recent_bits++) {}
     b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
     const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
-    if (ok) memset(b.recent, 0xff, sizeof *b.recent << b.recent_bits);
+    if (ok) sunder_i_cells_forget_pairs(&b);
     sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
     sunder_i_free(b.side);

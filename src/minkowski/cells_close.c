@@ -2,6 +2,8 @@
  * candidates. */
 #include "minkowski/cells_inner.h"
 
+#include <string.h>
+
 /* Neighbouring leaves have most of their pairs in common (features that overlap: nine of ten). Those pushed of late are
  * known again, by their slot; what has been driven out of it comes in twice, which does no harm. */
 static bool is_known(builder *b, uint64_t pair)
@@ -11,6 +13,8 @@ static bool is_known(builder *b, uint64_t pair)
     *slot = pair;
     return false;
 }
+
+void sunder_i_cells_forget_pairs(builder *b) { memset(b->recent, 0xff, sizeof *b->recent << b->recent_bits); }
 
 static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
 {
@@ -95,6 +99,26 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
             if (!push_pair(b, line, subsum)) return;
         }
     }
+}
+
+/* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. A trial may take
+ * half of what it can save, and leave half the pairs. */
+#define PAIR_COST 8
+
+/* Marks that the trial left on candidates stay: they only make more of them open. */
+void sunder_i_cells_end_trial(builder *b)
+{
+    trial *t = &b->trial;
+    if (t->spent + PAIR_COST * (double)(b->out->n - t->pairs_n) <= PAIR_COST / 2 * t->of.trial) return;
+    t->on = false;
+    b->stack_n = t->stack_n;
+    b->entries_n = t->of.entry_to;
+    b->runs_n = t->of.run_to;
+    b->out->n = t->pairs_n;
+    sunder_i_cells_forget_pairs(b);
+    sunder_i_cells_gather(b, t->of.run_from, t->of.run_to, &t->of.b);
+    sunder_i_cells_open_leaf(b, &t->of);
+    b->done = t->done + t->of.share;
 }
 
 /* Of the marks the fates. An open candidate is paired with its own subsum, where leaves that it has to itself did

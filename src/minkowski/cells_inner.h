@@ -36,7 +36,18 @@ typedef struct cell {
     int axis;     /* to split across */
     double share; /* of the whole work, taking each half as half of its parent's */
     double growth; /* see growth_of() */
+    double trial;  /* the pairs of a line and a subsum of one that is split on trial only; else 0 */
 } cell;
+
+/* A cell that is split although its pairs grow: features one within the other, or many that overlap by much, part only
+ * in cells as small as their distances, and may multiply on the way there. Where that takes more than the cell's own
+ * pairs, all is as if it had never been split. */
+typedef struct trial {
+    bool on;
+    cell of;
+    size_t stack_n, pairs_n; /* what there was before */
+    double done, spent;
+} trial;
 
 /* A candidate and the part of the box at hand that it may pass through. */
 typedef struct crossing {
@@ -67,6 +78,7 @@ typedef struct builder {
     size_t crossing_n;
     cell *stack;
     size_t stack_n, stack_capacity;
+    trial trial;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
     uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
     uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
@@ -134,6 +146,8 @@ bool sunder_i_cells_root(builder *b, cell *root);
 
 /* ---- cells_close.c: what becomes of cells that are not split further ---- */
 
+/* No pair is known to have been pushed. */
+void sunder_i_cells_forget_pairs(builder *b);
 /* Lists the candidates of some runs that pass through a box: b->crossing. */
 void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c);
 /* The box is inside `one`, or inside `one` and `other` together. */
@@ -142,6 +156,8 @@ void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t
 void sunder_i_cells_lone_leaf(builder *b, const cell *c);
 /* Several do; the candidates are gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c);
+/* Ends the trial where it has taken too long: its cell is left as it was. */
+void sunder_i_cells_end_trial(builder *b);
 /* In the end: of the marks the fates. False if memory is out. */
 bool sunder_i_cells_fates(builder *b);
 

@@ -130,7 +130,7 @@ static bool list_all(builder *b, const box *all, cell *root)
         add_runs(b, order[i]);
         ok = sunder_i_step();
     }
-    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1};
+    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1, 0};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);
     sunder_i_free(order);

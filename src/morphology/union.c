@@ -4,6 +4,7 @@
  * The open pieces leave out the diagonals between them and walls that members share. Both have cover on both sides, so
  * neither is boundary; they would come out as degenerate segments and points, which the union of closed members has
  * none of. */
+#include "minkowski/buried.h"
 #include "minkowski/hulls.h"
 #include "minkowski/stages.h"
 #include "morphology/morphology.h"
@@ -48,8 +49,9 @@ static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_poin
     sunder_i_hulls_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
     if (sunder_i_hulls_rank(&sum->lattice, list, 1, &direction, &classes)) {
-        const sunder_i_subsums parts = sunder_i_hulls_parts(&pieces, &sum->lattice, direction, classes);
-        status = sunder_i_stages_run(&parts, options, NULL, NULL, sum, err);
+        sunder_i_subsums parts = sunder_i_hulls_parts(&pieces, &sum->lattice, direction, classes);
+        if (shape->polygons > 1) status = sunder_i_bury_candidates(&parts, err);
+        if (status == SUNDER_OK) status = sunder_i_stages_run(&parts, options, NULL, NULL, sum, err);
     } else
         status = sunder_i_no_memory(err);
     if (status == SUNDER_OK && !drop_degenerate(sum)) status = sunder_i_no_memory(err);

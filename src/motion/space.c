@@ -1,5 +1,6 @@
 #include "motion/space.h"
 
+#include "minkowski/buried.h"
 #include "minkowski/stages.h"
 #include "motion/diagonals.h"
 #include "motion/whole.h"
@@ -238,7 +239,9 @@ static sunder_status find_outline(maker *m, sunder_i_point *direction, uint32_t 
 {
     const sunder_i_hulls *part = &m->out->part;
     if (part->n == 0) return SUNDER_OK;
-    const sunder_i_subsums subsums = sunder_i_hulls_parts(part, m->lattice, direction, classes);
+    sunder_i_subsums subsums = sunder_i_hulls_parts(part, m->lattice, direction, classes);
+    const sunder_status status = sunder_i_bury_candidates(&subsums, err);
+    if (status != SUNDER_OK) return status;
     return sunder_i_stages_run(&subsums, m->options, keep_stretches, m->out, m->out->sum, err);
 }
 
