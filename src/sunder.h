@@ -106,7 +106,8 @@ typedef enum sunder_validity {
  *            SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose by the
  *            even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
  *            nothing vanishes.
- * Fails      SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
+ * Fails      SUNDER_EARG      ends that do not ascend, or no such validity
+ *            SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
  *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
  *            SUNDER_ESIZE     more than 2^27 vertices
  * Cost       O(n log n) where edges are short beside the whole, as on maps. */

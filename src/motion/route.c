@@ -68,6 +68,9 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
 {
     for (size_t i = 0; i < n; i++) {
         const sunder_obstacle *o = &obstacles[i];
+        for (size_t k = 1; k < o->lines; k++)
+            if (o->line_end[k] < o->line_end[k - 1])
+                return sunder_i_fail(err, SUNDER_EARG, "obstacle %zu: line %zu ends before the one that it follows", i, k);
         const size_t points = o->lines ? o->line_end[o->lines - 1] : 0;
         for (size_t k = 0; k < 2 * points; k++)
             if (!isfinite(o->xy[k]))
@@ -114,7 +117,7 @@ static sunder_status prove(sunder_route *r, const sunder_i_place_at *place, cons
         const size_t j = r->n > 1 ? i + 1 : i;
         const bool is_free = sunder_i_replay_is_free(&r->space, &place[path[i]], &place[path[j]]);
         if (l->arena.failed) return sunder_i_no_memory(err);
-        if (!is_free) return sunder_i_fail(err, SUNDER_EINVALID, "leg %zu of the path fails its proof", i + 1);
+        if (!is_free) return sunder_i_fail(err, SUNDER_EFAULT, "leg %zu of the path fails its proof", i + 1);
         if (!r->rounded_is_free) continue;
         const sunder_i_place_at a = sunder_i_place_of_double(r->space.sum, l, r->stop[i].xy);
         const sunder_i_place_at b = sunder_i_place_of_double(r->space.sum, l, r->stop[j].xy);

@@ -1,6 +1,7 @@
 #include "number/big.h"
 
 #include "number/huge.h"
+#include "number/watch.h"
 
 #include <limits.h>
 #include <math.h>
@@ -391,18 +392,23 @@ static bool parse_integer(sunder_i_arena *arena, const char *text, size_t n, sun
     const bool negative = n && *text == '-';
     if (n && (*text == '-' || *text == '+')) text++, n--;
     if (n == 0) return false;
-    *out = sunder_i_big_i64(arena, 0);
+    *out = zero;
+    /* Eighteen digits at a time fit in 60 bits; all of them in one block, for the text may be as long as it likes. */
+    mp_limb_t *limb = room(arena, (mp_size_t)(n / 18 + 1));
+    mp_size_t used = 0;
     for (size_t i = 0; i < n;) {
-        /* Eighteen digits at a time fit in 64 bits. */
-        int64_t part = 0, scale = 1;
+        mp_limb_t part = 0, scale = 1;
         for (int k = 0; k < 18 && i < n; k++, i++) {
             if (text[i] < '0' || text[i] > '9') return false;
-            part = 10 * part + (text[i] - '0');
+            part = 10 * part + (mp_limb_t)(text[i] - '0');
             scale *= 10;
         }
-        *out = sunder_i_big_add(arena, sunder_i_big_mul(arena, *out, sunder_i_big_i64(arena, scale)),
-                                sunder_i_big_i64(arena, part));
+        if (arena->failed) continue;
+        if (!sunder_i_steps((size_t)used / 64)) arena->failed = true;
+        limb[used] = used ? mpn_mul_1(limb, limb, used, scale) : 0;
+        mpn_add_1(limb, limb, ++used, part);
     }
+    if (!arena->failed) *out = make(limb, used, 1);
     if (negative) *out = sunder_i_big_neg(*out);
     return true;
 }

@@ -1,4 +1,4 @@
-#include "separation/gap.h"
+#include "separation/gap_search.h"
 
 #include "number/sort.h"
 
@@ -67,7 +67,8 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
         bool far = false, inside = true;
         for (uint32_t i = 0; i < s->sides && !far; i++) {
             const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
-            far = turn < -s->bound[i] - r * (1 + 0x1p-40) * sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
+            const double length = sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
+            far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * (1 + 0x1p-40) * length;
             inside = inside && turn > s->bound[i];
         }
         if (inside || (!far && sunder_i_gap_cmp(p, s, &origin) < 0)) return false;

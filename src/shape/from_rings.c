@@ -76,10 +76,20 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
                             rest);
 }
 
-/* Counts that fit our 32-bit vertex numbers, with room for bridges and half-edges. */
+/* Does no end come before the one that it follows? */
+static bool ascending(const size_t *end, size_t n)
+{
+    for (size_t i = 1; i < n; i++)
+        if (end[i] < end[i - 1]) return false;
+    return true;
+}
+
+/* Arrays that describe rings, and counts that fit our 32-bit vertex numbers, with room for bridges and half-edges. */
 static sunder_status read_input(sunder_i_input *in, sunder_error *err)
 {
     const size_t rings = in->polygons ? in->poly_end[in->polygons - 1] : 0;
+    if (!ascending(in->poly_end, in->polygons) || !ascending(in->ring_end, rings))
+        return sunder_i_fail(err, SUNDER_EARG, "a ring or polygon ends before the one that it follows");
     in->vertices = rings ? in->ring_end[rings - 1] : 0;
     in->rings = rings;
     if (in->vertices > UINT32_MAX / 32 || rings > UINT32_MAX / 32)
@@ -251,6 +261,8 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
 sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       sunder_validity validity, sunder_shape **out, sunder_error *err)
 {
+    if (validity != SUNDER_STRICT && validity != SUNDER_EVEN_ODD)
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such way with invalid rings");
     sunder_i_input in = {.xy = xy, .ring_end = ring_end, .poly_end = poly_end, .polygons = polygons};
     sunder_status status = read_input(&in, err);
     if (status) return status;
