@@ -49,10 +49,16 @@ static void add_pieces(sunder_i_bodies *b, const sunder_i_pairing *g, int side)
         add_body(b, g, g->xy[side], s->piece_vertex + k, s->piece_end[i] - k);
 }
 
-static void add_box(sunder_i_bodies *b, const sunder_i_pairing *g, const double box[4])
+/* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
+static bool add_box(sunder_i_bodies *b, const sunder_i_pairing *g, const double box[4])
 {
-    const double xy[8] = {box[0], box[1], box[2], box[1], box[2], box[3], box[0], box[3]};
+    double at[4] = {box[0], box[1], box[2], box[3]};
+    for (int k = 0; k < 4 && g->placed.lattice.narrow; k++) at[k] = k < 2 ? ceil(box[k]) : floor(box[k]);
+    if (at[0] >= at[2] || at[1] >= at[3]) return false;
+    const double xy[8] = {at[0], at[1], at[2], at[1], at[2], at[3], at[0], at[3]};
+    memcpy(b->box + 4 * (size_t)b->boxes++, at, sizeof at);
     add_body(b, g, xy, NULL, 4);
+    return true;
 }
 
 /* A node of the quartering and its box. */
@@ -72,10 +78,7 @@ static bool add_boxes(sunder_i_bodies *b, const sunder_i_pairing *g, const sunde
     for (size_t i = 0; i < n && most > 0 && sunder_i_step(); i++) {
         const place at = queue[i];
         const int32_t child = inner->child[at.node];
-        if (child == SUNDER_I_INNER_FULL) {
-            add_box(b, g, at.box);
-            most--;
-        }
+        if (child == SUNDER_I_INNER_FULL && add_box(b, g, at.box)) most--;
         for (int k = 0; child >= 0 && k < 4; k++, n++) {
             queue[n].node = child + k;
             sunder_i_inner_quarter(at.box, k, queue[n].box);
@@ -182,8 +185,9 @@ bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_pairing *g, int si
     const size_t n = (size_t)s->pieces + boxes, blocks = s->piece_end[s->pieces - 1] / 4 + n;
     *b = (sunder_i_bodies){.end = sunder_i_alloc(n, sizeof *b->end),
                            .block = sunder_i_alloc(blocks, sizeof *b->block),
-                           .vague = sunder_i_alloc(n, sizeof *b->vague)};
-    if (!b->end || !b->block || !b->vague) return false;
+                           .vague = sunder_i_alloc(n, sizeof *b->vague),
+                           .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
+    if (!b->end || !b->block || !b->vague || !b->box) return false;
     add_pieces(b, g, side);
     return add_boxes(b, g, inner, boxes) && plant(b, s->pieces);
 }
@@ -193,6 +197,7 @@ void sunder_i_bodies_free(sunder_i_bodies *b)
     sunder_i_free(b->end);
     sunder_i_free(b->block);
     sunder_i_free(b->vague);
+    sunder_i_free(b->box);
     sunder_i_piece_tree_free(&b->pieces);
     sunder_i_piece_tree_free(&b->all);
     sunder_i_free(b->node);
@@ -226,10 +231,26 @@ static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunde
     }
 }
 
+/* How far a body reaches to the right, up, to the left and down. */
+static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
+{
+    sunder_i_floats r = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++)
+        for (int m = 0; m < 4; m++) {
+            const float x = b->block[k].x[m], y = b->block[k].y[m];
+            r = sunder_i_floats_max(r, (sunder_i_floats){x, y, -x, -y});
+        }
+    return r;
+}
+
 sunder_i_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j, const sunder_i_aim *aim)
 {
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
     below_sides(b, i, b + 1, j, aim, &in, &touch);
     below_sides(b + 1, j, b, i, aim, &in, &touch);
+    if (aim->hx < 0) { /* the square's sides are sides of the sum, too */
+        const sunder_i_floats at = {aim->x + aim->hx, aim->y + aim->hy, aim->hx - aim->x, aim->hy - aim->y};
+        in = sunder_i_floats_min(in, reach_of(b, i) + reach_of(b + 1, j) - at);
+    }
     return (sunder_i_depth){sunder_i_floats_least(in), sunder_i_floats_least(touch)};
 }

@@ -28,6 +28,8 @@ typedef struct sunder_i_bodies {
     sunder_i_body_block *block;
     float *vague;                    /* [n] what heights over its sides may be off by because one of them is short; it
                                         is taken off their supports, so that nothing is held that is not */
+    uint32_t boxes;
+    double *box;                     /* [4 * boxes] the bodies that are boxes, which are the last */
     sunder_i_piece_tree pieces, all; /* the tree of the pieces only, and that of all bodies */
     sunder_i_body_node *node;        /* [2 * all.leaves] */
 } sunder_i_bodies;
@@ -37,7 +39,8 @@ bool sunder_i_bodies_build(sunder_i_bodies *bodies, const sunder_i_pairing *pair
                            const sunder_i_inner *inner);
 void sunder_i_bodies_free(sunder_i_bodies *bodies);
 
-/* A square as bodies see it: its middle, and half its widths. */
+/* A square as bodies see it: its middle, and half its widths; these may be negative, and then it is asked how deep the
+ * middle is in a sum that is widened by a square so large. */
 typedef struct sunder_i_aim {
     float x, y, hx, hy;
 } sunder_i_aim;

@@ -79,9 +79,11 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
 static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
 {
     sunder_i_candidates heap;
-    if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
-    p->segment = heap.item;
-    p->segments = heap.n;
+    if (!p->places) {
+        if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
+        p->segment = heap.item;
+        p->segments = heap.n;
+    }
     return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_no_memory(err);
 }
 
@@ -112,14 +114,42 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_separation *out,
-                           bool *beyond, sunder_error *err)
+/* So many pairs of pieces are searched by squares: those with many corners cut up, and whole ones. */
+#define SQUARES_FROM 4096
+#define SQUARES_WHOLE 64
+
+/* By squares, with pieces of few corners; where that leads nowhere the pairing is as it was. */
+static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
+{
+    sunder_i_pairing *g = p->pairing;
+    const sunder_i_pairing whole = *g;
+    bool done;
+    if (!sunder_i_pairing_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
+    for (int k = 0; k < 2 && !done; k++) {
+        g->shape[k] = whole.shape[k];
+        g->piece_box[k] = whole.piece_box[k];
+        g->ring[k] = whole.ring[k];
+    }
+    return true;
+}
+
+static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options *o)
+{
+    const sunder_i_pairing *g = p->pairing;
+    if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false; /* boxes are on a narrow one only */
+    return o->force_squares || ((uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SQUARES_WHOLE &&
+                                sunder_i_pairing_parts(g) >= SQUARES_FROM);
+}
+
+static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_places *places,
+                           sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_pairing *g = p->pairing;
     const double upper = o->upper / g->unit;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
-    if (!sunder_i_pairing_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    if (are_many(p, o) && !take_squares(p, places)) return sunder_i_no_memory(err);
+    if (!p->places && !sunder_i_pairing_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
     bool memory = true;
     if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
     if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
@@ -172,7 +202,9 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
         g.magnitude = problem.gap_units;
         g.error = fmax(g.error, 0x1p-45 * g.magnitude);
     }
-    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, out, beyond, err);
+    sunder_i_gap_places places = {.place = NULL};
+    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
+    sunder_i_gap_places_free(&places);
     out->operations = g.placed.lattice.operations;
     sunder_i_pairing_free(&g);
     return status;

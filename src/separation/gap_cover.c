@@ -118,35 +118,48 @@ bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, do
     return sunder_i_gap_distance(s, r, x, y) < s->gap - s->margin - slack;
 }
 
+const uint32_t *sunder_i_gap_near(const sunder_i_gap_state *s, double x, double y, size_t *n)
+{
+    *n = s->g->subsums;
+    return s->p->places ? sunder_i_gap_places_near(s->p->places, x, y, n) : NULL;
+}
+
 long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long but)
 {
-    const size_t n = s->g->subsums;
+    size_t n;
+    const uint32_t *near = sunder_i_gap_near(s, x, y, &n);
     s->failed = s->failed || !sunder_i_steps(n);
-    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
-        if ((long)k != but && sunder_i_gap_covers(s, k, x, y, 0)) {
-            s->hint = k;
-            return (long)k;
-        }
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = sunder_i_gap_nth(s, near, i);
+        if ((long)k == but || !sunder_i_gap_covers(s, k, x, y, 0)) continue;
+        s->hint = k;
+        return (long)k;
+    }
     return -1;
 }
 
 long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
 {
-    const size_t n = s->g->subsums;
+    size_t n;
+    const uint32_t *near = sunder_i_gap_near(s, x, y, &n);
     s->failed = s->failed || !sunder_i_steps(n);
-    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0)
-        if (sunder_i_gap_covers(s, k, x, y, slack)) {
-            s->hint = k;
-            return (long)k;
-        }
+    if (near && s->g->subsums && sunder_i_gap_covers(s, s->hint, x, y, slack)) return (long)s->hint;
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = sunder_i_gap_nth(s, near, i);
+        if (!sunder_i_gap_covers(s, k, x, y, slack)) continue;
+        s->hint = k;
+        return (long)k;
+    }
     return -1;
 }
 
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
 {
-    const size_t n = s->g->subsums;
+    size_t n;
+    const uint32_t *near = sunder_i_gap_near(s, x, y, &n);
     s->failed = s->failed || !sunder_i_steps(n / 4);
-    for (size_t i = 0, k = s->hint; i < n; i++, k = k + 1 < n ? k + 1 : 0) {
+    for (size_t i = 0; i < n; i++) {
+        const size_t k = sunder_i_gap_nth(s, near, i);
         if (!sunder_i_gap_near_box(s, k, x, y, 0)) continue;
         const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
         if (!r) return false;

@@ -131,8 +131,11 @@ static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t
 static long too_near(sunder_i_gap_state *s, const question *q, sunder_i_gap_contact *contact, size_t *contacts)
 {
     if (contacts) *contacts = 0;
-    s->failed = s->failed || !sunder_i_steps(s->g->subsums / 4);
-    for (size_t n = s->g->subsums, i = 0, of = s->hint; i < n && !s->failed; i++, of = of + 1 < n ? of + 1 : 0) {
+    size_t n;
+    const uint32_t *near = sunder_i_gap_near(s, q->x, q->y, &n);
+    s->failed = s->failed || !sunder_i_steps(n / 4);
+    for (size_t i = 0; i < n && !s->failed; i++) {
+        const size_t of = sunder_i_gap_nth(s, near, i);
         if (!sunder_i_gap_near_box(s, of, q->x, q->y, s->gap + q->doubt)) continue;
         uint32_t k = 0;
         bool flat = false;
@@ -201,7 +204,9 @@ void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index)
     const bool solved = solve(s, &p);
     if (solved) {
         f = (sunder_i_gap_find){.any = true, .spot = *p.spot, .x = p.x, .y = p.y, .error = p.error};
-        f.contact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, s->g->subsums + 1, sizeof *f.contact);
+        size_t most;
+        (void)sunder_i_gap_near(s, p.x, p.y, &most);
+        f.contact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, most + 1, sizeof *f.contact);
         s->failed = s->failed || !f.contact;
         q = (question){p.spot, p.x, p.y, s->margin + p.error, &p};
         if (!s->failed) near = too_near(s, &q, f.contact, &f.contacts);

@@ -95,6 +95,17 @@ double sunder_i_gap_length(double x, double y);
 /* The spot's coordinates in units, off by less than an `error`. */
 void sunder_i_gap_place(sunder_i_gap_state *s, const sunder_i_spot *spot, double *x, double *y);
 
+/* The numbers of the *n subsums to be asked about a point (gap.h); NULL: all, the last that was of use first. */
+const uint32_t *sunder_i_gap_near(const sunder_i_gap_state *s, double x, double y, size_t *n);
+
+/* The i-th of these. */
+static inline size_t sunder_i_gap_nth(const sunder_i_gap_state *s, const uint32_t *near, size_t i)
+{
+    if (near) return near[i];
+    const size_t k = s->hint + i;
+    return k < s->g->subsums ? k : k - s->g->subsums;
+}
+
 /* NULL if memory is out. */
 const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k);
 /* May the point be within `reach` of subsum k at all? */

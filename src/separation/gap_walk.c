@@ -164,8 +164,11 @@ static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool
 {
     const double x = m->ax + t * m->dx, y = m->ay + t * m->dy;
     long best = -1;
-    s->failed = s->failed || !sunder_i_steps(s->g->subsums / 4);
-    for (size_t k = 0; k < s->g->subsums && !s->failed; k++) {
+    size_t n;
+    const uint32_t *near = sunder_i_gap_near(s, x, y, &n);
+    s->failed = s->failed || !sunder_i_steps(n / 4);
+    for (size_t i = 0; i < n && !s->failed; i++) {
+        const size_t k = near ? near[i] : i;
         if (!sunder_i_gap_covers(s, k, x, y, 0)) continue;
         const way_out w = leave(s, m, k, forwards);
         if (!w.any || (best >= 0 && (forwards ? w.t <= out->t : w.t >= out->t))) continue;

@@ -9,7 +9,7 @@ typedef struct sunder_i_least_options {
     double gap;            /* >= 0, finite */
     double upper;          /* a length past which the answer no longer matters; INFINITY for none */
     bool texts;            /* make the three texts */
-    bool force_wide;       /* for tests */
+    bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 
 /* *beyond may be NULL. out is all set on success, untouched on failure. */

@@ -235,7 +235,7 @@ static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares
 static bool by_squares(search *s, bool *done)
 {
     const double limit = s->limit;
-    sunder_i_squares *squares = sunder_i_squares_new(s->g, limit);
+    sunder_i_squares *squares = sunder_i_squares_new(s->g, limit, 0);
     if (!squares) return false;
     const sunder_i_squares_next end = search_squares(s, squares);
     sunder_i_squares_free(squares);

@@ -24,14 +24,14 @@ double sunder_i_float_scale(const sunder_i_pairing *g) { return ldexp(1, -ilogb(
  * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20
 
-sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4])
+sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4], double by)
 {
     const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
     const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = sunder_i_float_scale(g);
     sunder_i_extents out;
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
         const double middle = x * WAY[k][0] + y * WAY[k][1];
-        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude;
+        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude + by;
         out.low[k] = (float)(scale * (middle - reach));
         out.high[k] = (float)(scale * (middle + reach));
     }

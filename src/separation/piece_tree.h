@@ -38,8 +38,8 @@ void sunder_i_extents_add(sunder_i_extents *extents, float x, float y);
 bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents *extent, uint32_t n);
 void sunder_i_piece_tree_free(sunder_i_piece_tree *tree);
 
-/* The extents of a square, widened by what doubles and floats may be off by. */
-sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *pairing, const double square[4]);
+/* The extents of a square, widened by what doubles and floats may be off by, and by so many units. */
+sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *pairing, const double square[4], double by);
 
 /* Four floats at a time, whatever the machine makes of it. */
 typedef float sunder_i_floats __attribute__((vector_size(16)));

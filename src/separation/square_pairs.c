@@ -55,6 +55,16 @@ bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
 
 /* ---- Bodies ---- */
 
+/* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
+ * that if the sum itself holds what is left of the square, so much smaller. */
+static void aim_to_hold(sunder_i_squares *q, const double at[4], double less[4])
+{
+    const double by = 0.70 * q->gap;
+    for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
+    q->aim = sunder_i_bodies_aim(q->g, less);
+    q->at = less;
+}
+
 /* Does the sum of the chiefs of two nodes hold the square? It is remembered whose holds it, or does so most nearly. */
 static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
 {
@@ -66,7 +76,7 @@ static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
     }
     if (fabsf(*in) > SUNDER_I_BODIES_ERROR) return *in > 0;
     const bool pieces = i < q->g->shape[0]->pieces && j < q->g->shape[1]->pieces;
-    return pieces && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
+    return pieces && q->aim.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
 }
 
 static void sink_node(sunder_i_squares *q, sunder_i_node_pair v)
@@ -151,23 +161,32 @@ static sunder_i_held_by_one search_nodes(sunder_i_squares *q, const uint32_t fir
 sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *q, const double at[4], const uint32_t first[2],
                                                 uint32_t tries)
 {
-    q->extents = sunder_i_piece_tree_aim(q->g, at);
-    q->aim = sunder_i_bodies_aim(q->g, at);
-    q->at = at;
+    double less[4];
+    aim_to_hold(q, at, less);
+    q->extents = sunder_i_piece_tree_aim(q->g, less, 0);
     q->tries = tries;
     q->best_depth = -INFINITY;
     q->best[0] = q->best[1] = 1;
     const sunder_i_held_by_one how = search_nodes(q, first);
-    if (how == SUNDER_I_HELD) memcpy(remembered(q), q->best, sizeof q->best);
+    q->held = how == SUNDER_I_HELD;
+    if (!q->held) return how;
+    memcpy(remembered(q), q->best, sizeof q->best);
+    for (int k = 0; k < 2; k++) q->holder[k] = q->bodies[k].node[q->best[k]].chief;
     return how;
 }
 
 /* ---- Pieces ---- */
 
+/* With a gap those that are farther by little more than that are listed too, as the search with a gap asks beside its
+ * points. */
 static sunder_i_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
 {
     const sunder_i_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->aim);
     const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
+    if (q->gap > 0) {
+        const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
+        return d.touch + gap < -e ? SUNDER_I_OUTSIDE : d.in > e ? SUNDER_I_WITHIN : SUNDER_I_ACROSS;
+    }
     if (d.touch < -e) return SUNDER_I_OUTSIDE;
     if (d.in > e) return SUNDER_I_WITHIN;
     return d.touch > e && d.in < -e ? SUNDER_I_ACROSS : sunder_i_squares_position(q, q->at, i, j);
@@ -195,6 +214,8 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
         const sunder_i_position where = position_to_subsum(q, i, j);
         if (where == SUNDER_I_OUTSIDE) return true;
         q->held = where == SUNDER_I_WITHIN;
+        q->holder[0] = i;
+        q->holder[1] = j;
         if (q->held) return false;
         if (q->pairs == most || !sunder_i_reserve(&q->pair, &q->pairs_capacity, q->pairs + 1, sizeof *q->pair))
             return false;
@@ -209,9 +230,9 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 
 bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t most)
 {
-    q->extents = sunder_i_piece_tree_aim(q->g, at);
-    q->aim = sunder_i_bodies_aim(q->g, at);
-    q->at = at;
+    double less[4];
+    aim_to_hold(q, at, less);
+    q->extents = sunder_i_piece_tree_aim(q->g, at, q->gap);
     q->pairs = 0;
     q->held = false;
     return gather(q, 1, 1, most);

@@ -36,9 +36,10 @@ static bool push(sunder_i_squares *q, sunder_i_square s)
     return true;
 }
 
-static sunder_i_square pop(sunder_i_squares *q)
+sunder_i_square sunder_i_squares_first(sunder_i_squares *q)
 {
     const sunder_i_square top = q->heap[0], last = q->heap[--q->n];
+    q->seen++;
     size_t i = 0;
     for (size_t k = 1; k < q->n; i = k, k = 2 * k + 1) {
         if (k + 1 < q->n && q->heap[k + 1].distance < q->heap[k].distance) k++;
@@ -71,10 +72,11 @@ bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
 
 /* ---- In order ---- */
 
-static bool cut(sunder_i_squares *q, const sunder_i_square *s)
+bool sunder_i_squares_cut(sunder_i_squares *q, const sunder_i_square *s)
 {
+    const uint32_t first = 1 + 4 * q->cuts++;
     for (int k = 0; k < 4; k++) {
-        sunder_i_square part = {.depth = s->depth + 1, .best = {q->best[0], q->best[1]}};
+        sunder_i_square part = {.depth = s->depth + 1, .place = first + (uint32_t)k, .best = {q->best[0], q->best[1]}};
         sunder_i_inner_quarter(s->box, k, part.box);
         part.distance = distance_of(part.box);
         if (!push(q, part)) return false;
@@ -82,37 +84,43 @@ static bool cut(sunder_i_squares *q, const sunder_i_square *s)
     return true;
 }
 
-typedef enum finding { CLOSED, OPEN, IN_PARTS, NO_MEMORY } finding;
-
 static uint32_t tries_to_hold(int depth)
 {
     const int doublings = depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0;
     return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
 }
 
-/* What is to be done with a square; if it is open its pairs are listed. */
-static finding look_at(sunder_i_squares *q, const sunder_i_square *s)
+sunder_i_finding sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
 {
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
-    if (!sunder_i_step()) return NO_MEMORY;
-    if (sunder_i_squares_boxes_hold(q, s->box)) return CLOSED;
+    q->held = q->gap == 0 && sunder_i_squares_boxes_hold(q, s->box); /* with a gap it is asked what holds it */
+    q->pairs = 0;
+    if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (q->held) return SUNDER_I_SQUARE_CLOSED;
     const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
-    if (how == SUNDER_I_HOLD_FAILED) return NO_MEMORY;
-    if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? CLOSED : IN_PARTS;
+    if (how == SUNDER_I_HOLD_FAILED) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
     const size_t few = (size_t)FEW_PAIRS << patience;
-    if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? OPEN : CLOSED;
-    return q->held ? CLOSED : q->pairs == few ? IN_PARTS : NO_MEMORY;
+    if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? SUNDER_I_SQUARE_OPEN : SUNDER_I_SQUARE_CLOSED;
+    if (q->held) return SUNDER_I_SQUARE_CLOSED;
+    return q->pairs == few ? SUNDER_I_SQUARE_IN_PARTS : SUNDER_I_SQUARE_NO_MEMORY;
+}
+
+bool sunder_i_squares_too_many(const sunder_i_squares *q, const sunder_i_square *s)
+{
+    return q->seen > q->most || s->depth > DEEPEST;
 }
 
 sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *q, double limit, double box[4], sunder_i_mark *mark,
                                            sunder_i_candidates *candidates)
 {
     while (q->n && q->heap[0].distance <= limit + 64 * q->g->error) {
-        const sunder_i_square s = pop(q);
-        if (++q->seen > q->most || s.depth > DEEPEST) return SUNDER_I_SQUARES_TOO_MANY;
-        const finding what = look_at(q, &s);
-        if (what == NO_MEMORY || (what == IN_PARTS && !cut(q, &s))) return SUNDER_I_SQUARES_NO_MEMORY;
-        if (what != OPEN) continue;
+        const sunder_i_square s = sunder_i_squares_first(q);
+        if (sunder_i_squares_too_many(q, &s)) return SUNDER_I_SQUARES_TOO_MANY;
+        const sunder_i_finding what = sunder_i_squares_look(q, &s);
+        if (what == SUNDER_I_SQUARE_NO_MEMORY || (what == SUNDER_I_SQUARE_IN_PARTS && !sunder_i_squares_cut(q, &s)))
+            return SUNDER_I_SQUARES_NO_MEMORY;
+        if (what != SUNDER_I_SQUARE_OPEN) continue;
         memcpy(box, s.box, sizeof s.box);
         *mark = sunder_i_arena_mark(&q->g->placed.lattice.arena);
         const bool ok = sunder_i_squares_take_subsums(q) && sunder_i_squares_take_candidates(q, box, limit, candidates);
@@ -134,11 +142,12 @@ static bool make_tables(sunder_i_squares *q, int side)
     return true;
 }
 
-sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach)
+sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach, double gap)
 {
     sunder_i_squares *q = sunder_i_calloc(1, sizeof *q);
     if (!q) return NULL;
     q->g = g;
+    q->gap = gap;
     const size_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
     q->most = MOST_SQUARES + MOST_EACH * (m + n) + m * n / MOST_PAIRS;
     const double r = reach + 64 * g->error;
@@ -147,7 +156,8 @@ sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach)
     const bool ok = sunder_i_inner_build(&q->inner[0], g, 0) && sunder_i_inner_build(&q->inner[1], g, 1) &&
                     sunder_i_bodies_build(&q->bodies[0], g, 0, &q->inner[0]) &&
                     sunder_i_bodies_build(&q->bodies[1], g, 1, &q->inner[1]) &&
-                    make_tables(q, 0) && make_tables(q, 1) && push(q, (sunder_i_square){{-r, -r, r, r}, 0, 0, {1, 1}});
+                    make_tables(q, 0) && make_tables(q, 1) &&
+                    push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
     if (ok) return q;
     sunder_i_squares_free(q);
     return NULL;

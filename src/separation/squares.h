@@ -15,8 +15,9 @@ typedef enum sunder_i_squares_next {
     SUNDER_I_SQUARES_NO_MEMORY
 } sunder_i_squares_next;
 
-/* Of all translations with coordinates up to `reach`. NULL if memory is out. */
-sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *pairing, double reach);
+/* Of all translations with coordinates up to `reach`, with subsums grown by a disc of radius `gap`. NULL if memory is
+ * out. */
+sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *pairing, double reach, double gap);
 void sunder_i_squares_free(sunder_i_squares *squares);
 
 /* The next open square that comes within `limit` units of the origin. The pairing's subsums become those of which the

@@ -9,6 +9,7 @@
 typedef struct sunder_i_square {
     double box[4], distance; /* of its nearest point from the origin */
     int depth;
+    uint32_t place;   /* its number: 0 the whole, and four after each other the quarters of one */
     uint32_t best[2]; /* the nodes whose chiefs' sum was nearest to holding the square that this is a quarter of */
 } sunder_i_square;
 
@@ -29,10 +30,13 @@ struct sunder_i_squares {
     uint8_t *state[2];          /* [vertices] UNKNOWN, ... */
     sunder_i_square *heap;
     size_t n, capacity, seen, most;
+    uint32_t cuts;
+    double gap; /* subsums are grown by a disc of this radius; 0: they are not */
     /* of the square at hand */
     sunder_i_extents extents;
     sunder_i_aim aim;
-    const double *at; /* its box */
+    const double *at;   /* its box, less what any sum grows by */
+    uint32_t holder[2]; /* the bodies whose sum holds it, if it is held by one */
     uint32_t (*pair)[2]; /* pieces of P and of Q whose subsums come near it */
     size_t pairs, pairs_capacity;
     uint32_t tries; /* of the search for what may hold it */
@@ -69,6 +73,22 @@ sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *squares, const
 /* Lists the pairs near the square; false if there are more than `most`, or if one of them holds it (squares->held), or
  * if memory is out. */
 bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], size_t most);
+
+typedef enum sunder_i_finding {
+    SUNDER_I_SQUARE_CLOSED, /* held, or free: nothing comes near it (no pairs, and it is not held) */
+    SUNDER_I_SQUARE_OPEN,
+    SUNDER_I_SQUARE_IN_PARTS,
+    SUNDER_I_SQUARE_NO_MEMORY
+} sunder_i_finding;
+
+/* What is to be done with a square; if it is open its pairs are listed. */
+sunder_i_finding sunder_i_squares_look(sunder_i_squares *squares, const sunder_i_square *square);
+/* The nearest square, taken out; there must be one. */
+sunder_i_square sunder_i_squares_first(sunder_i_squares *squares);
+/* Puts in the quarters of a square that was just looked at. False if memory is out. */
+bool sunder_i_squares_cut(sunder_i_squares *squares, const sunder_i_square *square);
+/* Too many squares, or too small ones: this leads nowhere. */
+bool sunder_i_squares_too_many(const sunder_i_squares *squares, const sunder_i_square *square);
 
 /* The pairing's subsums become the pairs listed. False if memory is out. */
 bool sunder_i_squares_take_subsums(sunder_i_squares *squares);

@@ -99,6 +99,7 @@ crowd|crowd-full|crowd|400 1500 6000|separate IN OUT --gap 3 --max-shift 10 --fi
 detail-sum|detail|-|4000 8000 16000|sum P Q --stats -
 stairs-pair|stairs|-|4000 8000 16000|pair P Q
 ragged-pair|ragged|-|4000 8000 16000|pair P Q
+ragged-gap|ragged|-|4000 8000 16000|pair P Q --gap 3
 rough-pair|rough|-|4000 8000 16000|pair P Q
 even-pair|even|-|1000 2000 4000|pair P Q
 round-pair|round|-|4000 8000 16000|pair P Q

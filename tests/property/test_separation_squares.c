@@ -1,9 +1,11 @@
 /* The nearest free placement, searched square by square as for large operands, and in one go: the same point, the same
  * contact, on pairs of all kinds of trouble, also translated so that they overlap by little; and of ragged outlines
  * that are large enough for the squares to matter, stars of equal spikes and round outlines, whose pieces are cut up,
- * among them. Every fourth on a wide lattice. */
+ * among them. Every fourth on a wide lattice. And the same with a gap: the same least length, rounded down, and the
+ * same contact, with an answer hardly longer. */
 #include "failing.h"
 #include "generate.h"
+#include "separation/least.h"
 #include "separation/nearest.h"
 
 #include <math.h>
@@ -115,6 +117,48 @@ static void test_kinds(void **state)
     assert_true(done > n * PAIR_HUGE / 2);
 }
 
+/* With a gap. The answer beside an irrational point depends on the order of what touches there; the point does not. */
+static void expect_same_gap(const polyset *p, const polyset *q, const double *move, double gap, uint64_t seed, size_t i)
+{
+    sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
+    sunder_separation out[2];
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_least_options o = {.tq = move, .gap = gap, .upper = INFINITY, .force_squares = k == 0};
+        assert_int_equal(sunder_i_least(a, b, &o, &out[k], NULL, NULL), SUNDER_OK);
+    }
+    sunder_shape_free(a);
+    sunder_shape_free(b);
+    const bool same = out[0].overlap == out[1].overlap && out[0].contact == out[1].contact &&
+                      out[0].lower_bound == out[1].lower_bound &&
+                      fabs(out[0].distance - out[1].distance) <= 1e-9 * out[1].distance;
+    if (same) return;
+    char *x = polyset_wkt(p), *y = polyset_wkt(q);
+    print_message("SUNDER_SEED=%llu, case %zu\n%.3000s\n%.3000s\nmoved by %g %g, gap %g: %.17g %.17g, %.17g %.17g\n",
+                  (unsigned long long)seed, i, x, y, move[0], move[1], gap, out[0].lower_bound, out[0].distance,
+                  out[1].lower_bound, out[1].distance);
+    free(x);
+    free(y);
+    fail();
+}
+
+static void test_gap_kinds(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(40);
+    for (int kind = 0; kind < PAIR_HUGE; kind++)
+        for (size_t i = 0; i < n; i++) {
+            rng r = rng_start(seed * 53 + (uint64_t)kind, i);
+            polyset p, q;
+            random_pair(&p, &q, &r, (pair_kind)kind);
+            const double move[2] = {(double)rng_int(&r, -4, 4), (double)rng_int(&r, -4, 4)};
+            const double gap = rng_once_in(&r, 2) ? (double)rng_int(&r, 1, 5) : 0.25 + rng_unit(&r);
+            expect_same_gap(&p, &q, move, gap, seed, i);
+            polyset_free(&p);
+            polyset_free(&q);
+        }
+}
+
 /* Outlines along pixels, ragged stars and combs: exact coincidences, spikes that overlap in crowds, exact fits. */
 static void random_large(polyset *p, rng *r, size_t kind, int n)
 {
@@ -192,6 +236,23 @@ static void test_even(void **state)
     assert_true(done > n / 2);
 }
 
+static void test_gap_large(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    const size_t n = test_count(24);
+    for (size_t i = 0; i < n; i++) {
+        rng r = rng_start(seed * 59, i);
+        polyset p, q;
+        random_large(&p, &r, i, (int)rng_int(&r, 20, 80));
+        random_large(&q, &r, i + (i / 3) % 2, (int)rng_int(&r, 20, 80));
+        const double move[2] = {rint(1200 * rng_unit(&r)), rint(1200 * rng_unit(&r))};
+        expect_same_gap(&p, &q, move, rng_once_in(&r, 2) ? (double)rng_int(&r, 1, 200) : 0.3, seed, i);
+        polyset_free(&p);
+        polyset_free(&q);
+    }
+}
+
 static bool search_once(void *context)
 {
     const sunder_shape *const *shape = context;
@@ -205,6 +266,16 @@ static bool search_once(void *context)
     return ok;
 }
 
+static bool search_gap_once(void *context)
+{
+    const sunder_shape *const *shape = context;
+    const sunder_i_least_options o = {.gap = 30, .upper = INFINITY, .force_squares = true};
+    sunder_separation out;
+    const sunder_status status = sunder_i_least(shape[0], shape[1], &o, &out, NULL, NULL);
+    assert_true(status == SUNDER_OK || status == SUNDER_ENOMEM);
+    return status == SUNDER_OK;
+}
+
 static void test_memory(void **state)
 {
     (void)state;
@@ -214,6 +285,7 @@ static void test_memory(void **state)
     random_large(&q, &r, 1, 40);
     sunder_shape *shape[2] = {polyset_shape(&p), polyset_shape(&q)};
     assert_true(failing_loop(search_once, shape, false));
+    assert_true(failing_loop(search_gap_once, shape, false));
     for (int k = 0; k < 2; k++) sunder_shape_free(shape[k]);
     polyset_free(&p);
     polyset_free(&q);
@@ -221,7 +293,9 @@ static void test_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds), cmocka_unit_test(test_large), cmocka_unit_test(test_even),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds),     cmocka_unit_test(test_large),
+                                       cmocka_unit_test(test_even),      cmocka_unit_test(test_gap_kinds),
+                                       cmocka_unit_test(test_gap_large),
                                        cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("square by square", tests, NULL, NULL);
 }
