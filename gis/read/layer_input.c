@@ -292,6 +292,18 @@ bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis
     return make_shapes(out, error);
 }
 
+/* A layer of any type may hold what the command passes by. */
+static void warn_of_others(const gis_layer_input *input)
+{
+    bool any_points = false;
+    for (size_t i = 0; i < input->n && !input->points && !any_points; i++)
+        any_points = gis_source_content(input->source, i) == GIS_POINTS;
+    if (input->other > 0)
+        gis_say_warning("%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
+                        gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
+                        any_points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
+}
+
 bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
 {
     if (!start_reading(options, out, error))
@@ -306,6 +318,7 @@ bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_
         out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
     }
     gis_layer_warn_of_crs(out);
+    warn_of_others(out);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
            make_layer(out, error);
 }

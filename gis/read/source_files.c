@@ -20,12 +20,25 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* The path in the ordinary file system that a virtual path leads to, as far as that is a file: prefixes (/vsizip/,
- * /vsigzip/ within it, /vsisubfile/0_100,) and the braces that may enclose an archive's name are taken off, then the
- * shortest beginning that is a file is the archive. NULL: it leads to none (/vsimem/, a network). CPLFree(). */
-static char *real_file(const char *path)
+/* What follows a driver's name, as in GPKG:file:layer or GeoJSON:file, or the path itself. One letter is a drive. */
+static const char *without_driver(const char *path)
 {
-    bool virtual = false;
+    size_t n = strspn(path, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
+    if (n < 2 || path[n] != ':' || is_file(path))
+        return path;
+    path += n + 1;
+    return *path == '"' ? path + 1 : path;
+}
+
+/* The path in the ordinary file system that a virtual path leads to, as far as that is a file: prefixes (a driver's
+ * name, /vsizip/, /vsigzip/ within it, /vsisubfile/0_100,) and the braces that may enclose an archive's name are taken
+ * off, then the shortest beginning that is a file is the archive. NULL: it leads to none (/vsimem/, a network).
+ * CPLFree(). */
+static char *real_file(const char *name)
+{
+    const char *path = without_driver(name);
+    bool virtual = path != name;
+    const char *ends = virtual ? "/}:\"" : "/}";
     while (strncmp(path, "/vsi", 4) == 0) {
         bool part = strncmp(path, "/vsisubfile/", 12) == 0;
         path = strchr(path + 1, part ? ',' : '/');
@@ -41,7 +54,7 @@ static char *real_file(const char *path)
     if (!*path) /* /vsistdout/ itself */
         return NULL;
     char *found = CPLStrdup(path);
-    for (char *end = strpbrk(found + 1, "/}"); end; end = strpbrk(end + 1, "/}")) {
+    for (char *end = strpbrk(found + 1, ends); end; end = strpbrk(end + 1, ends)) {
         char kept = *end;
         *end = '\0';
         if (is_file(found))

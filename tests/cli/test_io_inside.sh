@@ -18,6 +18,8 @@ if command -v python3 >/dev/null; then
     refused 1 'are the same' separate /vsizip/z.zip/in.gpkg "$PWD/./z.zip" --of GPKG --overwrite
     refused 1 'are the same' separate "/vsizip/{$PWD/z.zip}/in.gpkg" z.zip --of GPKG --overwrite
     refused 1 'are the same' separate /vsizip/z.zip/in.gpkg /vsizip/z.zip/out.gpkg
+    refused 1 'are the same' separate GPKG:in.gpkg:houses in.gpkg --overwrite
+    refused 1 'are the same' separate "GPKG:$PWD/in.gpkg:houses" in.gpkg --overwrite
     refused 1 'are the same' separate /vsigzip/in.gpkg.gz in.gpkg.gz --of GeoJSON --overwrite
     refused 1 'is an input' sum square:1 /vsizip/z.zip/in.gpkg z.zip --of GPKG --overwrite
     refused 1 'is an input' buffer in.gpkg z.zip --shape /vsizip/z.zip/in.gpkg --of GPKG --overwrite
@@ -83,6 +85,14 @@ id,WKT
 X
 run separate lines.gpkg o.gpkg
 if grep -q symbol err; then fail "lines are told of --symbol"; fi
+# ... in a layer of any type, too, where nothing is an error
+layer any.gpkg things GEOMETRY <<'X'
+id,WKT
+1,"POINT(1 1)"
+2,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
+X
+expect 0 check any.gpkg
+grep -q '1 features are no polygons.*for points give their --symbol' err || fail "a point passed by without a word: $(cat err)"
 
 # ---- out of memory is no wrong usage: a literal that needs some, with less and less
 # (a sanitizer wants more addresses than there is memory)
