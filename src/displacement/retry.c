@@ -25,6 +25,8 @@ static const size_t stage[] = {2, 8, 32, 128};
 #define MOST_SUITS 50 /* ... of no more than these */
 /* So many in vain, one after the other, and with so many who move none of the others is asked. */
 #define USELESS 32
+/* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
+#define MOST_TRADING 64
 /* What one descent of the whole may take: so much, and so much for each body. */
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
@@ -83,6 +85,15 @@ static void resume_truces(sunder_i_search *s, const sunder_i_suit *x)
     }
 }
 
+/* The truce, but that what overlapped no longer does, nor will after rounding. */
+static void part_barely(const sunder_i_search *s, sunder_i_truce *t)
+{
+    if (t->shift[0] == 0 && t->shift[1] == 0) return;
+    t->shift[0] = t->shift[1] = 0;
+    t->inside = false;
+    t->gap = s->gap - s->town->rules.gap;
+}
+
 /* The suit's truces, but that what overlapped no longer does. */
 static bool ask_disjoint(sunder_i_search *s, const sunder_i_suit *x)
 {
@@ -90,9 +101,7 @@ static bool ask_disjoint(sunder_i_search *s, const sunder_i_suit *x)
     for (size_t k = 0; k < x->truces; k++) {
         sunder_i_truce t = *truce_of(s, x, k);
         if (!sunder_i_suit_parts(town, &t)) continue;
-        t.shift[0] = t.shift[1] = 0;
-        t.inside = false;
-        t.gap = s->gap - town->rules.gap; /* so that no rounding makes them overlap again */
+        part_barely(s, &t);
         if (!sunder_i_truces_insert(&s->truces, town, &t)) return false;
     }
     return true;
@@ -203,6 +212,85 @@ static void ask_all(petition *p, const request *r)
     }
 }
 
+/* ---- Pairs for an overlap ------------------------------------------------------------------------------------------
+ */
+
+/* Lets the pairs that were in conflict at the start, and are at peace, be as they were then, but that none overlaps: their
+ * truces are in `list`. */
+static void sacrifice(sunder_i_search *s, sunder_i_truces *list)
+{
+    size_t n = 0, out = 0;
+    sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
+    if (!clash) s->failed = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (sunder_i_truces_make(s->town, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance, list, NULL))
+            s->failed = true;
+    sunder_i_free(clash);
+    for (size_t k = 0; k < list->n && !s->failed; k++) {
+        sunder_i_truce t = list->item[k];
+        const sunder_i_truce *old = sunder_i_truces_find(&s->town->truces, t.a, t.b);
+        bool ended = false;
+        part_barely(s, &t);
+        if (old) find_ended(s, old, &ended);
+        if (sunder_i_truces_find(&s->truces, t.a, t.b) || (old && !ended)) continue;
+        if (!sunder_i_truces_insert(&s->truces, s->town, &t)) s->failed = true;
+        list->item[out++] = t;
+    }
+    list->n = s->failed ? 0 : out;
+}
+
+/* Takes the truces back, those first that least is missing of, where there is a solution without. */
+static void redeem(petition *p, sunder_i_truces *list)
+{
+    sunder_i_search *s = p->search;
+    for (size_t k = 0; k < list->n && !s->failed; k++) {
+        size_t best = k;
+        for (size_t other = k + 1; other < list->n; other++)
+            if (list->item[other].gap > list->item[best].gap) best = other;
+        const sunder_i_truce t = list->item[best];
+        list->item[best] = list->item[k];
+        list->item[k] = t;
+        sunder_i_truces_remove(&s->truces, s->town, &t);
+        if (sunder_i_search_look(s, s->t) <= s->tolerance || (work_of(s) < p->effort && settle_all(p))) continue;
+        if (!s->failed && !sunder_i_truces_insert(&s->truces, s->town, &t)) s->failed = true;
+    }
+}
+
+/* From where all came from: sides that others chose do not matter there. */
+static bool grant_from_home(petition *p, size_t k)
+{
+    sunder_i_search *s = p->search;
+    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
+    if (!stood) s->failed = true;
+    if (s->failed) return false;
+    memcpy(stood, s->t, 2 * s->n * sizeof *stood);
+    for (size_t i = 0; i < s->n; i++)
+        if (s->mass[i] > 0) s->t[2 * i] = s->t[2 * i + 1] = 0;
+    const bool granted = grant(p, k, STAGES, false);
+    if (!granted) memcpy(s->t, stood, 2 * s->n * sizeof *stood);
+    sunder_i_free(stood);
+    return granted;
+}
+
+/* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap counts
+ * for more than any number of pairs. */
+static void trade(petition *p)
+{
+    sunder_i_search *s = p->search;
+    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && work_of(s) < p->effort && !s->failed; k++) {
+        sunder_i_truces list = {0};
+        const sunder_i_suit *x = &p->suit[k];
+        const request r = {x->overlap, false, x->part > 0};
+        if (!x->overlap || is_out(p, k, &r)) continue;
+        sacrifice(s, &list);
+        p->settled[k] = list.n && !s->failed && (grant(p, k, STAGES, false) || grant_from_home(p, k));
+        p->any = p->any || p->settled[k];
+        if (p->settled[k]) redeem(p, &list);
+        for (size_t t = 0; t < list.n && !p->settled[k]; t++) sunder_i_truces_remove(&s->truces, s->town, &list.item[t]);
+        sunder_i_truces_free(&list);
+    }
+}
+
 /* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. */
 static bool is_in_order(sunder_i_search *s)
 {
@@ -230,6 +318,8 @@ void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t
         if (!requests[k].part) p.effort = work_of(s) + effort / 2;
         ask_all(&p, &requests[k]);
     }
+    p.effort = work_of(s) + effort / 2;
+    if (!s->failed && s->town->rules.gap > 0) trade(&p);
     if (p.any && p.moving > FEW) sunder_i_search_lower(s);
     sunder_i_vicinity_free(&p.vicinity);
     sunder_i_free(p.settled);

@@ -130,6 +130,9 @@ void sunder_i_search_yield(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
 void sunder_i_search_lower(sunder_i_search *search);
 
+/* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
+sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
+
 /* ---- suits.c, retry.c ---- */
 
 /* Do the two features overlap now, and could limits let them be parted, if not to the gap? */

@@ -3,8 +3,8 @@
  * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair may
  * stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
  *
- *   - one of the two is put a unit beside its place, or takes the other's move, or all that moved alike take one move, or
- *     one coordinate of it, where they are then in nobody's way;
+ *   - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take one
+ *     move, or one coordinate of it, where they are then in nobody's way;
  *   - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
  *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *
@@ -104,13 +104,13 @@ static bool take(trial *t, uint32_t b)
     return true;
 }
 
-/* Is the pair in no conflict but one that it was in, and stands no worse than at the start? */
+/* Is the pair in no conflict but one that it was in, in no overlap that was ended, and no worse than at the start? */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     trial *t = context;
     if (!is_listed(t->job, r)) return SUNDER_OK;
     const sunder_i_relation *old = sunder_i_relations_find(&t->job->now, r->a, r->b);
-    bool breaks = !old || sunder_i_is_at_peace(old);
+    bool breaks = !old || sunder_i_is_at_peace(old) || (r->overlap && !old->overlap);
     const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->job, r, &breaks, err);
     t->well = *on = !breaks;
     return status;
@@ -174,7 +174,7 @@ static void units_of(const sunder_i_job *w, uint32_t b, double unit[2])
     }
 }
 
-/* The eight places a unit beside its own. */
+/* The eight places a unit beside its own, and those some units farther: the search lets go of as much. */
 static sunder_status try_nearby(trial *t, sunder_error *err)
 {
     const double stood[2] = {t->stood[0], t->stood[1]};
@@ -182,10 +182,11 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
     sunder_status status = SUNDER_OK;
     units_of(t->job, t->body[0], unit);
     t->well = false;
-    for (int k = 0; k < 9 && !t->well && !status; k++) {
-        const double to[2] = {stood[0] + (k % 3 - 1) * unit[0], stood[1] + (k / 3 - 1) * unit[1]};
-        if (k != 4) status = try_place(t, to, err);
-    }
+    for (int step = 1; step <= HAIR && !t->well && !status; step *= 4)
+        for (int k = 0; k < 9 && !t->well && !status; k++) {
+            const double to[2] = {stood[0] + step * (k % 3 - 1) * unit[0], stood[1] + step * (k / 3 - 1) * unit[1]};
+            if (k != 4) status = try_place(t, to, err);
+        }
     return status;
 }
 

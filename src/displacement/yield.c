@@ -37,8 +37,7 @@ static bool send_home(sunder_i_search *s, uint32_t i)
     return true;
 }
 
-/* The pairs that clash with all at home; *n of them, sorted. NULL if memory is out. */
-static sunder_i_clash *look_at_home(sunder_i_search *s, size_t *n)
+sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
 {
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
     if (!stand) return NULL;
@@ -154,7 +153,7 @@ void sunder_i_search_yield(sunder_i_search *s)
     size_t n = 0;
     sunder_i_search_clip(s);
     neighbours near = {0};
-    sunder_i_clash *at_home = look_at_home(s, &n);
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     bool *changed = sunder_i_alloc(s->n, sizeof *changed);
     s->failed = s->failed || !at_home || !changed;
     if (!s->failed) find_neighbours(s, &near);

@@ -134,8 +134,36 @@ static void check_rows(void **state)
     check_row(MOST);
 }
 
+/* Two houses in a quarter: from the one limits let nothing part it, the other comes out if the quarter goes half of the way.
+ * The first is then deeper inside, which is no worse. */
+static void check_inside(void **state)
+{
+    (void)state;
+    sunder_feature feature[3];
+    add_box(&feature[0], 0, 0, 200, 200, false);
+    add_box(&feature[1], 150, 95, 10, 10, false);
+    add_box(&feature[2], 20, 95, 10, 10, false);
+    for (size_t k = 0; k < 3; k++) feature[k].max_shift = 20;
+    sunder_layer_options options;
+    sunder_layer_options_init(&options);
+    options.contained = SUNDER_CONTAINED_SEPARATE;
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    if (sunder_layer_new(feature, 3, &layer, &err)) fail_msg("%s", err.message);
+    if (sunder_layer_separate(layer, &options, &report, &err)) fail_msg("%s", err.message);
+    size_t n;
+    const sunder_conflict *conflict = sunder_report_conflicts(report, &n);
+    assert_int_equal(n, 1);
+    assert_true(conflict[0].a == 0 && conflict[0].b == 1);
+    sunder_report_free(report);
+    sunder_layer_free(layer);
+    for (size_t k = 0; k < 3; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_list), cmocka_unit_test(check_rows)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_list), cmocka_unit_test(check_rows),
+                                       cmocka_unit_test(check_inside)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
