@@ -14,14 +14,6 @@
 /* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
  * nothing was ever gained below. */
 #define FAR 1.5
-/* So many orders are tried in which bodies are put back one by one, where they are no more than that. */
-#define MOST_ORDERS 24
-#define MOST_ORDERED 16
-/* ... until so many one after the other were of no use, for this part of the effort that was spent before. Of 1,158 and
- * 513 groups of small towns 11 and 6 broke the laws of limits and gaps without that; 9 and 2 do; and 9 and 0 where the
- * orders may take half of the effort, which makes real layers dearer by two thirds. */
-#define MOST_USELESS 3
-#define ORDERS_SHARE 8
 /* Where more bodies than MANY may move, a change is tried with no more than ABOUT of them. */
 #define MANY 64
 #define ABOUT 32
@@ -116,8 +108,7 @@ static int by_cost(const void *a, const void *b)
 
 static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
 
-/* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
-static bool attempt(sunder_i_search *s, double *best, double *cost)
+bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
 {
     const size_t size = 2 * s->n * sizeof *best;
     s->hope = *cost;
@@ -136,7 +127,7 @@ static bool attempt(sunder_i_search *s, double *best, double *cost)
 /* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with them. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
-    if (!s->vicinity) return attempt(s, best, cost);
+    if (!s->vicinity) return sunder_i_search_attempt(s, best, cost);
     const double gain = sunder_i_vicinity_descend(s->vicinity, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
     if (gain > 0) memcpy(best, s->t, 2 * s->n * sizeof *best);
     *cost -= gain;
@@ -171,7 +162,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
         s->cap = INFINITY;
         s->patience = UINT64_MAX;
-        if (found && attempt(s, best, cost)) return;
+        if (found && sunder_i_search_attempt(s, best, cost)) return;
     }
     memcpy(s->t, best, 2 * s->n * sizeof *best);
 }
@@ -266,7 +257,7 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
     if (s->vicinity && !sunder_i_vicinity_init(&about, s)) s->failed = true;
     if (!s->failed) try_places(s, order, best, cost);
     if (!s->failed) try_sides(s, best, cost);
-    if (s->vicinity && !s->failed) attempt(s, best, cost);
+    if (s->vicinity && !s->failed) sunder_i_search_attempt(s, best, cost);
     s->vicinity = NULL;
     sunder_i_vicinity_free(&about);
 }
@@ -281,66 +272,36 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
     }
 }
 
-/* ---- Other orders --------------------------------------------------------------------------------------------------
- */
-
-/* All that may move is taken out and put back one by one, each at the free place nearest to where it came from: then down
- * from there. Who comes late makes way for who came before, whatever stood there in the best solution so far. */
-static void put_back(sunder_i_search *s, const uint32_t *order, size_t n, double *best, double *cost)
+/* Does it stand without clashes? What rounding took of the margin is made good first. */
+static bool is_free_start(sunder_i_search *s)
 {
-    for (size_t k = 0; k < n; k++) {
-        s->away[order[k]] = true;
-        s->t[2 * order[k]] = s->t[2 * order[k] + 1] = 0;
-    }
-    bool found = true;
-    for (size_t k = 0; k < n && found; k++) {
-        double place[2];
-        found = sunder_i_search_free_body(s, order[k], sunder_i_search_limit(s, order[k]), place);
-        if (found) memcpy(s->t + 2 * order[k], place, sizeof place);
-        s->away[order[k]] = false;
-    }
-    memset(s->away, 0, s->n * sizeof *s->away);
-    s->program.n = 0;
-    if (found) attempt(s, best, cost);
-    memcpy(s->t, best, 2 * s->n * sizeof *best);
+    const double missed = sunder_i_search_look(s, s->t);
+    return missed <= s->tolerance || (missed <= 8 * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
-/* Shuffled by a sequence that is always the same (xorshift). */
-static void shuffle(uint32_t *order, size_t n, uint64_t *state)
+/* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
+static void improve(sunder_i_search *s, rank *order, double *best, double *near)
 {
-    for (size_t k = n; k-- > 1;) {
-        *state ^= *state << 13;
-        *state ^= *state >> 7;
-        *state ^= *state << 17;
-        const size_t with = (size_t)(*state % (k + 1));
-        const uint32_t swap = order[k];
-        order[k] = order[with];
-        order[with] = swap;
+    const size_t size = 2 * s->n * sizeof *best;
+    memcpy(best, s->t, size);
+    double cost = sunder_i_search_cost(s, s->t);
+    sunder_i_search_attempt(s, best, &cost); /* what the first solution left when it was good enough */
+    /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
+    memcpy(near, best, size);
+    double near_cost = cost;
+    const double start = cost;
+    try_all(s, order, best, &cost);
+    memcpy(s->t, near, size);
+    try_near(s, near, &near_cost);
+    if (near_cost < start) try_all(s, order, near, &near_cost);
+    if (near_cost < cost) {
+        memcpy(best, near, size);
+        cost = near_cost;
     }
-}
-
-/* In MOST_ORDERS orders, of clusters in which the order matters. What one order takes is known only afterwards, but for
- * what it takes to look for room, in pairs of pieces. */
-static void try_orders(sunder_i_search *s, uint32_t *order, double *best, double *cost)
-{
-    const sunder_i_town *town = s->town;
-    const uint64_t most = s->steps + s->program.work + (s->steps + s->program.work) / ORDERS_SHARE;
-    uint64_t own = 0, all = 0, state = UINT64_C(0x9e3779b97f4a7c15);
-    size_t n = 0;
-    for (uint32_t k = 0; k < s->n; k++) {
-        all += town->body[s->body[k]].pieces;
-        if (!(s->mass[k] > 0)) continue;
-        own += town->body[s->body[k]].pieces;
-        order[n++] = k;
-    }
-    int useless = 0;
-    for (int k = 0; n > 2 && n <= MOST_ORDERED && k < MOST_ORDERS && useless < MOST_USELESS && !s->failed; k++) {
-        const double before = *cost;
-        if (s->steps + s->program.work + 4 * own * all > most) break;
-        shuffle(order, n, &state);
-        put_back(s, order, n, best, cost);
-        useless = *cost < before ? 0 : useless + 1;
-    }
+    memcpy(s->t, best, size);
+    const double ordered = cost;
+    sunder_i_search_reorder(s, best, &cost);
+    if (cost < ordered) try_all(s, order, best, &cost);
 }
 
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
@@ -350,7 +311,6 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     double *all = NULL, *best = NULL, *near = NULL;
     size_t n = 0;
     rank *order = NULL;
-    uint32_t *shuffled = NULL;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
     bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
@@ -358,8 +318,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
         best = sunder_i_alloc(2 * n, sizeof *best);
         near = sunder_i_alloc(2 * n, sizeof *near);
         order = sunder_i_alloc(n, sizeof *order);
-        shuffled = sunder_i_alloc(n, sizeof *shuffled);
-        ok = best && near && order && shuffled && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        ok = best && near && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
     }
     if (ok) {
         s.settled = 1e-5;
@@ -367,30 +326,13 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
         s.own = cluster->n;
         /* Strangers stay. */
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
-        if (sunder_i_search_look(&s, s.t) <= s.tolerance) {
-            memcpy(best, s.t, 2 * n * sizeof *best);
-            const double before = sunder_i_search_cost(&s, s.t);
-            double cost = before;
-            attempt(&s, best, &cost); /* what the first solution left when it was good enough */
-            /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
-            memcpy(near, best, 2 * n * sizeof *near);
-            double near_cost = cost;
-            const double start = cost;
-            try_all(&s, order, best, &cost);
-            memcpy(s.t, near, 2 * n * sizeof *near);
-            try_near(&s, near, &near_cost);
-            if (near_cost < start) try_all(&s, order, near, &near_cost);
-            if (near_cost < cost) {
-                memcpy(best, near, 2 * n * sizeof *near);
-                cost = near_cost;
-            }
+        const double before = sunder_i_search_cost(&s, s.t);
+        if (is_free_start(&s)) {
+            improve(&s, order, best, near);
             memcpy(s.t, best, 2 * n * sizeof *best);
-            const double ordered = cost;
-            try_orders(&s, shuffled, best, &cost);
-            if (cost < ordered) try_all(&s, order, best, &cost);
-            memcpy(s.t, best, 2 * n * sizeof *best);
+            const bool cheaper = sunder_i_search_cost(&s, best) < before;
             s.n = cluster->n;
-            if (cost < before && !s.failed) finish(&s, move, SUNDER_OK, err);
+            if (cheaper && !s.failed) finish(&s, move, SUNDER_OK, err);
         }
         ok = !s.failed;
     }
@@ -400,6 +342,5 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     sunder_i_free(best);
     sunder_i_free(near);
     sunder_i_free(order);
-    sunder_i_free(shuffled);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -10,6 +10,7 @@ static void free_clusters(sunder_i_job *w)
     for (size_t k = 0; k < w->clusters; k++) {
         sunder_i_truces_free(&w->cluster[k].truces);
         sunder_i_free(w->cluster[k].ended);
+        sunder_i_free(w->cluster[k].guest);
     }
     sunder_i_free(w->cluster);
     w->cluster = NULL;

@@ -401,9 +401,10 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,
- * none beyond limit, no two nearer than `spread`. Returns how many; *failed is set if memory is out. */
+ * none beyond limit, no two nearer than `spread`. Returns how many; *steps grows by the work done, in constraints looked
+ * at; *failed is set if memory is out. */
 size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
-                            size_t most, double (*places)[2], bool *failed);
+                            size_t most, double (*places)[2], uint64_t *steps, bool *failed);
 
 /* ---- The quadratic program
  * --------------------------------------------------------------------------------------------------- */
@@ -445,6 +446,8 @@ typedef struct sunder_i_cluster {
     sunder_i_truces truces; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_ended *ended;  /* [ended_n] truces of the town that no longer count: these are at peace; owned */
     size_t ended_n;
+    sunder_i_couple *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
+    size_t guests, guest_capacity;
 } sunder_i_cluster;
 
 /* Two bodies of a cluster under a truce, and what is to be asked for them. */
@@ -471,6 +474,10 @@ sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
+
+/* Bodies of the cluster that would have a nearer place but for strangers who might move: pairs of the two go to
+ * cluster->guest. False if memory is out. */
+bool sunder_i_cluster_invite(const sunder_i_town *town, sunder_i_cluster *cluster, const double *move);
 
 /* ---- Rounding
  * ------------------------------------------------------------------------------------------------------------------------

@@ -171,7 +171,15 @@ typedef struct harvest {
     uint32_t *order;
     double (*place)[2];
     double *distance;
+    uint64_t work; /* done so far, in constraints looked at */
 } harvest;
+
+/* n obstacles, or walls, are looked at; most of them briefly. */
+static bool work(harvest *h, size_t n)
+{
+    h->work += 1 + n / 2;
+    return sunder_i_steps(1 + n / 16);
+}
 
 /* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
  * nearer stays. */
@@ -179,7 +187,7 @@ static void offer(harvest *h, const double x[2])
 {
     const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
     if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
-    if (!sunder_i_steps(1 + h->obstacles->n / 16)) return;
+    if (!work(h, h->obstacles->n)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
     if (!free_at(h->obstacles, x, h->order)) return;
@@ -210,6 +218,7 @@ static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[
 static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
 {
     const sunder_i_wall *a = &wall[w];
+    h->work += w;
     for (size_t v = 0; v < w; v++) {
         const sunder_i_wall *b = &wall[v];
         if (a->obstacle == b->obstacle) continue;
@@ -248,7 +257,7 @@ static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
     size_t bare = 0;
     for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
         double x[2];
-        if (!sunder_i_steps(1 + h->obstacles->n / 16)) return;
+        if (!work(h, h->obstacles->n)) return;
         if (is_covered(h, &sorted[k])) continue;
         nearest_on(&sorted[k], h->target, x);
         offer(h, x);
@@ -259,13 +268,13 @@ static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
 }
 
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
-                            size_t most, double (*places)[2], bool *failed)
+                            size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
     enum { MOST = 16 };
     double distance[MOST];
     uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
     sunder_i_wall *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
-    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance};
+    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance, 0};
     if (!order || !sorted || o->failed) {
         *failed = true;
     } else if (h.most) {
@@ -286,6 +295,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
         }
         *failed = *failed || sunder_i_stopped();
     }
+    *steps += h.work + 2 * o->walls;
     sunder_i_free(order);
     sunder_i_free(sorted);
     return h.n;

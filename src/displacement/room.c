@@ -82,7 +82,7 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 s->failed = true;
                 return;
             }
-            s->steps += 4;
+            s->steps += 16;
             const double gap =
                 truce ? fmin(s->gap, sunder_i_search_shift(truce, b->feature, s->scratch.xy, n)) : s->gap;
             /* A little more room than is asked, so that no rounding makes a clash of it. */
@@ -154,7 +154,7 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
         add_obstacles(s, &o, p, many, q, many, offset, target, reach);
-        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->failed);
+        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
         if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
         s->failed = s->failed || o.failed;
         sunder_i_obstacles_free(&o);
@@ -240,7 +240,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
         if (!strangers(s, p, box, &foreign)) s->failed = true;
         surround(s, &o, i, home, reach, &foreign);
         double best[1][2];
-        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->failed);
+        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);
         if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
         s->failed = s->failed || o.failed;
         sunder_i_obstacles_free(&o);

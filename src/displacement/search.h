@@ -122,6 +122,13 @@ double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* Shortens moves to their limits. */
 void sunder_i_search_clip(sunder_i_search *search);
 
+/* ---- cluster.c, orders.c: better sides ---- */
+
+/* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
+bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
+/* Tries other orders of putting bodies back, from best, which is free and costs *cost; both become what was found. */
+void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost);
+
 /* ---- yield.c: pairs that no solution was found for ---- */
 
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are under a truce and nothing

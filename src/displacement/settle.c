@@ -237,9 +237,37 @@ sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunde
     return status;
 }
 
+static sunder_status invite_to_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_job *w = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &w->cluster[k];
+        double *move = w->move + 2 * (size_t)(c->body - w->body);
+        sunder_i_job_load_moves(w, c, move);
+        if (!is_improved(w, c) && !sunder_i_cluster_invite(&w->town, c, move)) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+/* Whoever is in the way of a cluster joins it. */
+static sunder_status join_guests(sunder_i_job *w, sunder_error *err)
+{
+    bool any = false;
+    sunder_status status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, invite_to_clusters, w, err);
+    for (size_t k = 0; k < w->clusters && !status; k++)
+        for (size_t g = 0; g < w->cluster[k].guests && !status; g++) {
+            const sunder_i_couple *pair = &w->cluster[k].guest[g];
+            any = true;
+            if (!sunder_i_job_add_edge(w, pair->a, pair->b)) status = sunder_i_no_memory(err);
+        }
+    return status || !any ? status : sunder_i_job_gather(w, err);
+}
+
 sunder_status sunder_i_job_improve(sunder_i_job *w, sunder_error *err)
 {
     sunder_status status = sunder_i_job_gather(w, err);
+    if (!status) status = join_guests(w, err);
+    if (!status) status = sunder_i_job_unite_blocks(w, err);
     if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, improve_clusters, w, err);
     if (status) return status;
     sunder_i_job_commit(w);
