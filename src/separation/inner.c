@@ -33,7 +33,7 @@ static bool passes(const builder *b, uint32_t v, const double box[4])
     const double *xy = b->g->xy[b->side], *p = xy + 2 * (size_t)v, *q = xy + 2 * (size_t)b->g->shape[b->side]->next[v];
     const double e = 4 * b->g->error;
     for (int k = 0; k < 2; k++)
-        if (fmax(p[k], q[k]) < box[k] - e || fmin(p[k], q[k]) > box[k + 2] + e) return false;
+        if ((p[k] < box[k] - e && q[k] < box[k] - e) || (p[k] > box[k + 2] + e && q[k] > box[k + 2] + e)) return false;
     const double dx = q[0] - p[0], dy = q[1] - p[1];
     const double cx = box[0] / 2 + box[2] / 2, cy = box[1] / 2 + box[3] / 2;
     const double hx = box[2] / 2 - box[0] / 2 + e, hy = box[3] / 2 - box[1] / 2 + e;

@@ -15,7 +15,7 @@
 /* So many sums are tried to hold a square: twice as many after each halving from a certain one on, where there may be
  * one that does among thousands that nearly do. */
 #define HOLD_TRIES 16
-#define HOLD_PATIENT 6
+#define HOLD_PATIENT 5
 #define HOLD_MOST 18 /* doublings */
 #define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
 #define ORIGIN_TRIES 1024
