@@ -107,12 +107,60 @@ static double out_by(const sunder_i_gap_piece *r, double x, double y)
     return most;
 }
 
+/* ---- Of many sides ---- */
+
+static double height_over(const sunder_i_gap_piece *r, uint32_t i, double x, double y)
+{
+    return (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
+}
+
+/* How far the point is at least on the left (turn 1) or the right (-1) of the diagonal from the lowest corner to corner
+ * i, but for the error of a height. A diagonal is a difference of rounded corners, off by 2 * 8 u M a coordinate, 23 u
+ * M in all, and that turns the height by as much times |v| / |d|: `error` has 128 u S. */
+static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, uint32_t i, double x, double y,
+                              int turn)
+{
+    const double dx = r->cx[i] - r->cx[0], dy = r->cy[i] - r->cy[0], vx = x - r->cx[0], vy = y - r->cy[0];
+    return (turn * (dx * vy - dy * vx) - s->error * (fabs(vx) + fabs(vy))) / sunder_i_gap_length(dx, dy);
+}
+
+/* Where the point is for certain, by one triangle of the fan from the lowest corner: whoever is deep in it is as deep
+ * in the piece, and whoever stands far out over one side is as far from it. */
+typedef enum whereabouts { DEEP_INSIDE, FAR_OUT, NEAR } whereabouts;
+
+static whereabouts by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y,
+                               double deep, double far, uint32_t *side)
+{
+    const uint32_t low = sunder_i_subsum_fan(r->n, r->cx, r->cy, x, y), high = low + 1;
+    const double across = height_over(r, low, x, y);
+    const double left = low == 1 ? height_over(r, 0, x, y) : -beside_diagonal(s, r, low, x, y, 1);
+    const double right = high == r->n - 1 ? height_over(r, high, x, y) : -beside_diagonal(s, r, high, x, y, -1);
+    *side = low;
+    if (across > far || (low == 1 && left > far) || (high == r->n - 1 && right > far)) return FAR_OUT;
+    return across < -deep && left < -deep && right < -deep ? DEEP_INSIDE : NEAR;
+}
+
+/* Is side i nearer than that for certain, its ends included? Then so is the piece. */
+static bool side_is_near(const sunder_i_gap_piece *r, uint32_t i, double x, double y, double least)
+{
+    const double vx = x - r->cx[i], vy = y - r->cy[i], along = (r->sx[i] * vx + r->sy[i] * vy) * r->inverse[i];
+    const double height = height_over(r, i, x, y), past = fmax(0, fmax(-along, along - r->length[i]));
+    return least > 0 && height * height + past * past < least * least;
+}
+
 bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack)
 {
     if (!sunder_i_gap_near_box(s, k, x, y, s->gap)) return false;
     const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
     if (!r || r->vague) return false;
-    const double out = out_by(r, x, y), doubt = s->margin + slack;
+    const double doubt = s->margin + slack;
+    if (r->n >= SUNDER_I_SIDES_MANY) {
+        uint32_t side;
+        const whereabouts where = by_triangle(s, r, x, y, doubt, s->gap + doubt, &side);
+        if (where != NEAR) return where == DEEP_INSIDE;
+        if (side_is_near(r, side, x, y, s->gap - doubt)) return true;
+    }
+    const double out = out_by(r, x, y);
     if (out > s->gap + doubt) return false;
     if (out < -doubt) return true;
     return sunder_i_gap_distance(s, r, x, y) < s->gap - s->margin - slack;
@@ -153,6 +201,13 @@ long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
     return -1;
 }
 
+static bool is_deep(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y, double deep)
+{
+    uint32_t side;
+    const whereabouts where = r->n >= SUNDER_I_SIDES_MANY ? by_triangle(s, r, x, y, deep, deep, &side) : NEAR;
+    return where == NEAR ? out_by(r, x, y) < -deep : where == DEEP_INSIDE;
+}
+
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
 {
     size_t n;
@@ -163,7 +218,7 @@ bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
         if (!sunder_i_gap_near_box(s, k, x, y, 0)) continue;
         const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
         if (!r) return false;
-        if (r->vague || !(out_by(r, x, y) < -s->margin)) continue;
+        if (r->vague || !is_deep(s, r, x, y, s->margin)) continue;
         s->hint = k;
         return true;
     }

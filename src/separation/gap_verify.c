@@ -119,39 +119,76 @@ static bool is_outside(const checking *c, const side *s, const convex *q, uint32
     return outside;
 }
 
-/* Does a side of p have all of q on its right? *far: by more than the gap for certain, so that there is no more to ask.
- */
-static bool side_parts(const checking *c, const convex *p, const convex *q, bool *far)
+typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
+
+/* Does a side of p have all of q on its right? *by: one that has; of those that have them by more than the gap for
+ * certain, so that there is no more to ask, if there are any. */
+static parting side_parts(const checking *c, const convex *p, const convex *q, side *by)
 {
     bool parts = false;
-    *far = false;
-    for (uint32_t k = 0; k < p->n && !*far; k++) {
+    for (uint32_t k = 0; k < p->n; k++) {
         const side s = side_of(c, p, k);
         uint32_t m = 0;
         while (m < q->n && height(c, &s, q, m) > c->gap + c->doubt) m++;
-        *far = m == q->n;
+        if (m == q->n) return PARTED_FAR;
         while (!parts && m < q->n && is_outside(c, &s, q, m)) m++;
-        parts = parts || m == q->n;
+        if (parts || m < q->n) continue;
+        parts = true;
+        *by = s;
     }
-    return parts;
+    return parts ? PARTED : PARTED_NOT;
 }
 
-static bool corners_keep_off(const checking *c, const convex *p, const convex *q)
+/* The corners of p and of q that may be within the gap of the other one: side `by`, of p, has all of q on its right, so
+ * whoever is farther from its line than that, is. */
+typedef struct close_by {
+    uint32_t *p, *q, pn, qn;
+} close_by;
+
+static close_by find_close(const checking *c, const convex *p, const convex *q, const side *by)
+{
+    close_by b = {sunder_i_arena_alloc(&c->g->placed.lattice.arena, (size_t)p->n + q->n, sizeof *b.p), NULL, 0, 0};
+    if (!b.p) return b;
+    b.q = b.p + p->n;
+    const double most = c->gap + c->doubt;
+    for (uint32_t m = 0; m < q->n; m++)
+        if (!(height(c, by, q, m) > most)) b.q[b.qn++] = m;
+    for (uint32_t m = 0; m < p->n; m++) {
+        const double *at = c->g->xy[p->side] + 2 * p->corner[m];
+        /* From the corner to the side's first. */
+        const double x = c->at[0] - at[0] - by->x, y = c->at[1] - at[1] - by->y;
+        if (!((by->dy * x - by->dx * y) / by->length > most)) b.p[b.pn++] = m;
+    }
+    return b;
+}
+
+static bool corners_keep_off(const checking *c, const convex *p, const convex *q, const uint32_t *corner, uint32_t n)
 {
     for (uint32_t k = 0; k < p->n; k++) {
         const side s = side_of(c, p, k);
-        for (uint32_t m = 0; m < q->n; m++)
-            if (!keeps_off(c, &s, q, m)) return false;
+        for (uint32_t m = 0; m < n; m++)
+            if (!keeps_off(c, &s, q, corner[m])) return false;
     }
     return true;
 }
 
 static bool pieces_apart(const checking *c, const convex *p, const convex *q)
 {
-    bool far, parts = side_parts(c, p, q, &far);
-    if (far) return true;
-    parts = side_parts(c, q, p, &far) || parts;
-    return far || (parts && corners_keep_off(c, p, q) && corners_keep_off(c, q, p));
+    side by;
+    parting how = side_parts(c, p, q, &by);
+    if (how == PARTED_NOT) {
+        const convex *other = p;
+        p = q;
+        q = other;
+        how = side_parts(c, p, q, &by);
+    }
+    if (how != PARTED) return how == PARTED_FAR;
+    sunder_i_arena *arena = &c->g->placed.lattice.arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const close_by b = find_close(c, p, q, &by);
+    const bool off = b.p && corners_keep_off(c, p, q, b.q, b.qn) && corners_keep_off(c, q, p, b.p, b.pn);
+    if (!arena->failed) sunder_i_arena_release(arena, mark);
+    return off;
 }
 
 bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_spot *t)

@@ -64,6 +64,41 @@ static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder
         *w = (way_out){true, t, 1 + 2 * r->length[i] * m->length / fabs(slope), false, i};
 }
 
+/* Where the disc about corner i leans on side k, an end of it: how far to the left of the line, times |d|. */
+static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, uint32_t i, uint32_t k)
+{
+    const double x = r->cx[i] + s->gap * r->sy[k] * r->inverse[k], y = r->cy[i] - s->gap * r->sx[k] * r->inverse[k];
+    return m->dx * (y - m->ay) - m->dy * (x - m->ax);
+}
+
+/* Counter-clockwise round what is grown the boundary is on the line's right, then on its left, and that is where it
+ * leaves: between the corners farthest to either side the moved side is sought that ends on the left first. It is left
+ * over that one, or over the disc before it. Backwards it is the other way round. */
+static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, size_t k,
+                                bool forwards)
+{
+    const sunder_i_subsum *sum = s->g->subsum + k;
+    const double turn = forwards ? 1 : -1;
+    const uint32_t n = r->n, first = sunder_i_subsum_lowest(sum, turn * m->dx, turn * m->dy);
+    const uint32_t last = sunder_i_subsum_lowest(sum, -turn * m->dx, -turn * m->dy);
+    uint32_t low = first, high = last > first ? last : last + n;
+    while (low < high) {
+        const uint32_t i = low + (high - low) / 2;
+        if (turn * lean(s, m, r, (i + 1) % n, i % n) >= 0)
+            high = i;
+        else
+            low = i + 1;
+    }
+    way_out w = {.any = false};
+    for (uint32_t i = low + n - 1; i <= low + n; i++) { /* the one before, too: where they meet doubles may err */
+        const uint32_t at = i % n;
+        const double middle = ((r->cx[at] - m->ax) * m->dx + (r->cy[at] - m->ay) * m->dy) / m->square;
+        leave_corner(s, m, r, at, middle, forwards, &w);
+        leave_side(s, m, r, at, forwards, &w);
+    }
+    return w;
+}
+
 /* Nearly where the moved line leaves grown subsum k. Only a guess: whoever concludes from it checks it. No disc is left
  * later than it ends in the direction of the line, and no side later than the discs at its ends. */
 static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
@@ -71,6 +106,8 @@ static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwa
     way_out w = {.any = false};
     const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
     if (!r) return w;
+    if (r->n >= SUNDER_I_SIDES_MANY && !r->vague) w = leave_by_halving(s, m, r, k, forwards);
+    if (w.any) return w;
     const double reach = (forwards ? s->gap : -s->gap) / m->length;
     double before = ((r->cx[r->n - 1] - m->ax) * m->dx + (r->cy[r->n - 1] - m->ay) * m->dy) / m->square;
     for (uint32_t i = 0; i < r->n; i++) {

@@ -99,19 +99,11 @@ static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double 
     return v > bound ? 1 : v < -bound ? -1 : 0;
 }
 
-/* Is the point inside, 1, or not, -1? 0 where doubles do not say. The fan of triangles from the lowest corner is halved
- * until one is left: whoever is for certain in a triangle of corners is inside, and whoever is for certain on the right
- * of a side is not. */
+/* Is the point inside, 1, or not, -1? 0 where doubles do not say. Whoever is for certain in a triangle of corners is
+ * inside, and whoever is for certain on the right of a side is not. */
 static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
 {
-    uint32_t low = 1, high = s->sides - 1;
-    while (high - low > 1) {
-        const uint32_t k = low + (high - low) / 2;
-        if ((s->cx[k] - s->cx[0]) * (y - s->cy[0]) - (s->cy[k] - s->cy[0]) * (x - s->cx[0]) >= 0)
-            low = k;
-        else
-            high = k;
-    }
+    const uint32_t low = sunder_i_subsum_fan(s->sides, s->cx, s->cy, x, y), high = low + 1;
     const int across = side_says(s, low, x, y);
     const int left = low == 1 ? side_says(s, 0, x, y) : diagonal_says(s, low, x, y, e);
     const int right = high == s->sides - 1 ? side_says(s, high, x, y) : -diagonal_says(s, high, x, y, e);
@@ -119,13 +111,11 @@ static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
     return across > 0 && left > 0 && right > 0;
 }
 
-#define SIDES_MANY 24 /* fewer are looked at one by one */
-
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
 static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
                    const sunder_i_subsum *s)
 {
-    if (s->sides >= SIDES_MANY) {
+    if (s->sides >= SUNDER_I_SIDES_MANY) {
         const int where = inside_fan(s, x, y, g->error);
         if (where != 0) return where > 0;
     }
@@ -199,8 +189,7 @@ typedef struct stretch {
     uint32_t first, n;
 } stretch;
 
-/* The first side whose angle in [0, 2 pi) is above that of (dx, dy), in doubles; as many as there are sides if none. */
-static uint32_t first_above(const sunder_i_subsum *s, double dx, double dy)
+uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *s, double dx, double dy)
 {
     const bool half = dy < 0 || (dy == 0 && dx < 0);
     uint32_t low = 0, high = s->sides;
@@ -212,7 +201,7 @@ static uint32_t first_above(const sunder_i_subsum *s, double dx, double dy)
         else
             low = k + 1;
     }
-    return low;
+    return low % s->sides;
 }
 
 /* How far the corner is to the left of the line, times its length. */
@@ -229,10 +218,10 @@ static double height(const sunder_i_line *line, const sunder_i_subsum *s, uint32
 static stretch leaving(const sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s, bool forwards)
 {
     const stretch all = {0, s->sides};
-    if (s->sides < SIDES_MANY) return all;
+    if (s->sides < SUNDER_I_SIDES_MANY) return all;
     /* The corners farthest to the right and to the left, about; the bound is derived as that of a side. */
-    const uint32_t lowest = first_above(s, line->dx, line->dy) % s->sides;
-    const uint32_t highest = first_above(s, -line->dx, -line->dy) % s->sides;
+    const uint32_t lowest = sunder_i_subsum_lowest(s, line->dx, line->dy);
+    const uint32_t highest = sunder_i_subsum_lowest(s, -line->dx, -line->dy);
     const double sign = forwards ? 1 : -1;
     const double bound = (fabs(line->dx) + fabs(line->dy)) * 2 * g->error + 16 * g->magnitude * g->rough;
     const uint32_t from = forwards ? lowest : highest, to = forwards ? highest : lowest;

@@ -38,4 +38,8 @@ long sunder_i_line_cover(sunder_i_pairing *pairing, const sunder_i_line *line, c
 sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *pairing, const sunder_i_line *line,
                                      const sunder_i_subsum *subsum, bool forwards);
 
+/* The corner of a subsum farthest to the right of the direction (dx, dy), in doubles, and so only nearly: the start of
+ * the first side whose angle in [0, 2 pi) is above that of the direction. */
+uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *subsum, double dx, double dy);
+
 #endif

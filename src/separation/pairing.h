@@ -82,6 +82,24 @@ bool sunder_i_pairing_turn(sunder_i_pairing *pairing);
 /* Makes the corners of one; false if memory is out. */
 bool sunder_i_subsum_make(sunder_i_pairing *pairing, sunder_i_subsum *subsum);
 
+/* Subsums of so many sides are searched by halving; the sides of others are looked at one by one. */
+#define SUNDER_I_SIDES_MANY 24
+
+/* In doubles, and so only nearly: the triangle of the fan from corner 0 that (x, y) stands in, or over whose side away
+ * from that corner it stands; k is returned for corners 0, k, k + 1. */
+static inline uint32_t sunder_i_subsum_fan(uint32_t sides, const double *cx, const double *cy, double x, double y)
+{
+    uint32_t low = 1, high = sides - 1;
+    while (high - low > 1) {
+        const uint32_t k = low + (high - low) / 2;
+        if ((cx[k] - cx[0]) * (y - cy[0]) - (cy[k] - cy[0]) * (x - cx[0]) >= 0)
+            low = k;
+        else
+            high = k;
+    }
+    return low;
+}
+
 static inline sunder_i_point sunder_i_pairing_diff(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b)
 {
     return g->placed.lattice.narrow ? sunder_i_narrow_sub(a, b) : sunder_i_point_sub(&g->placed.lattice, a, b);
