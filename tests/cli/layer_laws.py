@@ -1,7 +1,8 @@
 """How the answers to related questions about one layer are related: python3 layer_laws.py
 SUNDER NAME|SOURCE|LAYER[|OPTION] ...
 
-  limits  a looser limit leaves no more conflicts and, where neither run leaves any, costs no more
+  limits  a looser limit leaves no more conflicts (overlaps first, then pairs: one less may cost two that are too near)
+          and, where neither run leaves any, costs no more
   gaps    a smaller gap costs no more where neither run leaves any
   place   shifted by what all coordinates hold exactly: the same conflicts, and costs within 1 %
 
@@ -76,9 +77,10 @@ class Run:
         for f in result.GetLayerByName("l"):
             number[f.GetFID()] = f.GetField("n")
             self.move[f.GetField("n")] = (f.GetField("sunder_dx") or 0.0, f.GetField("sunder_dy") or 0.0)
-        self.conflicts = {tuple(sorted((number[f.GetField("fid_a")], number[f.GetField("fid_b")])))
-                          for f in result.GetLayerByName("l_conflicts")
-                          if f.GetField("reason") not in ("same_block", "kept")}
+        listed = {tuple(sorted((number[f.GetField("fid_a")], number[f.GetField("fid_b")]))): f.GetField("kind")
+                  for f in result.GetLayerByName("l_conflicts") if f.GetField("reason") not in ("same_block", "kept")}
+        self.conflicts = set(listed)
+        self.overlaps = {pair for pair, kind in listed.items() if kind != "too_close"}
 
 
 def find(root, k):
@@ -112,15 +114,16 @@ def accounts(root, run):
     for k, (x, y) in run.move.items():
         cost[root[k]] += x * x + y * y
         length[root[k]] += math.hypot(x, y)
-    for a, _ in run.conflicts:
-        conflicts[root[a]] += 1
-    return cost, conflicts, length
+    for pair in run.conflicts:
+        conflicts[root[pair[0]]] += 1
+    overlaps = Counter(root[a] for a, _ in run.overlaps)
+    return cost, conflicts, overlaps, length
 
 
 def compare(law, boxes, gap, easy, hard, same=False):
     """easy was asked for less than hard; same: for the same, elsewhere."""
     root = groups(boxes, gap, easy, hard)
-    (p, pc, length), (q, qc, _) = accounts(root, easy), accounts(root, hard)
+    (p, pc, po, length), (q, qc, qo, _) = accounts(root, easy), accounts(root, hard)
     unit = 2.0**-46 * max(abs(c) for box in boxes for c in box)  # what rounding, and the margin for it, may add to a move
     count = tally.setdefault(law, [0, 0, 0])
     unlike = {root[a] for a, _ in easy.conflicts ^ hard.conflicts} if same else set()
@@ -129,7 +132,7 @@ def compare(law, boxes, gap, easy, hard, same=False):
             continue
         slack = 2 * unit * length[g]
         off = abs(p[g] - q[g]) > 0.01 * min(p[g], q[g]) + slack if same else p[g] > q[g] * (1 + 1e-9) + slack
-        more = g in unlike if same else pc[g] > qc[g]
+        more = g in unlike if same else (po[g], pc[g]) > (qo[g], qc[g])
         dearer = off and not more and (same or pc[g] + qc[g] == 0)
         count[0] += 1
         count[1] += more
