@@ -83,11 +83,40 @@ static void build_tree(cutter *c)
         }
 }
 
+/* A side of a triangle, and which coordinates of a box are of its corner that is farthest to the left of it. */
+typedef struct side {
+    double x, y, dx, dy;
+    int at_x, at_y;
+} side;
+
 typedef struct triangle {
     uint32_t a, b, c;
-    const double *corner[3];
+    side side[3];
     double box[4];
 } triangle;
+
+/* Is a box certainly on the right of the side? The determinant of doubles is wrong by at most (3 + 16 e) e of its two
+ * products, e = 2^-53 [She96]; DBL_MIN stands in for what underflows. */
+static inline bool right_of(const double box[4], const side *s)
+{
+    const double l = s->dx * (box[s->at_y] - s->y), r = s->dy * (box[s->at_x] - s->x);
+    return l - r < -(0x1p-50 * (fabs(l) + fabs(r)) + DBL_MIN);
+}
+
+/* Is it certainly outside one of the triangle's sides? The lines of rounded corners prove nothing. */
+static inline bool is_beside(const cutter *c, const triangle *t, const double box[4])
+{
+    if (c->r->rounded) return false;
+    for (int k = 0; k < 3; k++)
+        if (right_of(box, &t->side[k])) return true;
+    return false;
+}
+
+static bool misses(const cutter *c, const triangle *t, const double box[4])
+{
+    if (box[0] > t->box[2] || box[2] < t->box[0] || box[1] > t->box[3] || box[3] < t->box[1]) return true;
+    return is_beside(c, t, box);
+}
 
 /* Does this blunt node forbid the cut? */
 static bool blocks(const cutter *c, const triangle *t, uint32_t node)
@@ -95,27 +124,9 @@ static bool blocks(const cutter *c, const triangle *t, uint32_t node)
     if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
     const double *p = place(c, node);
     if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
+    if (is_beside(c, t, (const double[4]){p[0], p[1], p[0], p[1]})) return false;
     if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
     return turn(c, t->c, t->a, node) >= 0;
-}
-
-/* Is a box certainly on the right of the line p -> q? Its corner that is farthest to the left decides. The determinant
- * of doubles is wrong by at most (3 + 16 e) e of its two products, e = 2^-53 [She96]; DBL_MIN stands in for what
- * underflows. */
-static bool right_of(const double box[4], const double *p, const double *q)
-{
-    const double dx = q[0] - p[0], dy = q[1] - p[1];
-    const double l = dx * ((dx > 0 ? box[3] : box[1]) - p[1]), r = dy * ((dy > 0 ? box[0] : box[2]) - p[0]);
-    return l - r < -(0x1p-50 * (fabs(l) + fabs(r)) + DBL_MIN);
-}
-
-static bool misses(const cutter *c, const triangle *t, const double box[4])
-{
-    if (box[0] > t->box[2] || box[2] < t->box[0] || box[1] > t->box[3] || box[3] < t->box[1]) return true;
-    if (c->r->rounded) return false; /* the lines of rounded corners prove nothing */
-    for (int k = 0; k < 3; k++)
-        if (right_of(box, t->corner[k], t->corner[(k + 1) % 3])) return true;
-    return false;
 }
 
 static bool is_free(const cutter *c, const triangle *t)
@@ -140,11 +151,15 @@ static bool is_free(const cutter *c, const triangle *t)
 
 static bool is_ear(const cutter *c, uint32_t b)
 {
-    triangle t = {c->walk->prev[b], b, c->walk->next[b], {NULL}, {0}};
-    const double *p = t.corner[0] = place(c, t.a), *q = t.corner[1] = place(c, t.b), *s = t.corner[2] = place(c, t.c);
+    triangle t = {.a = c->walk->prev[b], .b = b, .c = c->walk->next[b]};
+    const double *corner[3] = {place(c, t.a), place(c, t.b), place(c, t.c)};
     for (int k = 0; k < 2; k++) {
-        t.box[k] = fmin(fmin(p[k], q[k]), s[k]);
-        t.box[k + 2] = fmax(fmax(p[k], q[k]), s[k]);
+        t.box[k] = fmin(fmin(corner[0][k], corner[1][k]), corner[2][k]);
+        t.box[k + 2] = fmax(fmax(corner[0][k], corner[1][k]), corner[2][k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *p = corner[k], *q = corner[(k + 1) % 3], dx = q[0] - p[0], dy = q[1] - p[1];
+        t.side[k] = (side){p[0], p[1], dx, dy, dy > 0 ? 0 : 2, dx > 0 ? 3 : 1};
     }
     if (c->leaves) return is_free(c, &t);
     for (uint32_t i = 0; i < c->listed; i++)
