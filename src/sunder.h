@@ -369,9 +369,10 @@ typedef struct sunder_separation {
 /* The least translation of Q that takes its interior off P and, with gap > 0, leaves it at least gap (Euclidean) away.
  *
  * The global minimum over every free placement, degenerate ones (exact slides and fits) included; of several nearest
- * the lexicographically smallest, told apart exactly with a gap as well. With a gap the optimum may be irrational: then the
- * vector given is rational, provably keeps the gap, and is longer than the optimum by at most 1e-9 of it; lower_bound is the
- * optimum's length then. There always is an answer.
+ * the lexicographically smallest, told apart exactly with a gap as well. With a gap the optimum may be irrational: then
+ * the vector given is rational, provably keeps the gap, and is longer than the optimum by at most 1e-9 of it; lower_bound
+ * is the optimum's length then. There always is an answer, but for a gap of over 2^700 times the shortest side, where the
+ * search may lose its way in the range of doubles: then it is SUNDER_EFAULT, and nothing is claimed.
  * gap   >= 0 and finite, else SUNDER_EARG.
  * out   on success owns its texts: sunder_separation_clear(). An empty operand: zero translation.
  * Source  [LM95] for the role of the no-fit polygon; src/separation/README for the search. */
