@@ -10,7 +10,7 @@
 
 /* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
  * milliseconds. */
-#define EFFORT 400000u
+#define EFFORT 1200000u
 /* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
  * nothing was ever gained below. */
 #define FAR 1.5

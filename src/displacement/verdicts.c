@@ -33,20 +33,42 @@ typedef struct holding {
     sunder_i_held *held;
 } holding;
 
-/* Disjoint, it may come no nearer than it was; meeting, its depth may not grow. What lies in another may stay there.
- * The doubles nearest to both lengths are taken one step down. */
+/* A length just below the distance of two that stand disjoint. What is known of it in doubles is near, and may be above:
+ * it is asked exactly, and lengths farther below where need be. */
+static sunder_status below_distance(const sunder_feature *a, const sunder_feature *b, double near, double *below,
+                                    sunder_error *err)
+{
+    const double none[2] = {0, 0};
+    *below = 0;
+    for (int bits = 51; near > 0 && bits > 10; bits -= 8) {
+        bool apart;
+        const double length = near * (1 - ldexp(1, -bits));
+        const sunder_status status = sunder_i_apart(a->shape, none, b->shape, none, length, &apart, err);
+        if (status) return status;
+        if (!apart) continue;
+        *below = length;
+        return SUNDER_OK;
+    }
+    return SUNDER_OK;
+}
+
+/* Disjoint, it may come no nearer than it was; meeting, its depth may not grow: the double nearest to that length is
+ * taken one step up. What lies in another may stay there. */
 static sunder_status hold(const sunder_i_job *w, const sunder_conflict *c, double *clearance, sunder_error *err)
 {
     const sunder_i_town *town = &w->town;
     const sunder_i_relation *start = sunder_i_relations_find(&w->start, (uint32_t)c->a, (uint32_t)c->b);
     *clearance = -INFINITY;
     if (start && start->contained) return SUNDER_OK;
-    *clearance = fmin(town->rules.gap, c->before > 0 ? nextafter(c->before, 0) : 0);
-    if (!start || !start->overlap) return SUNDER_OK;
+    const sunder_feature *feature = town->layer->feature;
+    if (!start || !start->overlap) {
+        const sunder_status status = below_distance(&feature[c->a], &feature[c->b], c->before, clearance, err);
+        *clearance = fmin(town->rules.gap, *clearance);
+        return status;
+    }
     const double none[2] = {0, 0};
     sunder_separation least;
     bool beyond;
-    const sunder_feature *feature = town->layer->feature;
     const sunder_status status = sunder_i_separate(feature[c->a].shape, none, feature[c->b].shape, none, 0, INFINITY,
                                                    &least, &beyond, err);
     if (status) return status;

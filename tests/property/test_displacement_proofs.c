@@ -223,6 +223,40 @@ static void check_towns(void **state)
     assert_true(proved > trials / 4);
 }
 
+/* ---- Held pairs ----------------------------------------------------------------------------------------------------
+ */
+
+/* A house that is too near to a slanted fixed wall, and may not go far enough to mend that; on its other side a fixed
+ * one that it is too near to by less than it may move. So it has no room, since it may come no nearer to the wall: by
+ * no more than their distance, which no double is. */
+static void check_held(void **state)
+{
+    (void)state;
+    size_t proved = 0, open = 0;
+    const size_t trials = test_count(150);
+    for (size_t trial = 0; trial < trials; trial++) {
+        rng r = rng_start(test_seed(), trial);
+        town t;
+        memset(&t, 0, sizeof t);
+        t.gap = 2 + rng_unit(&r);
+        const double x = pow(10, 7 * rng_unit(&r)), y = x + 100 * rng_unit(&r), lean = 4 * rng_unit(&r);
+        const double limit = 0.25 + rng_unit(&r) / 8, off = 0.5 + rng_unit(&r);
+        const double low = x - off + lean, high = x - off - lean;
+        const double wall[] = {x - 90, y - 60, low, y - 60, high, y + 60, x - 90, y + 60};
+        add(&t, wall, 4, 0);
+        /* Its lower left corner is what the wall is near to. */
+        const double house[] = {x - lean / 60, y + 1, x + 9, y, x + 9, y + 12, x + 4, y + 12};
+        add(&t, house, 4, limit);
+        add_box(&t, x + 9 + t.gap - limit / 4, y - 40, 30, 90, 0);
+        sunder_report *report = separate(&t);
+        proved += check_proofs(&t, report, trial, &open);
+        sunder_report_free(report);
+        free_town(&t);
+    }
+    print_message("%zu with a proof, %zu without\n", proved, open);
+    assert_true(proved * 2 > trials);
+}
+
 /* ---- By name -------------------------------------------------------------------------------------------------------
  */
 
@@ -376,7 +410,7 @@ int main(void)
         cmocka_unit_test(check_huge_and_small), cmocka_unit_test(check_explains_its_own),
         cmocka_unit_test(check_two_lanes),      cmocka_unit_test(check_irreducible),
         cmocka_unit_test(check_packed),         cmocka_unit_test(check_exact_fits),
-        cmocka_unit_test(check_towns),
+        cmocka_unit_test(check_held),           cmocka_unit_test(check_towns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
