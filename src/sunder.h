@@ -66,12 +66,12 @@ SUNDER_API void sunder_set_allocator(void *(*allocate)(size_t), void *(*realloca
 SUNDER_API void sunder_free(void *memory);
 
 /* What was done, in the units that the literature counts (Agarwal, Flato, Halperin 2000, section 3). */
-typedef struct sunder_operations {
+typedef struct sunder_counts {
     uint64_t comparisons;           /* order of two points, or of two crossings along a line */
     uint64_t orientation_tests;     /* side of a point to a line */
     uint64_t segment_intersections; /* crossing points constructed */
     uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
-} sunder_operations;
+} sunder_counts;
 
 /* Called now and then with a fraction done in [0, 1], often the same one again; return false to stop with
  * SUNDER_ECANCEL. Calls do not overlap, but where work is shared by threads they may come from any of them. Between two
@@ -89,8 +89,8 @@ SUNDER_API void sunder_watch(bool (*go_on)(void *user), void *user);
 typedef struct sunder_shape sunder_shape;
 
 typedef enum sunder_validity {
-    SUNDER_STRICT,  /* invalid rings are an error */
-    SUNDER_EVEN_ODD /* the set that each polygon's rings enclose by the even-odd rule, taken exactly */
+    SUNDER_VALIDITY_STRICT,  /* invalid rings are an error */
+    SUNDER_VALIDITY_EVEN_ODD /* the set that each polygon's rings enclose by the even-odd rule, taken exactly */
 } sunder_validity;
 
 /* A polygonal set from plain arrays.
@@ -100,10 +100,10 @@ typedef enum sunder_validity {
  *            the last polygon.
  * poly_end   poly_end[p] is the index past the last ring of polygon p. The first ring of a polygon is its outer one.
  * polygons   how many; 0 gives the empty set.
- * validity   SUNDER_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
+ * validity   SUNDER_VALIDITY_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
  *            they may touch at points, never cross or share a piece of edge. Members may touch and overlap: their
  *            union is meant. A polygon whose interior falls apart where its rings touch counts as several.
- *            SUNDER_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose by the
+ *            SUNDER_VALIDITY_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose by the
  *            even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
  *            nothing vanishes.
  * Fails      SUNDER_EARG      ends that do not ascend, or no such validity
@@ -140,7 +140,7 @@ SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cle
 SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
 SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
 /* Did rings of one polygon meet somewhere, or a ring meet itself, as they were given? If not, the polygons of a strict
- * shape are valid in the sense of OGC simple features, which allows less than SUNDER_STRICT does. */
+ * shape are valid in the sense of OGC simple features, which allows less than SUNDER_VALIDITY_STRICT does. */
 SUNDER_API bool sunder_shape_touches(const sunder_shape *shape);
 /* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
@@ -163,22 +163,22 @@ typedef struct sunder_sum sunder_sum;
 /* Roads to the sum. All lead to the same result, whatever the decomposition, the order and the seed. */
 typedef enum sunder_algorithm {
     SUNDER_ALGORITHM_AUTO, /* the convolution; with keep_map the arrangement */
-    SUNDER_CONVOLUTION,    /* only sides that can bound the sum, settled line by line: by far the fastest */
-    SUNDER_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement, whose cells are then marked [AFH00] */
-    SUNDER_INCREMENTAL,    /* one subsum after the other united with the union so far [AFH00] */
-    SUNDER_DIVIDE          /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
+    SUNDER_ALGORITHM_CONVOLUTION,    /* only sides that can bound the sum, settled line by line: by far the fastest */
+    SUNDER_ALGORITHM_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement, whose cells are then marked [AFH00] */
+    SUNDER_ALGORITHM_INCREMENTAL,    /* one subsum after the other united with the union so far [AFH00] */
+    SUNDER_ALGORITHM_DIVIDE          /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
 } sunder_algorithm;
 
 /* How the operands are cut into convex pieces; for all roads but the convolution. See src/decomposition/README. */
 typedef enum sunder_decomposition {
     SUNDER_DECOMPOSITION_AUTO, /* the angle bisector: fewest crossings on most families [AFH02] */
-    SUNDER_ANGLE_BISECTOR,     /* a cut from each reflex vertex, pairs of reflex vertices first */
-    SUNDER_VERTICAL,           /* vertical cuts from the reflex vertices */
-    SUNDER_TRIANGULATION,
-    SUNDER_HERTEL_MEHLHORN,    /* a triangulation without its needless diagonals */
-    SUNDER_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500 vertices, fall back to Hertel
+    SUNDER_DECOMPOSITION_ANGLE_BISECTOR,     /* a cut from each reflex vertex, pairs of reflex vertices first */
+    SUNDER_DECOMPOSITION_VERTICAL,           /* vertical cuts from the reflex vertices */
+    SUNDER_DECOMPOSITION_TRIANGULATION,
+    SUNDER_DECOMPOSITION_HERTEL_MEHLHORN,    /* a triangulation without its needless diagonals */
+    SUNDER_DECOMPOSITION_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500 vertices, fall back to Hertel
                        and Mehlhorn's */
-    SUNDER_MIXED    /* both operands together: least length of all subsums' boundaries; falls back likewise */
+    SUNDER_DECOMPOSITION_MIXED    /* both operands together: least length of all subsums' boundaries; falls back likewise */
 } sunder_decomposition;
 
 /* In what order subsums go in; for all roads but the convolution. */
@@ -207,9 +207,9 @@ typedef struct sunder_sum_options {
     unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. The result is the same */
 } sunder_sum_options;
 
-typedef struct sunder_sum_counts {
+typedef struct sunder_sum_size {
     size_t polygons, holes, vertices, degenerate_segments, degenerate_points;
-} sunder_sum_counts;
+} sunder_sum_size;
 
 /* Minkowski sum P + Q = { p + q : p in P, q in Q }, exact, of two polygonal sets.
  *
@@ -230,8 +230,8 @@ SUNDER_API sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunde
                                               const sunder_sum_options *opts, sunder_sum **out, sunder_error *err);
 SUNDER_API void sunder_sum_free(sunder_sum *sum);
 
-SUNDER_API void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *counts);
-SUNDER_API void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations);
+SUNDER_API void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size);
+SUNDER_API void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts);
 /* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
 SUNDER_API void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
 
@@ -248,7 +248,7 @@ typedef enum sunder_phase { SUNDER_PHASE_DECOMPOSE, SUNDER_PHASE_SUBSUMS, SUNDER
 
 SUNDER_API void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
 /* Operations of one phase; false, and all zero, if the road has no such phases (the convolution). */
-SUNDER_API bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_operations *operations);
+SUNDER_API bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *counts);
 
 /* Rings of polygon p: 1 + its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon);
@@ -272,10 +272,10 @@ SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area
 /* ---- Growing and shrinking ---------------------------------------------------------------------------------- */
 
 typedef enum sunder_operation {
-    SUNDER_DILATE, /* P + B */
-    SUNDER_ERODE,  /* { x : B + x in P } */
-    SUNDER_OPEN,   /* the erosion dilated: the union of all B + x in P */
-    SUNDER_CLOSE   /* the dilation eroded */
+    SUNDER_OPERATION_DILATE, /* P + B */
+    SUNDER_OPERATION_ERODE,  /* { x : B + x in P } */
+    SUNDER_OPERATION_OPEN,   /* the erosion dilated: the union of all B + x in P */
+    SUNDER_OPERATION_CLOSE   /* the dilation eroded */
 } sunder_operation;
 
 /* "dilate", "erode", "open", "close". */
@@ -363,7 +363,7 @@ typedef struct sunder_separation {
     double dx, dy, distance; /* nearest doubles of the exact values */
     double lower_bound;      /* a proved lower bound of the least distance, rounded down; equals distance up to 1e-9 */
     char *dx_text, *dy_text, *distance_squared_text; /* "num" or "num/den", owned by the struct */
-    sunder_operations operations;
+    sunder_counts counts;
 } sunder_separation;
 
 /* The least translation of Q that takes its interior off P and, with gap > 0, leaves it at least gap (Euclidean) away.
@@ -395,9 +395,9 @@ SUNDER_API sunder_status sunder_pair_distance(const sunder_shape *p, const sunde
 typedef struct sunder_layer sunder_layer;
 
 typedef enum sunder_containment {
-    SUNDER_CONTAINED_BLOCK,   /* a feature that lies in another joins its block */
-    SUNDER_CONTAINED_IGNORE,  /* it may overlap the one that it lies in */
-    SUNDER_CONTAINED_SEPARATE /* it is separated like any other */
+    SUNDER_CONTAINMENT_BLOCK,   /* a feature that lies in another joins its block */
+    SUNDER_CONTAINMENT_IGNORE,  /* it may overlap the one that it lies in */
+    SUNDER_CONTAINMENT_SEPARATE /* it is separated like any other */
 } sunder_containment;
 
 typedef struct sunder_layer_options {
@@ -428,22 +428,22 @@ SUNDER_API sunder_status sunder_layer_new(const sunder_feature *features, size_t
 SUNDER_API void sunder_layer_free(sunder_layer *layer);
 
 typedef enum sunder_feature_status {
-    SUNDER_UNMOVED,
-    SUNDER_MOVED,
-    SUNDER_FIXED,
-    SUNDER_BLOCKED, /* still has a conflict */
-    SUNDER_SKIPPED
+    SUNDER_FEATURE_UNMOVED,
+    SUNDER_FEATURE_MOVED,
+    SUNDER_FEATURE_FIXED,
+    SUNDER_FEATURE_BLOCKED, /* still has a conflict */
+    SUNDER_FEATURE_SKIPPED
 } sunder_feature_status;
 
 /* "unmoved", "moved", "fixed", "blocked", "skipped". */
 SUNDER_API const char *sunder_feature_status_string(sunder_feature_status status);
 
 typedef enum sunder_conflict_kind {
-    SUNDER_OVERLAP,
-    SUNDER_TOO_CLOSE,
-    SUNDER_BARRIER,
-    SUNDER_CONTAINED,
-    SUNDER_DUPLICATE
+    SUNDER_CONFLICT_OVERLAP,
+    SUNDER_CONFLICT_TOO_CLOSE,
+    SUNDER_CONFLICT_BARRIER,
+    SUNDER_CONFLICT_CONTAINED,
+    SUNDER_CONFLICT_DUPLICATE
 } sunder_conflict_kind;
 
 /* "overlap", "too_close", "barrier", "contained", "duplicate". */
@@ -601,15 +601,15 @@ typedef struct sunder_route_options {
     void *progress_user;
 } sunder_route_options;
 
-typedef enum sunder_no_route {
+typedef enum sunder_route_status {
     SUNDER_ROUTE_FOUND,
     SUNDER_ROUTE_START_COLLIDES, /* at the start the robot's interior meets an obstacle */
     SUNDER_ROUTE_GOAL_COLLIDES,
     SUNDER_ROUTE_DISCONNECTED    /* start and goal lie in different components of free space */
-} sunder_no_route;
+} sunder_route_status;
 
 /* "found", "start_in_collision", "goal_in_collision", "disconnected". */
-SUNDER_API const char *sunder_no_route_string(sunder_no_route reason);
+SUNDER_API const char *sunder_route_status_string(sunder_route_status reason);
 
 typedef struct sunder_route sunder_route;
 
@@ -636,7 +636,7 @@ SUNDER_API sunder_status sunder_route_find(const sunder_obstacle *obstacles, siz
 SUNDER_API void sunder_route_free(sunder_route *route);
 
 /* Why there is none; *obstacle is the first one in the way, if there is one, else SIZE_MAX. */
-SUNDER_API sunder_no_route sunder_route_reason(const sunder_route *route, size_t *obstacle);
+SUNDER_API sunder_route_status sunder_route_reason(const sunder_route *route, size_t *obstacle);
 /* Vertices of the path, start and goal included; one if they are the same; 0 if there is no route. */
 SUNDER_API size_t sunder_route_vertices(const sunder_route *route);
 /* A vertex: the nearest doubles, and texts as of a sum's, owned by the route. */

@@ -57,7 +57,7 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
     gis_polygons turned = {0};
     sunder_error why;
     bool ok = turn(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
-              (gis_polygons_shape(&turned, SUNDER_EVEN_ODD, out, &why) == SUNDER_OK ||
+              (gis_polygons_shape(&turned, SUNDER_VALIDITY_EVEN_ODD, out, &why) == SUNDER_OK ||
                gis_fail(error, "--shape, turned: %s", why.message));
     gis_polygons_clear(&turned);
     return ok;
@@ -228,7 +228,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
     sunder_sum *sum = NULL;
     sunder_error why;
     gis_rounded united = {0};
-    if (gis_polygons_shape(polygons, SUNDER_STRICT, &shape, &why) != SUNDER_OK)
+    if (gis_polygons_shape(polygons, SUNDER_VALIDITY_STRICT, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     sunder_status status = sunder_shape_union(shape, &stage, &sum, &why);
     bool ok = round_result(status, sum, &why, &united, error);

@@ -173,7 +173,7 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
         ok = !has_shape(buffer, set->member[i]) ||
              append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
-    ok = ok && (gis_polygons_shape(&all, SUNDER_STRICT, out, &why) == SUNDER_OK || gis_fail(error, "%s", why.message));
+    ok = ok && (gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) == SUNDER_OK || gis_fail(error, "%s", why.message));
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
     return ok;
@@ -190,14 +190,14 @@ static bool place(const sunder_sum *sum, const uint32_t *vertex, size_t n, doubl
 
 static bool keep_degenerate(const sunder_sum *sum, gis_buffer_set *set, gis_error *error)
 {
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
-    set->segment = malloc((counts.degenerate_segments + 1) * 4 * sizeof *set->segment);
-    set->point = malloc((counts.degenerate_points + 1) * 2 * sizeof *set->point);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
+    set->segment = malloc((size.degenerate_segments + 1) * 4 * sizeof *set->segment);
+    set->point = malloc((size.degenerate_points + 1) * 2 * sizeof *set->point);
     if (!set->segment || !set->point)
         return gis_no_memory(error);
-    set->segments = counts.degenerate_segments;
-    set->points = counts.degenerate_points;
+    set->segments = size.degenerate_segments;
+    set->points = size.degenerate_points;
     for (size_t i = 0; i < set->segments; i++) {
         uint32_t ends[2];
         sunder_sum_segment(sum, i, ends);

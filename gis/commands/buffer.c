@@ -35,7 +35,7 @@ static bool check_options(const gis_options *options, gis_error *error)
 
 static sunder_operation operation_of(const gis_options *options)
 {
-    sunder_operation operation = SUNDER_DILATE;
+    sunder_operation operation = SUNDER_OPERATION_DILATE;
     while (strcmp(sunder_operation_string(operation), options->text[OPT_OPERATION]) != 0)
         operation++;
     return operation;

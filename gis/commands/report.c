@@ -17,12 +17,12 @@ void gis_json_seconds(gis_json *out, const char *key, double seconds)
     gis_json_double(out, round(seconds * 1e9) / 1e9);
 }
 
-void gis_json_operations(gis_json *out, const sunder_operations *operations)
+void gis_json_operations(gis_json *out, const sunder_counts *counts)
 {
-    count(out, "comparisons", operations->comparisons);
-    count(out, "orientation_tests", operations->orientation_tests);
-    count(out, "segment_intersections", operations->segment_intersections);
-    count(out, "exact_fallbacks", operations->exact_fallbacks);
+    count(out, "comparisons", counts->comparisons);
+    count(out, "orientation_tests", counts->orientation_tests);
+    count(out, "segment_intersections", counts->segment_intersections);
+    count(out, "exact_fallbacks", counts->exact_fallbacks);
 }
 
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts)

@@ -8,7 +8,7 @@
 
 /* A time, to the nanosecond: more digits would be noise. */
 void gis_json_seconds(gis_json *out, const char *key, double seconds);
-void gis_json_operations(gis_json *out, const sunder_operations *operations);
+void gis_json_operations(gis_json *out, const sunder_counts *counts);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
 
 /* Is anything in conflict between blocks? */

@@ -44,7 +44,7 @@ static bool find(route_run *run, gis_error *error)
         return gis_fail(error, "%s", why.message);
     gis_progress_done(&progress);
     size_t obstacle;
-    sunder_no_route reason = sunder_route_reason(run->route, &obstacle);
+    sunder_route_status reason = sunder_route_reason(run->route, &obstacle);
     if (reason == SUNDER_ROUTE_DISCONNECTED) {
         snprintf(run->reason, sizeof run->reason, "start and goal lie in different components of free space");
     } else if (reason != SUNDER_ROUTE_FOUND) {

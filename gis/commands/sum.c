@@ -65,7 +65,7 @@ static bool choose_road(sum_run *run, gis_error *error)
     run->how.keep_map = options->given[OPT_PLANAR_MAP];
     if (!run->how.keep_map)
         return true;
-    if (run->how.algorithm == SUNDER_CONVOLUTION)
+    if (run->how.algorithm == SUNDER_ALGORITHM_CONVOLUTION)
         return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
     if (!options->operand[2] || strcmp(options->operand[2], "/vsistdout/") == 0)
         return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
@@ -156,12 +156,12 @@ static bool json_polygon(gis_json *out, const sum_run *run, size_t polygon, gis_
 /* The keys polygons, degenerate_segments and degenerate_points, to follow those of the summary. */
 static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
 {
-    sunder_sum_counts counts;
-    sunder_sum_count(run->sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(run->sum, &size);
     gis_json_line(out);
     gis_json_key(out, "polygons");
     gis_json_open(out, '[');
-    for (size_t p = 0; p < counts.polygons; p++) {
+    for (size_t p = 0; p < size.polygons; p++) {
         gis_json_line(out);
         if (!json_polygon(out, run, p, error))
             return false;
@@ -170,7 +170,7 @@ static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
     gis_json_line(out);
     gis_json_key(out, "degenerate_segments");
     gis_json_open(out, '[');
-    for (size_t i = 0; i < counts.degenerate_segments; i++) {
+    for (size_t i = 0; i < size.degenerate_segments; i++) {
         uint32_t ends[2];
         sunder_sum_segment(run->sum, i, ends);
         gis_json_open(out, '[');
@@ -182,7 +182,7 @@ static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
     gis_json_line(out);
     gis_json_key(out, "degenerate_points");
     gis_json_open(out, '[');
-    for (size_t i = 0; i < counts.degenerate_points; i++)
+    for (size_t i = 0; i < size.degenerate_points; i++)
         if (!json_vertex(out, run, sunder_sum_point(run->sum, i), error))
             return false;
     gis_json_close(out, ']');
@@ -202,24 +202,24 @@ static void json_operand(gis_json *out, const char *key, const sunder_shape *sha
 
 static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
 {
-    sunder_sum_counts counts;
+    sunder_sum_size size;
     char *area;
     sunder_error why;
-    sunder_sum_count(run->sum, &counts);
+    sunder_sum_get_size(run->sum, &size);
     if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     gis_json_key(out, "result");
     gis_json_open(out, '{');
     gis_json_key(out, "polygons");
-    gis_json_size(out, counts.polygons);
+    gis_json_size(out, size.polygons);
     gis_json_key(out, "holes");
-    gis_json_size(out, counts.holes);
+    gis_json_size(out, size.holes);
     gis_json_key(out, "vertices");
-    gis_json_size(out, counts.vertices);
+    gis_json_size(out, size.vertices);
     gis_json_key(out, "degenerate_segments");
-    gis_json_size(out, counts.degenerate_segments);
+    gis_json_size(out, size.degenerate_segments);
     gis_json_key(out, "degenerate_points");
-    gis_json_size(out, counts.degenerate_points);
+    gis_json_size(out, size.degenerate_points);
     gis_json_key(out, "area");
     gis_json_string(out, area);
     gis_json_key(out, "max_deviation");
@@ -250,19 +250,19 @@ static void json_seconds(gis_json *out, const sum_run *run)
 static void json_operations(gis_json *out, const sum_run *run)
 {
     static const char *const phase[] = {"decompose", "subsums", "union"};
-    sunder_operations operations;
-    sunder_sum_operations(run->sum, &operations);
+    sunder_counts counts;
+    sunder_sum_get_counts(run->sum, &counts);
     gis_json_key(out, "operations");
     gis_json_open(out, '{');
-    gis_json_operations(out, &operations);
+    gis_json_operations(out, &counts);
     gis_json_key(out, "phases");
     gis_json_open(out, '{');
     for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
-        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &operations))
+        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &counts))
             break;
         gis_json_key(out, phase[i]);
         gis_json_open(out, '{');
-        gis_json_operations(out, &operations);
+        gis_json_operations(out, &counts);
         gis_json_close(out, '}');
     }
     gis_json_close(out, '}');

@@ -57,7 +57,7 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
     if (!ok)
         core_failed(who, &why, error);
     ok = ok && gis_round_sum(sum, &rounded, error);
-    if (ok && gis_polygons_shape(&rounded.set, SUNDER_STRICT, &grown, &why) != SUNDER_OK)
+    if (ok && gis_polygons_shape(&rounded.set, SUNDER_VALIDITY_STRICT, &grown, &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_rounded_clear(&rounded);
     sunder_sum_free(sum);
@@ -128,8 +128,8 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     CPLFree(at);
     sunder_error why;
     /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
-    if (ok && gis_polygons_shape(&all, SUNDER_STRICT, &input->shape[i], &why) != SUNDER_OK &&
-        gis_polygons_shape(&all, SUNDER_EVEN_ODD, &input->shape[i], &why) != SUNDER_OK)
+    if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, &input->shape[i], &why) != SUNDER_OK &&
+        gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, &input->shape[i], &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_polygons_clear(&all);
     return ok;

@@ -234,9 +234,9 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.touch_tolerance = input->tolerance;
     core.no_blocks = options->given[OPT_NO_BLOCKS];
     core.list_inside = options->given[OPT_LIST_INSIDE];
-    core.contained = strcmp(contained, "ignore") == 0     ? SUNDER_CONTAINED_IGNORE
-                     : strcmp(contained, "separate") == 0 ? SUNDER_CONTAINED_SEPARATE
-                                                          : SUNDER_CONTAINED_BLOCK;
+    core.contained = strcmp(contained, "ignore") == 0     ? SUNDER_CONTAINMENT_IGNORE
+                     : strcmp(contained, "separate") == 0 ? SUNDER_CONTAINMENT_SEPARATE
+                                                          : SUNDER_CONTAINMENT_BLOCK;
     double threads = options->given[OPT_THREADS] ? options->number[OPT_THREADS] : 0;
     core.threads = threads > 4096 ? 4096 : (unsigned)threads;
     return core;

@@ -82,7 +82,7 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
     if (ok) {
         sunder_error why;
         double begin = gis_clock();
-        ok = gis_polygons_shape(&all, any_invalid ? SUNDER_EVEN_ODD : SUNDER_STRICT, out, &why) == SUNDER_OK ||
+        ok = gis_polygons_shape(&all, any_invalid ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT, out, &why) == SUNDER_OK ||
              gis_fail(error, "%s: %s", who, why.message);
         if (building)
             *building += gis_clock() - begin;

@@ -158,7 +158,7 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
 {
     sunder_error why;
     *invalid = false;
-    sunder_status status = gis_polygons_shape(set, SUNDER_STRICT, out, &why);
+    sunder_status status = gis_polygons_shape(set, SUNDER_VALIDITY_STRICT, out, &why);
     if (status == SUNDER_OK)
         return true;
     if (status != SUNDER_EINVALID)
@@ -166,7 +166,7 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
     *invalid = true;
     gis_fail(reason, "%s", why.message);
     if (policy == GIS_INVALID_REPAIR) {
-        status = gis_polygons_shape(set, SUNDER_EVEN_ODD, out, &why);
+        status = gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, out, &why);
         if (status == SUNDER_OK)
             return true;
     }

@@ -229,17 +229,17 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
                        double *moved, gis_error *error)
 {
     sunder_sum *sum = NULL;
-    sunder_sum_counts counts;
-    if (!unite(group, SUNDER_STRICT, &sum, error))
+    sunder_sum_size size;
+    if (!unite(group, SUNDER_VALIDITY_STRICT, &sum, error))
         return false;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_get_size(sum, &size);
     sunder_sum_free(sum);
-    *bad = counts.polygons != group->polygons;
+    *bad = size.polygons != group->polygons;
     if (!*bad)
         return true;
     gis_polygons bent = {0};
     sum = NULL;
-    bool ok = gis_bend_set(group, round, &bent, moved, error) && unite(&bent, SUNDER_EVEN_ODD, &sum, error) &&
+    bool ok = gis_bend_set(group, round, &bent, moved, error) && unite(&bent, SUNDER_VALIDITY_EVEN_ODD, &sum, error) &&
               gis_round_polygons(sum, mended, suspects, error);
     gis_polygons_clear(&bent);
     sunder_sum_free(sum);

@@ -58,7 +58,7 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
         ends[r - first] = set->ring_end[r] - start;
     *out = NULL;
     sunder_error why;
-    sunder_status status = sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_STRICT, out, &why);
+    sunder_status status = sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_VALIDITY_STRICT, out, &why);
     free(ends);
     return status == SUNDER_OK || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
 }
@@ -77,10 +77,10 @@ bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_er
 
 static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *error)
 {
-    sunder_sum_counts counts;
+    sunder_sum_size size;
     sunder_error why;
-    sunder_sum_count(sum, &counts);
-    for (size_t p = 0; p < counts.polygons; p++) {
+    sunder_sum_get_size(sum, &size);
+    for (size_t p = 0; p < size.polygons; p++) {
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
             size_t n;
             double off = 0; /* they were doubles, and still are */
@@ -273,7 +273,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
 {
     sunder_shape *shape = NULL;
     sunder_error why;
-    if (gis_polygons_shape(set, SUNDER_EVEN_ODD, &shape, &why) != SUNDER_OK)
+    if (gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     bool ok = true;
     for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)

@@ -137,11 +137,11 @@ static bool append_polygon(const sunder_sum *sum, size_t p, gis_rounded *out, do
 bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error)
 {
     gis_rounded rounded = {0};
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
     bool ok = true;
     double moved = 0;
-    for (size_t p = 0; ok && p < counts.polygons; p++)
+    for (size_t p = 0; ok && p < size.polygons; p++)
         ok = append_polygon(sum, p, &rounded, &moved, suspects, error);
     rounded.deviation += moved;
     if (ok)

@@ -36,7 +36,7 @@ bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double 
 /* Ends the ring that began at vertex `first`, unless it has no area: then it is taken back.
  */
 bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error);
-/* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_STRICT alone: an
+/* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_VALIDITY_STRICT alone: an
  * interior that falls apart, a ring that meets itself. False only where the question cannot be answered. */
 typedef enum gis_polygon_state { GIS_POLYGON_BROKEN, GIS_POLYGON_TOUCHES, GIS_POLYGON_WELL } gis_polygon_state;
 bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state);

@@ -174,7 +174,7 @@ static bool free_space(const gis_polygons *obstacles, const double box[4], gis_p
         ok = ok && gis_polygons_end_ring(&all, error);
     }
     ok = ok && gis_polygons_end_polygon(&all, error);
-    if (ok && gis_polygons_shape(&all, SUNDER_EVEN_ODD, &shape, &why) != SUNDER_OK)
+    if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, &shape, &why) != SUNDER_OK)
         ok = gis_fail(error, "free space: %s", why.message);
     ok = ok && gis_polygons_append_shape(out, shape, 0, 0, error);
     sunder_shape_free(shape);
@@ -185,14 +185,14 @@ static bool free_space(const gis_polygons *obstacles, const double box[4], gis_p
 static bool write_degenerate(route_writer *w, gis_error *error)
 {
     const sunder_sum *sum = sunder_route_obstacles(w->route);
-    sunder_sum_counts counts;
+    sunder_sum_size size;
     gis_sink_layer *layer;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_get_size(sum, &size);
     if (!add_layer(w, "degenerate_segments", wkbLineString, NULL, 0, &layer, error) ||
-        !gis_write_sum_segments(layer, sum, counts.degenerate_segments, &w->deviation, error))
+        !gis_write_sum_segments(layer, sum, size.degenerate_segments, &w->deviation, error))
         return false;
     return add_layer(w, "degenerate_points", wkbPoint, NULL, 0, &layer, error) &&
-           gis_write_sum_points(layer, sum, counts.degenerate_points, &w->deviation, error);
+           gis_write_sum_points(layer, sum, size.degenerate_points, &w->deviation, error);
 }
 
 static bool write_spaces(route_writer *w, gis_error *error)

@@ -72,8 +72,8 @@ bool gis_write_sum_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation, gis_error *error)
 {
     gis_rounded rounded = {0};
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
     gis_layer_request request = {.suffix = "", .type = wkbPolygon, .crs = crs, .style = GIS_STYLE_RESULT};
     gis_sink_layer *layer;
     bool ok = gis_round_sum(sum, &rounded, error) && gis_sink_add(sink, &request, &layer, error) &&
@@ -82,13 +82,13 @@ bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH c
         request.suffix = "degenerate_segments";
         request.type = wkbLineString;
         ok = gis_sink_add(sink, &request, &layer, error) &&
-             gis_write_sum_segments(layer, sum, counts.degenerate_segments, &rounded.deviation, error);
+             gis_write_sum_segments(layer, sum, size.degenerate_segments, &rounded.deviation, error);
     }
     if (ok && gis_sink_takes_more(sink)) {
         request.suffix = "degenerate_points";
         request.type = wkbPoint;
         ok = gis_sink_add(sink, &request, &layer, error) &&
-             gis_write_sum_points(layer, sum, counts.degenerate_points, &rounded.deviation, error);
+             gis_write_sum_points(layer, sum, size.degenerate_points, &rounded.deviation, error);
     }
     *deviation = rounded.deviation;
     gis_rounded_clear(&rounded);

@@ -62,25 +62,25 @@ static void make(sunder_i_maker *m, sunder_i_decomposition_kind kind)
     }
 }
 
-static sunder_operations difference(const sunder_operations *after, const sunder_operations *before)
+static sunder_counts difference(const sunder_counts *after, const sunder_counts *before)
 {
-    return (sunder_operations){
+    return (sunder_counts){
         after->comparisons - before->comparisons, after->orientation_tests - before->orientation_tests,
         after->segment_intersections - before->segment_intersections, after->exact_fallbacks - before->exact_fallbacks};
 }
 
-static void sign(const sunder_i_maker *m, sunder_i_decomposition_kind kind, const sunder_operations *before,
+static void sign(const sunder_i_maker *m, sunder_i_decomposition_kind kind, const sunder_counts *before,
                  sunder_i_decomposition *out)
 {
     out->used = m->fallbacks ? SUNDER_I_HERTEL_MEHLHORN : kind;
-    out->operations = difference(&m->lattice->operations, before);
+    out->counts = difference(&m->lattice->counts, before);
 }
 
 sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
                                  sunder_i_decomposition_kind kind, sunder_i_decomposition *out, sunder_error *err)
 {
     if (kind == SUNDER_I_MIXED) kind = SUNDER_I_OPTIMAL;
-    const sunder_operations before = lattice->operations;
+    const sunder_counts before = lattice->counts;
     sunder_i_maker m;
     sunder_i_decomposition made;
     bool ok = sunder_i_maker_init(&m, lattice, shape, at);
@@ -99,7 +99,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
                                      const sunder_i_point *const at[2], sunder_i_decomposition *const out[2],
                                      sunder_error *err)
 {
-    const sunder_operations before = lattice->operations;
+    const sunder_counts before = lattice->counts;
     sunder_i_maker m[2];
     sunder_i_decomposition made[2];
     bool ok = sunder_i_maker_init(&m[0], lattice, shape[0], at[0]);
@@ -112,7 +112,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
         ok = false;
     }
     for (int i = 0; i < 2 && ok; i++) {
-        sunder_operations now = lattice->operations;
+        sunder_counts now = lattice->counts;
         sign(&m[i], SUNDER_I_MIXED, i ? &now : &before, &made[i]);
         *out[i] = made[i];
     }

@@ -48,7 +48,7 @@ typedef struct sunder_i_decomposition {
                                convex, and start with the side of the least angle in [0, 2 pi), so that angles ascend */
     sunder_i_point *along;  /* [sides] a vector of the lattice, a positive multiple of the side */
     uint32_t *member;       /* [pieces] the polygon of the shape that each is a piece of; ascending */
-    sunder_operations operations; /* done here; they are in lattice->operations as well */
+    sunder_counts counts; /* done here; they are in lattice->counts as well */
 } sunder_i_decomposition;
 
 /* Decomposes a shape that stands on a lattice.

@@ -15,10 +15,10 @@ static bool is_inside(const sunder_i_town *town, const sunder_i_relation *r)
 
 static sunder_conflict_kind kind_of(const sunder_i_town *town, const sunder_i_relation *r)
 {
-    if (!r->overlap) return SUNDER_TOO_CLOSE;
+    if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
     /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
-    if (is_inside(town, r)) return SUNDER_OVERLAP;
-    return r->duplicate ? SUNDER_DUPLICATE : r->contained ? SUNDER_CONTAINED : SUNDER_OVERLAP;
+    if (is_inside(town, r)) return SUNDER_CONFLICT_OVERLAP;
+    return r->duplicate ? SUNDER_CONFLICT_DUPLICATE : r->contained ? SUNDER_CONFLICT_CONTAINED : SUNDER_CONFLICT_OVERLAP;
 }
 
 /* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */

@@ -9,7 +9,7 @@ void sunder_layer_options_init(sunder_layer_options *options)
 {
     memset(options, 0, sizeof *options);
     options->touch_tolerance = -1;
-    options->contained = SUNDER_CONTAINED_BLOCK;
+    options->contained = SUNDER_CONTAINMENT_BLOCK;
     options->threads = 1;
 }
 
@@ -65,7 +65,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if (o->gap > 0 && tolerance >= o->gap)
         return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance,
                              o->gap);
-    if ((int)o->contained < SUNDER_CONTAINED_BLOCK || (int)o->contained > SUNDER_CONTAINED_SEPARATE)
+    if ((int)o->contained < SUNDER_CONTAINMENT_BLOCK || (int)o->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
     rules->gap = o->gap;
     rules->tolerance = tolerance;

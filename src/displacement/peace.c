@@ -88,20 +88,20 @@ static bool holds_origin(const sunder_sum *sum, size_t polygons)
 
 static void take_sum(nearest *n, const sunder_sum *sum)
 {
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
-    if (holds_origin(sum, counts.polygons)) *n = (nearest){0, 0, {0, 0}};
-    for (size_t k = 0; k < counts.polygons; k++)
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
+    if (holds_origin(sum, size.polygons)) *n = (nearest){0, 0, {0, 0}};
+    for (size_t k = 0; k < size.polygons; k++)
         for (size_t r = 0, m; r < sunder_sum_rings(sum, k); r++) {
             const uint32_t *ring = sunder_sum_ring(sum, k, r, &m);
             for (size_t v = 0; v < m; v++) take_vertices(n, sum, ring[v], ring[v + 1 < m ? v + 1 : 0]);
         }
-    for (size_t k = 0; k < counts.degenerate_segments; k++) {
+    for (size_t k = 0; k < size.degenerate_segments; k++) {
         uint32_t ends[2];
         sunder_sum_segment(sum, k, ends);
         take_vertices(n, sum, ends[0], ends[1]);
     }
-    for (size_t k = 0; k < counts.degenerate_points; k++)
+    for (size_t k = 0; k < size.degenerate_points; k++)
         take_vertices(n, sum, sunder_sum_point(sum, k), sunder_sum_point(sum, k));
 }
 
@@ -117,7 +117,7 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
         const sunder_shape *into = k ? grown : outer;
         sunder_sum *places = NULL;
         if (!into) continue;
-        status = sunder_morphology(into, inner, SUNDER_ERODE, NULL, &places, err);
+        status = sunder_morphology(into, inner, SUNDER_OPERATION_ERODE, NULL, &places, err);
         if (!status) take_sum(n, places);
         sunder_sum_free(places);
     }

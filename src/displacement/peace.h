@@ -12,7 +12,7 @@
 /* May a feature overlap the one that it lies in? */
 static inline bool sunder_i_may_be_inside(const sunder_i_rules *rules)
 {
-    return rules->contained == SUNDER_CONTAINED_IGNORE;
+    return rules->contained == SUNDER_CONTAINMENT_IGNORE;
 }
 
 /* Do the two, as they stand, keep the peace? (Members of one block owe each other none.) */

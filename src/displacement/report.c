@@ -30,7 +30,7 @@ sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out
         const sunder_feature *feature = &town->layer->feature[f];
         if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
         const bool fixed = town->body[town->body_of[f]].fixed;
-        r->status[f] = feature->ignored ? SUNDER_SKIPPED : fixed ? SUNDER_FIXED : SUNDER_UNMOVED;
+        r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
         if (feature->ignored) r->summary.skipped++;
     }
     *out = r;
@@ -58,19 +58,19 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
         return;
     }
     switch (conflict->kind) {
-    case SUNDER_OVERLAP:
+    case SUNDER_CONFLICT_OVERLAP:
         counts->overlap++;
         break;
-    case SUNDER_TOO_CLOSE:
+    case SUNDER_CONFLICT_TOO_CLOSE:
         counts->too_close++;
         break;
-    case SUNDER_BARRIER:
+    case SUNDER_CONFLICT_BARRIER:
         counts->barrier++;
         break;
-    case SUNDER_CONTAINED:
+    case SUNDER_CONFLICT_CONTAINED:
         counts->contained++;
         break;
-    case SUNDER_DUPLICATE:
+    case SUNDER_CONFLICT_DUPLICATE:
         counts->duplicate++;
         break;
     }

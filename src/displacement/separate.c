@@ -41,7 +41,7 @@ static void fill_moves(const sunder_i_job *w)
         report->move[2 * f] = t[0];
         report->move[2 * f + 1] = t[1];
         const double length = hypot(t[0], t[1]);
-        report->status[f] = SUNDER_MOVED;
+        report->status[f] = SUNDER_FEATURE_MOVED;
         s->moved++;
         s->total += length;
         s->cost += town->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
@@ -57,9 +57,9 @@ static void fill_moves(const sunder_i_job *w)
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
         const size_t pair[2] = {c->a, c->b};
         for (int e = 0; e < 2; e++)
-            if (!town->body[town->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_BLOCKED;
+            if (!town->body[town->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
     }
-    for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_BLOCKED;
+    for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
 }
 
 static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,

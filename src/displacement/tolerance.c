@@ -22,7 +22,7 @@ static sunder_status small_disc(double tolerance, sunder_shape **out, sunder_err
         xy[2 * k + 1] = quarter == 0 ? y : quarter == 1 ? x : quarter == 2 ? -y : -x;
     }
     const size_t ring_end = CORNERS, poly_end = 1;
-    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_STRICT, out, err);
+    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, out, err);
 }
 
 sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance, sunder_shape **out, sunder_error *err)
@@ -33,10 +33,10 @@ sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance
     if (!status) status = sunder_minkowski_sum(q, disc, NULL, &sum, err);
     sunder_shape_free(disc);
     if (status) return status;
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
     size_t rings = 0, corners = 0;
-    for (size_t p = 0; p < counts.polygons; p++)
+    for (size_t p = 0; p < size.polygons; p++)
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++, rings++) {
             size_t n;
             sunder_sum_ring(sum, p, r, &n);
@@ -44,10 +44,10 @@ sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance
         }
     double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
     size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end),
-           *poly_end = sunder_i_alloc(counts.polygons, sizeof *poly_end);
+           *poly_end = sunder_i_alloc(size.polygons, sizeof *poly_end);
     if (xy && ring_end && poly_end) {
         size_t v = 0, k = 0;
-        for (size_t p = 0; p < counts.polygons; p++) {
+        for (size_t p = 0; p < size.polygons; p++) {
             for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
                 size_t n;
                 const uint32_t *ring = sunder_sum_ring(sum, p, r, &n);
@@ -56,7 +56,7 @@ sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance
             }
             poly_end[p] = k;
         }
-        status = sunder_shape_from_rings(xy, ring_end, poly_end, counts.polygons, SUNDER_EVEN_ODD, out, err);
+        status = sunder_shape_from_rings(xy, ring_end, poly_end, size.polygons, SUNDER_VALIDITY_EVEN_ODD, out, err);
     } else {
         status = sunder_i_no_memory(err);
     }

@@ -146,7 +146,7 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
     for (size_t f = 0; f < n; f++) parent[f] = (uint32_t)f;
     for (size_t k = 0; k < relations->n && town->rules.joins; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINED_BLOCK)) unite(parent, r->a, r->b);
+        if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINMENT_BLOCK)) unite(parent, r->a, r->b);
     }
     const sunder_status status =
         unite_labelled(town->layer, parent) ? sunder_i_keep_init(town, relations, err) : sunder_i_no_memory(err);

@@ -75,7 +75,7 @@ static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
 {
     sunder_i_lattice *l = p->s->lattice;
     if (!l->narrow) return sunder_i_orient(l, line->a, line->b, corner(p, i));
-    l->operations.orientation_tests++;
+    l->counts.orientation_tests++;
     return sunder_i_i128_sign(
         sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
 }

@@ -63,11 +63,11 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
 /* Is each option one of its values? */
 static sunder_status check_options(const sunder_sum_options *o, sunder_error *err)
 {
-    if ((unsigned)o->algorithm > SUNDER_DIVIDE) return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
-    if ((unsigned)o->decomposition > SUNDER_MIXED)
+    if ((unsigned)o->algorithm > SUNDER_ALGORITHM_DIVIDE) return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
+    if ((unsigned)o->decomposition > SUNDER_DECOMPOSITION_MIXED)
         return sunder_i_fail(err, SUNDER_EARG, "there is no such decomposition");
     if ((unsigned)o->order > SUNDER_ORDER_GIVEN) return sunder_i_fail(err, SUNDER_EARG, "there is no such order");
-    if (o->keep_map && o->algorithm == SUNDER_CONVOLUTION)
+    if (o->keep_map && o->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
         return sunder_i_fail(err, SUNDER_EARG, "the convolution makes no planar map; the other algorithms do");
     return SUNDER_OK;
 }
@@ -81,10 +81,10 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
-    sum->method.algorithm = o.algorithm ? o.algorithm : o.keep_map ? SUNDER_ARRANGEMENT : SUNDER_CONVOLUTION;
+    sum->method.algorithm = o.algorithm ? o.algorithm : o.keep_map ? SUNDER_ALGORITHM_ARRANGEMENT : SUNDER_ALGORITHM_CONVOLUTION;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    if (sum->method.algorithm == SUNDER_CONVOLUTION)
+    if (sum->method.algorithm == SUNDER_ALGORITHM_CONVOLUTION)
         status = build(sum, p, q, force_wide, &o, err);
     else
         status = sunder_i_union_sum(sum, p, q, force_wide, &o, err);
@@ -116,23 +116,23 @@ void sunder_sum_free(sunder_sum *sum)
     sunder_i_free(sum);
 }
 
-void sunder_sum_count(const sunder_sum *sum, sunder_sum_counts *counts)
+void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size)
 {
-    *counts = (sunder_sum_counts){sum->polygons, sum->rings - sum->polygons,
+    *size = (sunder_sum_size){sum->polygons, sum->rings - sum->polygons,
                                   sum->rings ? sum->ring_end[sum->rings - 1] : 0, sum->segments, sum->points};
 }
 
-void sunder_sum_operations(const sunder_sum *sum, sunder_operations *operations)
+void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts)
 {
-    *operations = sum->lattice.operations;
+    *counts = sum->lattice.counts;
 }
 
 void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method) { *method = sum->method; }
 
-bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_operations *operations)
+bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *counts)
 {
-    *operations = sum->phase[phase];
-    return sum->method.algorithm != SUNDER_CONVOLUTION;
+    *counts = sum->phase[phase];
+    return sum->method.algorithm != SUNDER_ALGORITHM_CONVOLUTION;
 }
 
 void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite_seconds)

@@ -18,7 +18,7 @@ struct sunder_sum {
     size_t segments, points;
     sunder_sum_method method;
     double seconds[3];        /* by sunder_phase */
-    sunder_operations phase[3];
+    sunder_counts phase[3];
     sunder_map *map;          /* NULL: not kept; stands on the lattice */
 };
 

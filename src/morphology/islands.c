@@ -137,8 +137,8 @@ sunder_status sunder_i_islands(const sunder_i_seat *seat, const sunder_sum *whol
                    .whole = whole,
                    .asked = options,
                    .connected = connected,
-                   .open = operation == SUNDER_OPEN,
-                   .dilated = operation == SUNDER_CLOSE};
+                   .open = operation == SUNDER_OPERATION_OPEN,
+                   .dilated = operation == SUNDER_OPERATION_CLOSE};
     all.n = whole && connected ? whole->polygons : 1;
     all.sides = !whole ? seat->figure.sides : whole->rings ? whole->ring_end[whole->rings - 1] : 0;
     return run(&all, out, err);

@@ -46,7 +46,7 @@ sunder_sum *sunder_i_seat_sum(const sunder_i_seat *seat, int moved)
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return NULL;
     sum->lattice = empty_like(&seat->lattice);
-    sum->method.algorithm = SUNDER_INCREMENTAL;
+    sum->method.algorithm = SUNDER_ALGORITHM_INCREMENTAL;
     for (int k = 0; k < 2; k++) {
         sum->origin[0][k] = seat->origin_p[k];
         sum->origin[1][k] = moved ? moved * seat->origin_q[k] : 0;

@@ -71,7 +71,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
     if (status == SUNDER_OK) {
         sum->lattice = placed.lattice; /* moved */
         memset(&placed.lattice, 0, sizeof placed.lattice);
-        sum->method.algorithm = SUNDER_CONVOLUTION;
+        sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
         memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
         status = unite_pieces(shape, placed.p, options, sum, err);
         sunder_i_placed_free(&placed);

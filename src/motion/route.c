@@ -13,7 +13,7 @@ typedef struct stop {
 
 struct sunder_route {
     sunder_i_space space;
-    sunder_no_route reason;
+    sunder_route_status reason;
     size_t obstacle;
     stop *stop; /* [n] */
     size_t n;
@@ -21,7 +21,7 @@ struct sunder_route {
     bool rounded_is_free;
 };
 
-const char *sunder_no_route_string(sunder_no_route reason)
+const char *sunder_route_status_string(sunder_route_status reason)
 {
     switch (reason) {
     case SUNDER_ROUTE_FOUND: return "found";
@@ -82,7 +82,7 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
 /* ---- The result ---- */
 
 /* Does the robot at the place collide? Then the reason and the obstacle are noted. */
-static bool collides(sunder_route *r, const sunder_i_place_at *at, sunder_no_route reason)
+static bool collides(sunder_route *r, const sunder_i_place_at *at, sunder_route_status reason)
 {
     uint32_t part;
     if (sunder_i_space_is_free(&r->space, at, at, true, &part)) return false;
@@ -213,7 +213,7 @@ void sunder_route_free(sunder_route *route)
     sunder_i_free(route);
 }
 
-sunder_no_route sunder_route_reason(const sunder_route *route, size_t *obstacle)
+sunder_route_status sunder_route_reason(const sunder_route *route, size_t *obstacle)
 {
     if (obstacle) *obstacle = route->obstacle;
     return route->reason;

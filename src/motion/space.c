@@ -263,7 +263,7 @@ static sunder_status build(maker *m, sunder_error *err)
 {
     m->out->sum = sunder_i_calloc(1, sizeof *m->out->sum);
     if (!m->out->sum) return sunder_i_no_memory(err);
-    m->out->sum->method.algorithm = SUNDER_CONVOLUTION;
+    m->out->sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
     m->lattice = &m->out->sum->lattice;
     const sunder_status status = make(m, err);
     sunder_i_hulls_free(&m->obstacles);

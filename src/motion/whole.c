@@ -12,7 +12,7 @@ typedef struct copy {
     size_t *ring_end, *poly_end;
 } copy;
 
-static void measure(copy *c, const sunder_sum_counts *counts)
+static void measure(copy *c, const sunder_sum_size *counts)
 {
     for (size_t p = 0; p < counts->polygons; p++)
         for (size_t r = 0; r < sunder_sum_rings(c->sum, p); r++, c->rings++) {
@@ -23,7 +23,7 @@ static void measure(copy *c, const sunder_sum_counts *counts)
 }
 
 /* All rings as doubles; *off is how far they are from the truth. */
-static sunder_status fill(copy *c, const sunder_sum_counts *counts, double *off, sunder_error *err)
+static sunder_status fill(copy *c, const sunder_sum_size *counts, double *off, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     size_t rings = 0, vertices = 0;
@@ -42,17 +42,17 @@ static sunder_status fill(copy *c, const sunder_sum_counts *counts, double *off,
 
 static sunder_status shape_of(const sunder_sum *sum, sunder_shape **out, sunder_error *err)
 {
-    sunder_sum_counts counts;
+    sunder_sum_size size;
     copy c = {.sum = sum};
-    sunder_sum_count(sum, &counts);
-    measure(&c, &counts);
+    sunder_sum_get_size(sum, &size);
+    measure(&c, &size);
     c.xy = sunder_i_alloc(2 * c.vertices, sizeof *c.xy);
     c.ring_end = sunder_i_alloc(c.rings, sizeof *c.ring_end);
-    c.poly_end = sunder_i_alloc(counts.polygons, sizeof *c.poly_end);
+    c.poly_end = sunder_i_alloc(size.polygons, sizeof *c.poly_end);
     double off;
-    sunder_status status = c.xy && c.ring_end && c.poly_end ? fill(&c, &counts, &off, err) : sunder_i_no_memory(err);
+    sunder_status status = c.xy && c.ring_end && c.poly_end ? fill(&c, &size, &off, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && off == 0)
-        status = sunder_shape_from_rings(c.xy, c.ring_end, c.poly_end, counts.polygons, SUNDER_STRICT, out, err);
+        status = sunder_shape_from_rings(c.xy, c.ring_end, c.poly_end, size.polygons, SUNDER_VALIDITY_STRICT, out, err);
     sunder_i_free(c.xy);
     sunder_i_free(c.ring_end);
     sunder_i_free(c.poly_end);

@@ -48,7 +48,7 @@ typedef struct sunder_i_lattice {
     sunder_i_arena scratch; /* of one predicate or construction at a time */
     sunder_i_ratio *pool;   /* by handle */
     size_t pool_n, pool_capacity;
-    sunder_operations operations;
+    sunder_counts counts;
 } sunder_i_lattice;
 
 static inline bool sunder_i_is_plain(int64_t n) { return n > INT64_MIN / 2; }

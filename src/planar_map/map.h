@@ -129,7 +129,7 @@ int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, co
 /* Lexicographic order. Rounding to nearest is monotone, so unequal doubles decide; equal ones decide nothing. */
 static inline int sunder_i_site_cmp(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
 {
-    map->lattice->operations.comparisons++;
+    map->lattice->counts.comparisons++;
     if (p->ax != q->ax) return p->ax < q->ax ? -1 : 1;
     return sunder_i_site_cmp_exact(map, p, q);
 }

@@ -85,7 +85,7 @@ static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i
                           sunder_i_big qn, sunder_i_big qw)
 {
     if (p != q) return p < q ? -1 : 1;
-    map->lattice->operations.exact_fallbacks++;
+    map->lattice->counts.exact_fallbacks++;
     const sunder_i_big a[2] = {pn, sunder_i_big_neg(qn)}, b[2] = {qw, pw};
     return dot_sign(map, a, b, 2);
 }
@@ -107,14 +107,14 @@ int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, co
  * of integers nothing. */
 int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p)
 {
-    map->lattice->operations.orientation_tests++;
+    map->lattice->counts.orientation_tests++;
     const double s = line->a * (p->ax - line->rx), t = line->b * (p->ay - line->ry), det = s + t;
     const double bound =
         0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-500 +
         0x1p-52 * (fabs(line->a) * (fabs(p->ax) + fabs(line->rx)) + fabs(line->b) * (fabs(p->ay) + fabs(line->ry)));
     if (det > bound) return 1;
     if (det < -bound) return -1;
-    map->lattice->operations.exact_fallbacks++;
+    map->lattice->counts.exact_fallbacks++;
     return dot_sign(map, line->abc, p->at, 3);
 }
 
@@ -122,12 +122,12 @@ int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, 
 int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g)
 {
     if (f == g) return 0;
-    map->lattice->operations.orientation_tests++;
+    map->lattice->counts.orientation_tests++;
     const double s = f->a * g->b, t = f->b * g->a, det = s - t;
     const double bound = 0x1p-50 * (fabs(s) + fabs(t)) + 0x1p-1000;
     if (det > bound) return 1;
     if (det < -bound) return -1;
-    map->lattice->operations.exact_fallbacks++;
+    map->lattice->counts.exact_fallbacks++;
     const sunder_i_big a[2] = {f->abc[0], sunder_i_big_neg(f->abc[1])}, b[2] = {g->abc[1], g->abc[0]};
     return dot_sign(map, a, b, 2);
 }
@@ -165,7 +165,7 @@ static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunde
 sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g,
                                      sunder_i_arena *arena)
 {
-    map->lattice->operations.segment_intersections++;
+    map->lattice->counts.segment_intersections++;
     const sunder_i_big *p = f->abc, *q = g->abc;
     sunder_i_site s;
     s.at[0] = minor(map, arena, p[1], q[2], p[2], q[1]);

@@ -37,7 +37,7 @@ static bool are_plain(const sunder_i_lattice *l, sunder_i_point a, sunder_i_poin
 sunder_i_fraction sunder_i_crossing(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                     sunder_i_point d)
 {
-    l->operations.segment_intersections++;
+    l->counts.segment_intersections++;
     if (are_plain(l, a, b, c) && (l->narrow || sunder_i_point_is_plain(d))) {
         const sunder_i_point w = sunder_i_narrow_sub(d, c);
         return narrow_fraction(sunder_i_narrow_cross(sunder_i_narrow_sub(c, a), w),
@@ -114,12 +114,12 @@ int sunder_i_fraction_sign(const sunder_i_lattice *l, const sunder_i_fraction *t
 
 int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const sunder_i_fraction *t)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     const double d = s->value - t->value;
     const double bound = SUNDER_I_FRACTION_ERROR * (1 + fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
     if (d < -bound) return -1;
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     if (s->den != 0 && t->den != 0) return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;

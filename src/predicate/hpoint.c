@@ -144,7 +144,7 @@ void sunder_i_hpoint_big(sunder_i_lattice *l, const sunder_i_hpoint *p, sunder_i
 /* By the coordinate k, x or y, where the filter did not tell. */
 static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
 {
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     if (a->w != 0 && b->w != 0) {
         const sunder_i_i256 *p = k ? &a->y : &a->x, *q = k ? &b->y : &b->x;
         return a->w == b->w ? sunder_i_i256_cmp(p, q) : sunder_i_cmp_products_256(p, b->w, q, a->w);
@@ -170,7 +170,7 @@ static int filter(double a, double b)
 
 int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     int c = filter(a->ax, b->ax);
     if (c) return c;
     c = coordinate_cmp(l, a, b, 0);
@@ -181,14 +181,14 @@ int sunder_i_hpoint_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sun
 
 int sunder_i_hpoint_cmp_y(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     const int c = filter(a->ay, b->ay);
     return c ? c : coordinate_cmp(l, a, b, 1);
 }
 
 bool sunder_i_hpoint_equal(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     if (filter(a->ax, b->ax) || filter(a->ay, b->ay)) return false;
     return coordinate_cmp(l, a, b, 0) == 0 && coordinate_cmp(l, a, b, 1) == 0;
 }
@@ -228,14 +228,14 @@ uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
 
 int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
 {
-    l->operations.orientation_tests++;
+    l->counts.orientation_tests++;
     if (l->arena.failed) return 0;
     int s = l->pooled ? 0 : filter_side(l, a, b, c);
     if (s) return s;
     /* cross(b - a, c - a) * w: big integers; a rarely asked question. */
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     sunder_i_big xyw[3];
     sunder_i_hpoint_read(m, l, c, xyw);
     const sunder_i_vector o = sunder_i_vector_get(m, l, a), p = {xyw[0], xyw[1], xyw[2]};

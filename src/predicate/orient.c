@@ -41,7 +41,7 @@ int sunder_i_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
 
 int sunder_i_point_cmp(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     const int c = sunder_i_int_cmp(l, a.x, b.x);
     return c ? c : sunder_i_int_cmp(l, a.y, b.y);
 }
@@ -137,13 +137,13 @@ static int filter_orient(const sunder_i_lattice *l, sunder_i_point a, sunder_i_p
 
 int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    l->operations.orientation_tests++;
+    l->counts.orientation_tests++;
     if (l->narrow || (both_plain(a, b) && sunder_i_point_is_plain(c)))
         return sunder_i_i128_sign(sunder_i_narrow_orient(a, b, c));
     if (l->arena.failed) return 0;
     int s = l->pooled ? 0 : filter_orient(l, a, b, c);
     if (s) return s;
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_vector o = sunder_i_vector_get(m, l, a);
@@ -158,7 +158,7 @@ int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sun
 
 static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, bool cross)
 {
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     const sunder_i_vector p = sunder_i_vector_get(m, l, u), q = sunder_i_vector_get(m, l, v);
@@ -169,7 +169,7 @@ static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v
 
 int sunder_i_cross_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 {
-    l->operations.orientation_tests++;
+    l->counts.orientation_tests++;
     if (l->narrow || both_plain(u, v)) return sunder_i_i128_sign(sunder_i_narrow_cross(u, v));
     if (l->arena.failed) return 0;
     const int s = l->pooled ? 0

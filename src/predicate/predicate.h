@@ -3,7 +3,7 @@
  * One ladder for all: on a narrow lattice the determinants are 128-bit (degree 2), their products 256-bit (degree 4),
  * comparisons of intersection points 320-bit (degree 5); a floating-point comparison with a proved error bound comes
  * first where it is cheaper. Where a handle is among the operands the same functions run on big integers, behind
- * filters of their own. Counters go to lattice->operations.
+ * filters of their own. Counters go to lattice->counts.
  *
  * Points a, b, c ... are lattice points; "line ab" is directed from a to b, a != b. */
 #ifndef SUNDER_I_PREDICATE_H

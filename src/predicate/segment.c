@@ -93,14 +93,14 @@ static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_poi
     }
     const int c = sunder_i_big_cmp(sunder_i_times(m, square, sunder_i_big_mul(m, g.den, g.den)),
                                    sunder_i_big_mul(m, sunder_i_big_mul(m, g.num, g.num), over));
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     sunder_i_lattice_end(l, mark);
     return c;
 }
 
 static int point_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     const bool plain = sunder_i_point_is_plain(p) && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) &&
                        sunder_i_is_plain(gap);
     return l->narrow || plain ? narrow_distance_cmp(p, a, b, gap) : wide_distance_cmp(l, p, a, b, gap);

@@ -356,8 +356,8 @@ static dyadic dyadic_of(sunder_i_pairing *g, double dx, double dy)
 static int dyadic_side(sunder_i_pairing *g, const dyadic *d, const sunder_i_subsum *s, uint32_t k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    l->operations.orientation_tests++;
-    l->operations.exact_fallbacks++;
+    l->counts.orientation_tests++;
+    l->counts.exact_fallbacks++;
     if (d->native && sunder_i_point_is_plain(s->corner[k]) && sunder_i_point_is_plain(s->side[k])) {
         /* |corner| < 2^61 and bits < 64, so differences stay below 2^126. */
         const sunder_i_i128 one = (sunder_i_i128)1 << d->bits;

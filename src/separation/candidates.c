@@ -67,7 +67,7 @@ static bool pair_edges(sunder_i_pairing *g, int side, const sunder_i_cones *c, d
             if (!sunder_i_candidates_push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
         }
     }
-    g->placed.lattice.operations.orientation_tests += 2 * asked;
+    g->placed.lattice.counts.orientation_tests += 2 * asked;
     return true;
 }
 

@@ -205,7 +205,7 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
     sunder_i_gap_places places = {.place = NULL};
     status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
     sunder_i_gap_places_free(&places);
-    out->operations = g.placed.lattice.operations;
+    out->counts = g.placed.lattice.counts;
     sunder_i_pairing_free(&g);
     return status;
 }

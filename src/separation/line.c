@@ -49,11 +49,11 @@ int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sun
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (s->den == 0 || t->den == 0) return sunder_i_fraction_cmp(l, s, t);
-    l->operations.comparisons++;
+    l->counts.comparisons++;
     const double d = s->value - t->value, bound = 0x1p-49 * (fabs(s->value) + fabs(t->value));
     if (d > bound) return 1;
     if (d < -bound) return -1;
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
 }
 
@@ -69,8 +69,8 @@ int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sun
                        const sunder_i_subsum *s, uint32_t k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    l->operations.orientation_tests++;
-    l->operations.exact_fallbacks++;
+    l->counts.orientation_tests++;
+    l->counts.exact_fallbacks++;
     if (line->plain && s->plain && t->den != 0) {
         sunder_i_i128 a, b;
         narrow_linear(line, s, k, &a, &b);
@@ -119,7 +119,7 @@ static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
         const int where = inside_fan(s, x, y, g->error);
         if (where != 0) return where > 0;
     }
-    g->placed.lattice.operations.orientation_tests += s->sides;
+    g->placed.lattice.counts.orientation_tests += s->sides;
     bool certain = true;
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
@@ -142,7 +142,7 @@ static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
     sunder_i_subsum *s = g->subsum + k;
     if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) return false;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
-    g->placed.lattice.operations.orientation_tests++;
+    g->placed.lattice.counts.orientation_tests++;
     return inside(g, line, t, x, y, s);
 }
 
@@ -276,6 +276,6 @@ sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *g, const sunder_i_line *l
             sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
         take_first(g, &t, forwards, &best, &any);
     }
-    l->operations.segment_intersections++;
+    l->counts.segment_intersections++;
     return best;
 }

@@ -34,7 +34,7 @@ static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_
     sunder_i_arena *m = &l->scratch;
     sunder_i_hpoint_read(m, l, a, p);
     sunder_i_hpoint_read(m, l, b, q);
-    l->operations.exact_fallbacks++;
+    l->counts.exact_fallbacks++;
     const sunder_i_big left = sunder_i_big_mul(m, square_norm(m, p[0], p[1]), sunder_i_big_mul(m, q[2], q[2]));
     const sunder_i_big right = sunder_i_big_mul(m, square_norm(m, q[0], q[1]), sunder_i_big_mul(m, p[2], p[2]));
     const int c = sunder_i_big_cmp(left, right);

@@ -78,7 +78,7 @@ static sunder_status least_without_gap(const sunder_shape *p, const sunder_shape
                 sunder_i_too_far(o->upper, out, beyond);
             }
         }
-        out->operations = g.placed.lattice.operations;
+        out->counts = g.placed.lattice.counts;
     }
     sunder_i_pairing_free(&g);
     return status;

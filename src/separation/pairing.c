@@ -246,7 +246,7 @@ static bool side_parts(sunder_i_pairing *g, int side, uint32_t i, uint32_t j)
         if (l->narrow) {
             const sunder_i_point u = sunder_i_narrow_sub(b, a);
             while (m < to && sunder_i_narrow_cross(u, sunder_i_narrow_sub(g->at[!side][d[m]], a)) <= 0) m++;
-            l->operations.orientation_tests += m - from;
+            l->counts.orientation_tests += m - from;
         } else
             while (m < to && sunder_i_orient(l, a, b, g->at[!side][d[m]]) <= 0) m++;
         if (m == to) return true;

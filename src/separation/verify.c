@@ -26,7 +26,7 @@ static int exact_side(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_p
                       sunder_i_point c)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    l->operations.orientation_tests++;
+    l->counts.orientation_tests++;
     const sunder_i_point corner = sunder_i_pairing_add(g, a, c);
     if (!l->narrow) {
         const sunder_i_hpoint x = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);

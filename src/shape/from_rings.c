@@ -195,7 +195,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     if (!append_polygon(r, b->in, b->at, p, &problem, &b->arena)) return sunder_i_no_memory(err);
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
-    if (problem.fault && b->validity == SUNDER_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
+    if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
     b->touches |= touches;
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;
@@ -261,7 +261,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
 sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       sunder_validity validity, sunder_shape **out, sunder_error *err)
 {
-    if (validity != SUNDER_STRICT && validity != SUNDER_EVEN_ODD)
+    if (validity != SUNDER_VALIDITY_STRICT && validity != SUNDER_VALIDITY_EVEN_ODD)
         return sunder_i_fail(err, SUNDER_EARG, "there is no such way with invalid rings");
     sunder_i_input in = {.xy = xy, .ring_end = ring_end, .poly_end = poly_end, .polygons = polygons};
     sunder_status status = read_input(&in, err);

@@ -124,7 +124,7 @@ static sunder_status move_rounded(const sunder_shape *shape, const double d[2], 
     }
     if (!status)
         status = sunder_shape_from_rings(xy, shape->raw_ring_end, shape->raw_poly_end, shape->raw_polygons,
-                                         SUNDER_EVEN_ODD, out, err);
+                                         SUNDER_VALIDITY_EVEN_ODD, out, err);
     sunder_i_free(xy);
     return status;
 }

@@ -20,7 +20,7 @@
 static sunder_status from_ring(const double *xy, size_t n, sunder_shape **out, sunder_error *err)
 {
     const size_t ring_end[1] = {n}, poly_end[1] = {1};
-    return sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_STRICT, out, err);
+    return sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, out, err);
 }
 
 /* Corner i of n on the circle of radius one, the first on the x axis. The angle i / n of a turn is reduced to the first

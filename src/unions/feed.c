@@ -11,7 +11,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void book(sunder_operations *to, const sunder_operations *before, const sunder_operations *after)
+static void book(sunder_counts *to, const sunder_counts *before, const sunder_counts *after)
 {
     to->comparisons += after->comparisons - before->comparisons;
     to->orientation_tests += after->orientation_tests - before->orientation_tests;
@@ -21,12 +21,12 @@ static void book(sunder_operations *to, const sunder_operations *before, const s
 
 bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
 {
-    const sunder_operations before = u->lattice->operations;
+    const sunder_counts before = u->lattice->counts;
     const double start = now();
     const bool ok = sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces,
                                            &u->arena, out);
     u->seconds += now() - start;
-    book(&u->operations, &before, &u->lattice->operations);
+    book(&u->counts, &before, &u->lattice->counts);
     return ok;
 }
 

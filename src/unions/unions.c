@@ -12,9 +12,9 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static sunder_operations less(const sunder_operations *a, const sunder_operations *b)
+static sunder_counts less(const sunder_counts *a, const sunder_counts *b)
 {
-    return (sunder_operations){a->comparisons - b->comparisons, a->orientation_tests - b->orientation_tests,
+    return (sunder_counts){a->comparisons - b->comparisons, a->orientation_tests - b->orientation_tests,
                                a->segment_intersections - b->segment_intersections,
                                a->exact_fallbacks - b->exact_fallbacks};
 }
@@ -22,17 +22,17 @@ static sunder_operations less(const sunder_operations *a, const sunder_operation
 static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
 {
     switch (asked) {
-    case SUNDER_VERTICAL:
+    case SUNDER_DECOMPOSITION_VERTICAL:
         return SUNDER_I_VERTICAL;
-    case SUNDER_TRIANGULATION:
+    case SUNDER_DECOMPOSITION_TRIANGULATION:
         return SUNDER_I_TRIANGULATION;
-    case SUNDER_OPTIMAL:
+    case SUNDER_DECOMPOSITION_OPTIMAL:
         return SUNDER_I_OPTIMAL;
-    case SUNDER_MIXED:
+    case SUNDER_DECOMPOSITION_MIXED:
         return SUNDER_I_MIXED;
-    case SUNDER_HERTEL_MEHLHORN:
+    case SUNDER_DECOMPOSITION_HERTEL_MEHLHORN:
         return SUNDER_I_HERTEL_MEHLHORN;
-    case SUNDER_ANGLE_BISECTOR:
+    case SUNDER_DECOMPOSITION_ANGLE_BISECTOR:
     case SUNDER_DECOMPOSITION_AUTO:
         break;
     }
@@ -42,8 +42,8 @@ static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
 /* What was used for both, or Hertel and Mehlhorn's if some member had to fall back on it. */
 static sunder_decomposition used_by(const sunder_i_uniting *u, sunder_decomposition asked)
 {
-    if (u->p.fallbacks || u->q.fallbacks) return SUNDER_HERTEL_MEHLHORN;
-    return asked == SUNDER_DECOMPOSITION_AUTO ? SUNDER_ANGLE_BISECTOR : asked;
+    if (u->p.fallbacks || u->q.fallbacks) return SUNDER_DECOMPOSITION_HERTEL_MEHLHORN;
+    return asked == SUNDER_DECOMPOSITION_AUTO ? SUNDER_DECOMPOSITION_ANGLE_BISECTOR : asked;
 }
 
 static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
@@ -54,9 +54,9 @@ static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sund
         return sunder_i_fail(err, SUNDER_ESIZE, "%" PRIu64 " pairs of convex pieces are more than can be numbered", subsums);
     u->subsums = (uint32_t)subsums;
     switch (algorithm) {
-    case SUNDER_INCREMENTAL:
+    case SUNDER_ALGORITHM_INCREMENTAL:
         return sunder_i_unite_by_increments(u, map, err);
-    case SUNDER_DIVIDE:
+    case SUNDER_ALGORITHM_DIVIDE:
         if (subsums) return sunder_i_unite_by_halves(u, map, err);
         break;
     default:
@@ -77,14 +77,14 @@ static sunder_status finish(sunder_sum *sum, sunder_i_planar_map *map, bool keep
 static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_error *err)
 {
     const double start = now();
-    const sunder_operations before = sum->lattice.operations;
+    const sunder_counts before = sum->lattice.counts;
     sunder_i_planar_map *map;
     sunder_status status = unite(u, sum->method.algorithm, &map, err);
     if (status == SUNDER_OK) status = finish(sum, map, u->options->keep_map, err);
     if (status != SUNDER_OK) return status;
-    const sunder_operations all = less(&sum->lattice.operations, &before);
-    sum->phase[SUNDER_PHASE_SUBSUMS] = u->operations;
-    sum->phase[SUNDER_PHASE_UNION] = less(&all, &u->operations);
+    const sunder_counts all = less(&sum->lattice.counts, &before);
+    sum->phase[SUNDER_PHASE_SUBSUMS] = u->counts;
+    sum->phase[SUNDER_PHASE_UNION] = less(&all, &u->counts);
     sum->seconds[SUNDER_PHASE_SUBSUMS] = u->seconds;
     sum->seconds[SUNDER_PHASE_UNION] = now() - start - u->seconds;
     return SUNDER_OK;
@@ -112,12 +112,12 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     if (status != SUNDER_OK) return status;
     sunder_i_uniting u = {
         .lattice = &sum->lattice, .options = options, .fatness = SUNDER_I_FATNESS, .random = options->seed};
-    const sunder_operations before = sum->lattice.operations;
+    const sunder_counts before = sum->lattice.counts;
     status = sunder_i_decompose_pair(&sum->lattice, p, placed.p, q, placed.q, kind_of(options->decomposition), &u.p,
                                      &u.q, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
-    sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.operations, &before);
+    sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.counts, &before);
     sum->seconds[SUNDER_PHASE_DECOMPOSE] = now() - start;
     sum->method.decomposition = used_by(&u, options->decomposition);
     sum->method.order = options->order;
@@ -135,14 +135,14 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
 const char *sunder_algorithm_string(sunder_algorithm algorithm)
 {
     static const char *const name[] = {"auto", "convolution", "arrangement", "incremental", "divide"};
-    return (unsigned)algorithm <= SUNDER_DIVIDE ? name[algorithm] : "";
+    return (unsigned)algorithm <= SUNDER_ALGORITHM_DIVIDE ? name[algorithm] : "";
 }
 
 const char *sunder_decomposition_string(sunder_decomposition decomposition)
 {
     static const char *const name[] = {"auto",    "angle-bisector", "vertical", "triangulation", "hertel-mehlhorn",
                                        "optimal", "mixed"};
-    return (unsigned)decomposition <= SUNDER_MIXED ? name[decomposition] : "";
+    return (unsigned)decomposition <= SUNDER_DECOMPOSITION_MIXED ? name[decomposition] : "";
 }
 
 const char *sunder_order_string(sunder_order order)

@@ -40,7 +40,7 @@ typedef struct sunder_i_uniting {
     uint64_t random;
     uint32_t subsums, fed; /* how many there are, and went into a map already */
     double seconds;        /* spent in making subsums, */
-    sunder_operations operations; /* and done there */
+    sunder_counts counts; /* and done there */
 } sunder_i_uniting;
 
 /* Puts n subsums in the order that the options ask for; they are consecutive numbers, ascending. False if memory is

@@ -24,9 +24,9 @@ static sunder_status make_shape(const char *text, sunder_shape **out, sunder_err
 /* The rings of a sum as a writer needs them. */
 static sunder_status take_rings(const sunder_sum *sum, output *o, sunder_error *err)
 {
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
-    for (size_t p = 0; p < counts.polygons; p++)
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
+    for (size_t p = 0; p < size.polygons; p++)
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
             size_t n;
             double deviation = 0;
@@ -49,7 +49,7 @@ static sunder_status grow(const bench_set *set, const sunder_shape *by, output *
     sunder_shape *shape = NULL;
     sunder_sum *sum = NULL;
     sunder_status status =
-        sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_STRICT, &shape, err);
+        sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_STRICT, &shape, err);
     if (!status) status = sunder_minkowski_sum(shape, by, NULL, &sum, err);
     if (!status) status = take_rings(sum, o, err);
     sunder_sum_free(sum);

@@ -52,7 +52,7 @@ static sunder_feature *add_rings(layout *l, const double *xy, const size_t *ring
     }
     sunder_shape *shape;
     sunder_error err;
-    if (sunder_shape_from_rings(xy, ring_end, &rings, 1, SUNDER_STRICT, &shape, &err)) give_up(err.message);
+    if (sunder_shape_from_rings(xy, ring_end, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) give_up(err.message);
     sunder_feature *f = &l->feature[l->n++];
     *f = (sunder_feature){.shape = shape, .weight = 1, .max_shift = INFINITY, .block = -1};
     return f;
@@ -102,7 +102,7 @@ static void add_inside(layout *l, size_t n)
 {
     const size_t columns = (size_t)ceil(sqrt((double)n));
     const double wide = 24 * (double)columns;
-    l->contained = SUNDER_CONTAINED_IGNORE;
+    l->contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(l, 400000 - 24, 5000000 - 24, wide + 24, wide + 24);
     for (size_t k = 0; k < n; k++)
         add_box(l, 400000 + 24 * (double)(k % columns) + 16 * random_unit(l),

@@ -84,26 +84,26 @@ typedef struct order {
     sunder_i_fatness fatness;
 } order;
 
-static sunder_status unite(sunder_i_placed *placed, sunder_i_uniting *u, size_t *edges, sunder_operations *done)
+static sunder_status unite(sunder_i_placed *placed, sunder_i_uniting *u, size_t *edges, sunder_counts *done)
 {
     sunder_i_planar_map *map;
     sunder_i_map_size size;
-    const sunder_operations before = placed->lattice.operations;
+    const sunder_counts before = placed->lattice.counts;
     const sunder_status status = sunder_i_unite_by_increments(u, &map, NULL);
     if (status) return status;
-    const sunder_operations *after = &placed->lattice.operations;
+    const sunder_counts *after = &placed->lattice.counts;
     sunder_i_planar_map_size(map, &size);
     sunder_i_planar_map_free(map);
     *edges = size.edges;
-    done->comparisons = after->comparisons - before.comparisons - u->operations.comparisons;
-    done->orientation_tests = after->orientation_tests - before.orientation_tests - u->operations.orientation_tests;
+    done->comparisons = after->comparisons - before.comparisons - u->counts.comparisons;
+    done->orientation_tests = after->orientation_tests - before.orientation_tests - u->counts.orientation_tests;
     done->segment_intersections = after->segment_intersections - before.segment_intersections;
     return SUNDER_OK;
 }
 
 static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, const order *by)
 {
-    const sunder_sum_options options = {.algorithm = SUNDER_INCREMENTAL, .order = by->order, .seed = 1};
+    const sunder_sum_options options = {.algorithm = SUNDER_ALGORITHM_INCREMENTAL, .order = by->order, .seed = 1};
     const sunder_i_place_options how = {0};
     sunder_i_placed placed;
     sunder_status status = sunder_i_place(p, q, &how, &placed, NULL);
@@ -112,7 +112,7 @@ static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, cons
     status = sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q, SUNDER_I_ANGLE_BISECTOR, &u.p, &u.q, NULL);
     if (!status) {
         size_t edges = 0;
-        sunder_operations done = {0};
+        sunder_counts done = {0};
         const double start = bench_now();
         u.subsums = u.p.pieces * u.q.pieces;
         status = unite(&placed, &u, &edges, &done);
@@ -158,8 +158,8 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: bench_paper FILE pieces|orders\n");
         return 2;
     }
-    sunder_status status = sunder_shape_from_rings(p.xy, p.ring_end, p.poly_end, p.polygons, SUNDER_STRICT, &a, &err);
-    if (!status) status = sunder_shape_from_rings(q.xy, q.ring_end, q.poly_end, q.polygons, SUNDER_STRICT, &b, &err);
+    sunder_status status = sunder_shape_from_rings(p.xy, p.ring_end, p.poly_end, p.polygons, SUNDER_VALIDITY_STRICT, &a, &err);
+    if (!status) status = sunder_shape_from_rings(q.xy, q.ring_end, q.poly_end, q.polygons, SUNDER_VALIDITY_STRICT, &b, &err);
     if (!status) status = orders ? all_orders(a, b) : all_pieces(a, b);
     if (status) fprintf(stderr, "bench_paper: %s %s\n", sunder_status_string(status), err.message);
     sunder_shape_free(a);

@@ -4,16 +4,16 @@
 #include "sunder.h"
 #include "wkt_input.h"
 
-static sunder_status once(const bench_set *p, const bench_set *q, double *seconds, sunder_sum_counts *counts, sunder_error *err)
+static sunder_status once(const bench_set *p, const bench_set *q, double *seconds, sunder_sum_size *counts, sunder_error *err)
 {
     sunder_shape *a = NULL, *b = NULL;
     sunder_sum *sum = NULL;
     const double start = bench_now();
-    sunder_status status = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_STRICT, &a, err);
-    if (!status) status = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_STRICT, &b, err);
+    sunder_status status = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_STRICT, &a, err);
+    if (!status) status = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_STRICT, &b, err);
     if (!status) status = sunder_minkowski_sum(a, b, NULL, &sum, err);
     *seconds = bench_now() - start;
-    if (!status) sunder_sum_count(sum, counts);
+    if (!status) sunder_sum_get_size(sum, counts);
     sunder_sum_free(sum);
     sunder_shape_free(a);
     sunder_shape_free(b);
@@ -27,7 +27,7 @@ int main(int argc, char **argv)
         bench_set p, q;
         double t[100], spent = 0;
         size_t n = 0;
-        sunder_sum_counts c = {0};
+        sunder_sum_size c = {0};
         sunder_error err = {0};
         if (!bench_pair_read(argv[i], &p, &q)) {
             fprintf(stderr, "bench_sum: %s: cannot be read\n", argv[i]);

@@ -51,13 +51,13 @@ static double our_area(const sunder_shape *feature, double radius, unsigned segm
 {
     sunder_shape *disc = NULL;
     sunder_sum *sum = NULL;
-    sunder_sum_counts counts;
+    sunder_sum_size size;
     long double twice = 0;
     assert_int_equal(sunder_shape_disc(radius, segments, inside, &disc, NULL), SUNDER_OK);
-    assert_int_equal(sunder_morphology(feature, disc, SUNDER_DILATE, NULL, &sum, NULL), SUNDER_OK);
-    sunder_sum_count(sum, &counts);
-    double *xy = test_alloc(2 * counts.vertices, sizeof *xy), off = 0;
-    for (size_t p = 0; p < counts.polygons; p++)
+    assert_int_equal(sunder_morphology(feature, disc, SUNDER_OPERATION_DILATE, NULL, &sum, NULL), SUNDER_OK);
+    sunder_sum_get_size(sum, &size);
+    double *xy = test_alloc(2 * size.vertices, sizeof *xy), off = 0;
+    for (size_t p = 0; p < size.polygons; p++)
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
             size_t n;
             const uint32_t *vertex = sunder_sum_ring(sum, p, r, &n);

@@ -68,7 +68,7 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     size_t most = max_vertices < MAX_VERTICES ? max_vertices : MAX_VERTICES;
     unsigned plan = fuzz_byte(bytes);
     size_t wanted = 1 + plan % 3;
-    sunder_validity validity = plan & 8 ? SUNDER_STRICT : SUNDER_EVEN_ODD;
+    sunder_validity validity = plan & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;
     for (size_t r = 0; r < wanted; ++r) {
         size_t count = fuzz_byte(bytes) % 11; /* rings of none, one and two vertices too */
         if (plan & 16) { /* a rectangle: the one ring that strict validity likes without luck */

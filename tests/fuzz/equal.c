@@ -18,9 +18,9 @@ static void demand_equal_text(const sunder_sum *a, uint32_t i, const sunder_sum 
 
 void fuzz_demand_equal(const sunder_sum *a, const sunder_sum *b)
 {
-    sunder_sum_counts m, n;
-    sunder_sum_count(a, &m);
-    sunder_sum_count(b, &n);
+    sunder_sum_size m, n;
+    sunder_sum_get_size(a, &m);
+    sunder_sum_get_size(b, &n);
     FUZZ_DEMAND(m.polygons == n.polygons && m.holes == n.holes && m.vertices == n.vertices);
     FUZZ_DEMAND(m.degenerate_segments == n.degenerate_segments && m.degenerate_points == n.degenerate_points);
     for (size_t p = 0; p < m.polygons; ++p) {

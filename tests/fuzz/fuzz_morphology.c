@@ -39,7 +39,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (p && b && !sunder_shape_is_empty(b)) {
         const sunder_sum_options options = {.seed = seed}, other = {.seed = seed + 1, .threads = 2};
         sunder_error error;
-        for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; ++op) {
+        for (int op = SUNDER_OPERATION_DILATE; op <= SUNDER_OPERATION_CLOSE; ++op) {
             fuzz_fail_allocations(fail < 128 && fail % 4 == (unsigned)op ? fail * 8 : 0);
             const sunder_status status = sunder_morphology(p, b, (sunder_operation)op, &options, &result[op], &error);
             FUZZ_DEMAND((result[op] != NULL) == (status == SUNDER_OK));
@@ -47,13 +47,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         }
         fuzz_fail_allocations(0);
         FUZZ_DEMAND(sunder_shape_union(p, &options, &whole, &error) == SUNDER_OK);
-        if (result[SUNDER_OPEN]) demand_less(result[SUNDER_OPEN], whole);
-        if (result[SUNDER_CLOSE]) demand_less(whole, result[SUNDER_CLOSE]);
+        if (result[SUNDER_OPERATION_OPEN]) demand_less(result[SUNDER_OPERATION_OPEN], whole);
+        if (result[SUNDER_OPERATION_CLOSE]) demand_less(whole, result[SUNDER_OPERATION_CLOSE]);
         const sunder_operation op = (sunder_operation)(seed % 4);
         FUZZ_DEMAND(sunder_morphology(p, b, op, &other, &again, &error) == SUNDER_OK);
         if (result[op]) fuzz_demand_equal(result[op], again);
     }
-    for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; ++op) sunder_sum_free(result[op]);
+    for (int op = SUNDER_OPERATION_DILATE; op <= SUNDER_OPERATION_CLOSE; ++op) sunder_sum_free(result[op]);
     sunder_sum_free(whole);
     sunder_sum_free(again);
     sunder_shape_free(b);

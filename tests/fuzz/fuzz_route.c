@@ -30,7 +30,7 @@ static bool all_finite(const double *v, size_t n)
 
 static void demand_same(const sunder_route *there, const sunder_route *back)
 {
-    const sunder_no_route one = sunder_route_reason(there, NULL), other = sunder_route_reason(back, NULL);
+    const sunder_route_status one = sunder_route_reason(there, NULL), other = sunder_route_reason(back, NULL);
     const bool found = one == SUNDER_ROUTE_FOUND;
     FUZZ_DEMAND(found == (other == SUNDER_ROUTE_FOUND));
     FUZZ_DEMAND((one == SUNDER_ROUTE_DISCONNECTED) == (other == SUNDER_ROUTE_DISCONNECTED));

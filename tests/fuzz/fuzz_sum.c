@@ -11,7 +11,7 @@ static sunder_sum_options choose_road(fuzz_bytes *bytes)
                                 .decomposition = (sunder_decomposition)(road / 5 % 7),
                                 .order = (sunder_order)(order % 3),
                                 .seed = order,
-                                .keep_map = road % 5 != SUNDER_CONVOLUTION && order / 3 % 2};
+                                .keep_map = road % 5 != SUNDER_ALGORITHM_CONVOLUTION && order / 3 % 2};
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

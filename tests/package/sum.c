@@ -10,7 +10,7 @@ int main(void)
     sunder_sum *sum = NULL;
     sunder_error error;
     char *area = NULL;
-    int failed = sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_STRICT, &p, &error) ||
+    int failed = sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, &p, &error) ||
                  sunder_shape_rectangle(1, 2, &q, &error) || sunder_minkowski_sum(p, q, NULL, &sum, &error) ||
                  sunder_sum_area_text(sum, &area, &error);
     puts(failed ? error.message : area);

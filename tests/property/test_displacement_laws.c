@@ -81,7 +81,7 @@ static void found(rng *r, town *t)
     t->n = (size_t)rng_int(r, 2, 32);
     t->gap = rng_once_in(r, 3) ? 0 : (double)rng_int(r, 1, 24) / 8;
     t->tolerance = t->gap > 0 ? 0x1p-6 * (double)rng_int(r, 0, 7) : 0;
-    t->contained = SUNDER_CONTAINED_SEPARATE;
+    t->contained = SUNDER_CONTAINMENT_SEPARATE;
     const double wide = sqrt((double)t->n) * (double)rng_int(r, 8, 18);
     double x = 400000, y = 5400000;
     for (size_t k = 0; k < t->n; k++) {
@@ -115,7 +115,7 @@ static void separate(const town *t, outcome *o)
     options.contained = t->contained;
     for (size_t k = 0; k < t->n; k++) {
         const house *h = &t->house[k];
-        if (sunder_shape_from_rings(h->xy, &h->corners, &rings, 1, SUNDER_STRICT, &shape[k], &err))
+        if (sunder_shape_from_rings(h->xy, &h->corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape[k], &err))
             fail_msg("%s", err.message);
         feature[k] = (sunder_feature){
             .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = -1, .fixed = h->fixed};
@@ -128,7 +128,7 @@ static void separate(const town *t, outcome *o)
     const sunder_conflict *c = sunder_report_conflicts(report, &n);
     for (size_t k = 0; k < n; k++) {
         if (c[k].inside_block || c[k].reason == SUNDER_REASON_KEPT) continue;
-        o->overlaps[o->conflicts] = c[k].kind != SUNDER_TOO_CLOSE;
+        o->overlaps[o->conflicts] = c[k].kind != SUNDER_CONFLICT_TOO_CLOSE;
         o->conflict[2 * o->conflicts] = c[k].a;
         o->conflict[2 * o->conflicts++ + 1] = c[k].b;
     }

@@ -37,7 +37,7 @@ static sunder_feature *add(town *t, const double *xy, size_t corners, double lim
     sunder_error err;
     double *own = t->xy[t->n];
     memcpy(own, xy, 2 * corners * sizeof *own);
-    if (sunder_shape_from_rings(own, &corners, &rings, 1, SUNDER_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(own, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) fail_msg("%s", err.message);
     t->plain[t->n] = (proof_feature){own, corners, limit, limit == 0};
     t->feature[t->n] = (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .block = -1};
     return &t->feature[t->n++];
@@ -53,7 +53,7 @@ static sunder_report *separate(const town *t)
 {
     sunder_layer_options options;
     sunder_layer_options_init(&options);
-    options.contained = SUNDER_CONTAINED_SEPARATE;
+    options.contained = SUNDER_CONTAINMENT_SEPARATE;
     options.no_blocks = !t->blocks;
     options.gap = t->gap;
     options.touch_tolerance = 0;

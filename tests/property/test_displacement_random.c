@@ -78,7 +78,7 @@ static void make_house(rng *r, house *h, double wide, bool grid)
         h->xy[k] = grid ? floor(h->xy[k] * 8) / 8 + floor(o) : h->xy[k] + o;
     }
     sunder_error err;
-    if (sunder_shape_from_rings(h->xy, h->ring_end, &h->rings, 1, SUNDER_STRICT, &h->shape, &err))
+    if (sunder_shape_from_rings(h->xy, h->ring_end, &h->rings, 1, SUNDER_VALIDITY_STRICT, &h->shape, &err))
         fail_msg("%s", err.message);
 }
 
@@ -402,7 +402,7 @@ static void check_again(const town *t, const sunder_report *report, const house 
     for (size_t k = 0; k < t->n; k++) {
         sunder_shape *shape = NULL;
         feature[k] = t->feature[k];
-        if (sunder_shape_from_rings(now[k].xy, now[k].ring_end, &now[k].rings, 1, SUNDER_STRICT, &shape, &err))
+        if (sunder_shape_from_rings(now[k].xy, now[k].ring_end, &now[k].rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err))
             fail_msg("%s", err.message);
         feature[k].shape = shape;
         feature[k].block = sunder_report_block(report, k);
@@ -435,7 +435,7 @@ static void check_towns(void **state)
         check_same(&t, one, two);
         check_same(&t, one, three);
         check_moves(&t, one, now);
-        if (o.contained != SUNDER_CONTAINED_IGNORE) check_pairs(&t, one, now, &o);
+        if (o.contained != SUNDER_CONTAINMENT_IGNORE) check_pairs(&t, one, now, &o);
         check_bound(&t, one);
         check_again(&t, one, now, &o);
         bool free_to_move = true;
@@ -444,7 +444,7 @@ static void check_towns(void **state)
         sunder_layer_summary s;
         sunder_report_summary(one, &s);
         assert_true(s.verified);
-        if (free_to_move && o.contained != SUNDER_CONTAINED_IGNORE)
+        if (free_to_move && o.contained != SUNDER_CONTAINMENT_IGNORE)
             assert_int_equal(s.after.overlap + s.after.too_close + s.after.contained + s.after.duplicate, 0);
         sunder_report_free(one);
         sunder_report_free(two);

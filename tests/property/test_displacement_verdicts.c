@@ -75,7 +75,7 @@ static double plant_outline(layer *l, rng *r, double x, double y, double toleran
     const double gap = l->options.gap, w = eighths(r, 96, 240), h = eighths(r, 96, 160);
     const int houses = (int)rng_int(r, 1, 3);
     const double room = (w - gap * (houses - 1)) / houses;
-    const int64_t block = l->options.contained == SUNDER_CONTAINED_IGNORE ? -1 : (int64_t)l->n;
+    const int64_t block = l->options.contained == SUNDER_CONTAINMENT_IGNORE ? -1 : (int64_t)l->n;
     plot *o = add_box(l, x, y, w, h);
     o->feature.block = block;
     o->feature.fixed = rng_once_in(r, 2);
@@ -141,7 +141,7 @@ static void lay_out(layer *l, rng *r, double tolerance)
         switch (rng_int(r, 0, 5)) {
         case 0:
         case 1:
-            if (l->options.contained != SUNDER_CONTAINED_SEPARATE) {
+            if (l->options.contained != SUNDER_CONTAINMENT_SEPARATE) {
                 x += tolerance + plant_outline(l, r, x + tolerance, y, tolerance);
                 break;
             }
@@ -326,7 +326,7 @@ static void check_corridors(void **state)
         l.options.gap = rng_once_in(&r, 3) ? 0 : eighths(&r, 8, 24);
         l.options.touch_tolerance = 0;
         l.options.no_blocks = true;
-        l.options.contained = SUNDER_CONTAINED_SEPARATE;
+        l.options.contained = SUNDER_CONTAINMENT_SEPARATE;
         const double angle = 6.28 * rng_unit(&r), e[2] = {cos(angle), sin(angle)};
         const double o[2] = {rng_once_in(&r, 2) ? 451234.567 : 0.1, rng_once_in(&r, 2) ? 5411234.321 : 0.3};
         const double wide = 3 + 3 * rng_unit(&r), gap = l.options.gap;

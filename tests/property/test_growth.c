@@ -14,8 +14,8 @@
 
 typedef struct growth {
     size_t m, n; /* vertices of P and of Q */
-    sunder_sum_counts out;
-    sunder_operations operations;
+    sunder_sum_size out;
+    sunder_counts counts;
 } growth;
 
 static growth grow(const char *family, size_t m, size_t n, unsigned seed)
@@ -27,10 +27,10 @@ static growth grow(const char *family, size_t m, size_t n, unsigned seed)
     sunder_sum *sum = NULL;
     assert_true(a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK);
     growth g = {.m = sunder_shape_vertices(a), .n = sunder_shape_vertices(b)};
-    sunder_sum_count(sum, &g.out);
-    sunder_sum_operations(sum, &g.operations);
+    sunder_sum_get_size(sum, &g.out);
+    sunder_sum_get_counts(sum, &g.counts);
     print_message("%-40s %zu + %zu: %zu vertices, %zu holes, %llu crossings\n", arguments, g.m, g.n, g.out.vertices, g.out.holes,
-                  (unsigned long long)g.operations.segment_intersections);
+                  (unsigned long long)g.counts.segment_intersections);
     sunder_sum_free(sum);
     sunder_shape_free(a);
     sunder_shape_free(b);
@@ -84,7 +84,7 @@ static void test_fork(void **state)
             assert_true(g.out.holes >= (teeth * teeth - 1) * (teeth * teeth - 1));
             assert_true(g.out.vertices <= g.m * g.m * g.n * g.n);
             if (n > 32) assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more while the forks are short */
-            if (n > 32) assert_ratio(before.operations.segment_intersections, g.operations.segment_intersections, 8, 40);
+            if (n > 32) assert_ratio(before.counts.segment_intersections, g.counts.segment_intersections, 8, 40);
             before = g;
         }
         const growth wide = grow(names[slanted], 32, 128, 1), square = grow(names[slanted], 32, 64, 1);
@@ -103,8 +103,8 @@ static void test_covered_fork(void **state)
     }
     const growth covered = grow("covered-fork", 128, 128, 1), bare = grow("fork", 128, 128, 1);
     assert_ratio(covered.out.vertices, bare.out.vertices, 1000, SIZE_MAX / (covered.out.vertices + 1));
-    assert_ratio(covered.operations.segment_intersections, bare.operations.segment_intersections, 20,
-                 SIZE_MAX / (covered.operations.segment_intersections + 1));
+    assert_ratio(covered.counts.segment_intersections, bare.counts.segment_intersections, 20,
+                 SIZE_MAX / (covered.counts.segment_intersections + 1));
 }
 
 static void test_fat(void **state)

@@ -11,8 +11,8 @@
 #define SKIPPED 77
 
 typedef struct work {
-    sunder_sum_counts out;
-    sunder_operations all, unite;
+    sunder_sum_size out;
+    sunder_counts all, unite;
     size_t map_edges, subsums;
 } work;
 
@@ -20,7 +20,7 @@ static work done(const char *family, size_t n, sunder_algorithm algorithm, sunde
 {
     char *arguments = test_format("%s --size %zu", family, n);
     const sunder_sum_options options = {
-        .algorithm = algorithm, .decomposition = SUNDER_ANGLE_BISECTOR, .order = order, .seed = 1, .keep_map = true};
+        .algorithm = algorithm, .decomposition = SUNDER_DECOMPOSITION_ANGLE_BISECTOR, .order = order, .seed = 1, .keep_map = true};
     polyset p, q;
     generated_pair(&p, &q, arguments);
     sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
@@ -28,8 +28,8 @@ static work done(const char *family, size_t n, sunder_algorithm algorithm, sunde
     sunder_sum_method method;
     work w;
     assert_true(a && b && sunder_minkowski_sum(a, b, &options, &sum, NULL) == SUNDER_OK);
-    sunder_sum_count(sum, &w.out);
-    sunder_sum_operations(sum, &w.all);
+    sunder_sum_get_size(sum, &w.out);
+    sunder_sum_get_counts(sum, &w.all);
     assert_true(sunder_sum_phase(sum, SUNDER_PHASE_UNION, &w.unite));
     sunder_sum_get_method(sum, &method);
     w.subsums = method.pieces_p * method.pieces_q;
@@ -62,7 +62,7 @@ static size_t logarithm(size_t n)
 static void test_arrangement(void **state)
 {
     for (size_t n = 16; n <= 96; n *= 2) {
-        const work w = done("fork", n, SUNDER_ARRANGEMENT, SUNDER_ORDER_RANDOM);
+        const work w = done("fork", n, SUNDER_ALGORITHM_ARRANGEMENT, SUNDER_ORDER_RANDOM);
         const size_t asked = (size_t)(w.unite.comparisons + w.unite.orientation_tests);
         assert_true(asked <= 2 * (w.map_edges + w.subsums) * logarithm(w.map_edges));
         assert_true(w.map_edges >= w.out.vertices && w.unite.segment_intersections <= w.map_edges);
@@ -74,9 +74,9 @@ static void test_arrangement(void **state)
 static void test_covered_fork(void **state)
 {
     for (size_t n = 32; n <= 96; n += 32) {
-        const work fat = done("covered-fork", n, SUNDER_INCREMENTAL, SUNDER_ORDER_FAT);
-        const work random = done("covered-fork", n, SUNDER_INCREMENTAL, SUNDER_ORDER_RANDOM);
-        const work arranged = done("covered-fork", n, SUNDER_ARRANGEMENT, SUNDER_ORDER_RANDOM);
+        const work fat = done("covered-fork", n, SUNDER_ALGORITHM_INCREMENTAL, SUNDER_ORDER_FAT);
+        const work random = done("covered-fork", n, SUNDER_ALGORITHM_INCREMENTAL, SUNDER_ORDER_RANDOM);
+        const work arranged = done("covered-fork", n, SUNDER_ALGORITHM_ARRANGEMENT, SUNDER_ORDER_RANDOM);
         assert_true(fat.unite.segment_intersections <= 2 * fat.out.vertices);
         assert_true(random.unite.segment_intersections >= 5 * fat.unite.segment_intersections);
         assert_true(arranged.unite.segment_intersections >= 50 * fat.unite.segment_intersections);
@@ -89,10 +89,10 @@ static void test_covered_fork(void **state)
 static void test_divide_on_comb(void **state)
 {
     for (size_t n = 32; n <= 128; n *= 2) {
-        const work swapped = done("comb --swap", n, SUNDER_DIVIDE, SUNDER_ORDER_RANDOM);
-        const work straight = done("comb", n, SUNDER_DIVIDE, SUNDER_ORDER_RANDOM);
-        const work incremental = done("comb --swap", n, SUNDER_INCREMENTAL, SUNDER_ORDER_RANDOM);
-        const work other = done("comb", n, SUNDER_INCREMENTAL, SUNDER_ORDER_RANDOM);
+        const work swapped = done("comb --swap", n, SUNDER_ALGORITHM_DIVIDE, SUNDER_ORDER_RANDOM);
+        const work straight = done("comb", n, SUNDER_ALGORITHM_DIVIDE, SUNDER_ORDER_RANDOM);
+        const work incremental = done("comb --swap", n, SUNDER_ALGORITHM_INCREMENTAL, SUNDER_ORDER_RANDOM);
+        const work other = done("comb", n, SUNDER_ALGORITHM_INCREMENTAL, SUNDER_ORDER_RANDOM);
         assert_int_equal(straight.unite.segment_intersections, other.unite.segment_intersections);
         assert_int_equal(straight.unite.comparisons, other.unite.comparisons);
         assert_true(swapped.unite.comparisons >= 2 * incremental.unite.comparisons);

@@ -18,15 +18,15 @@
 typedef struct integer_set {
     polyset polygons;
     double *segments, *points;
-    sunder_sum_counts counts;
+    sunder_sum_size size;
 } integer_set;
 
 static bool contains(const integer_set *s, const double *at)
 {
     if (morphology_in_polygons(&s->polygons, at)) return true;
-    for (size_t i = 0; i < s->counts.degenerate_segments; i++)
+    for (size_t i = 0; i < s->size.degenerate_segments; i++)
         if (morphology_on_segment(s->segments + 4 * i, s->segments + 4 * i + 2, at)) return true;
-    for (size_t i = 0; i < s->counts.degenerate_points; i++)
+    for (size_t i = 0; i < s->size.degenerate_points; i++)
         if (s->points[2 * i] == at[0] && s->points[2 * i + 1] == at[1]) return true;
     return false;
 }
@@ -58,14 +58,14 @@ static void ask(probing *p, double x, double y)
 static void ask_all(probing *p, const polyset *d, const polyset *b, rng *r, double reach)
 {
     const integer_set *s = p->set;
-    const size_t own = s->polygons.vertices + 2 * s->counts.degenerate_segments + s->counts.degenerate_points;
+    const size_t own = s->polygons.vertices + 2 * s->size.degenerate_segments + s->size.degenerate_points;
     p->at = test_alloc(2 * (own + d->vertices * b->vertices), sizeof *p->at);
     if (s->polygons.vertices) memcpy(p->at, s->polygons.xy, 2 * s->polygons.vertices * sizeof *p->at);
     p->n = s->polygons.vertices;
-    memcpy(p->at + 2 * p->n, s->segments, 4 * s->counts.degenerate_segments * sizeof *p->at);
-    p->n += 2 * s->counts.degenerate_segments;
-    memcpy(p->at + 2 * p->n, s->points, 2 * s->counts.degenerate_points * sizeof *p->at);
-    p->n += s->counts.degenerate_points;
+    memcpy(p->at + 2 * p->n, s->segments, 4 * s->size.degenerate_segments * sizeof *p->at);
+    p->n += 2 * s->size.degenerate_segments;
+    memcpy(p->at + 2 * p->n, s->points, 2 * s->size.degenerate_points * sizeof *p->at);
+    p->n += s->size.degenerate_points;
     for (size_t i = 0; i < d->vertices; i++)
         for (size_t j = 0; j < b->vertices; j++, p->n++)
             for (int k = 0; k < 2; k++)
@@ -89,7 +89,7 @@ static bool is_erosion(const sunder_sum *sum, const polyset *d, const polyset *b
     if (!k) return true; /* counted by the caller */
     integer_set s;
     polyset big_d, big_b, outside;
-    sunder_sum_count(sum, &s.counts);
+    sunder_sum_get_size(sum, &s.size);
     morphology_scaled(sum, 2 * k, &s.polygons, &s.segments, &s.points);
     polyset_copy(&big_d, d);
     polyset_copy(&big_b, b);
@@ -122,7 +122,7 @@ static void test_erosions(void **state)
         rng r = rng_start(test_seed() + 77, i);
         polyset p, b;
         morphology_case(&p, &b, &r);
-        sunder_sum *e = morphology_answer(&p, &b, SUNDER_ERODE);
+        sunder_sum *e = morphology_answer(&p, &b, SUNDER_OPERATION_ERODE);
         assert_non_null(e);
         too_fine += !morphology_scale(e);
         if (!is_erosion(e, &p, &b, &r, &slim) && bad++ < 3) morphology_show("erode", i, &p, &b);
@@ -144,14 +144,14 @@ static void test_closings(void **state)
         rng r = rng_start(test_seed() + 78, i);
         polyset p, b, d;
         morphology_case(&p, &b, &r);
-        sunder_sum *dilated = morphology_answer(&p, &b, SUNDER_DILATE);
+        sunder_sum *dilated = morphology_answer(&p, &b, SUNDER_OPERATION_DILATE);
         assert_non_null(dilated);
         const long k = morphology_scale(dilated);
         if (k && k <= 1000) {
             morphology_scaled(dilated, k, &d, NULL, NULL);
             polyset_scale(&p, (double)k, (double)k);
             polyset_scale(&b, (double)k, (double)k);
-            sunder_sum *closed = morphology_answer(&p, &b, SUNDER_CLOSE);
+            sunder_sum *closed = morphology_answer(&p, &b, SUNDER_OPERATION_CLOSE);
             assert_non_null(closed);
             asked += morphology_scale(closed) != 0;
             if (!is_erosion(closed, &d, &b, &r, &slim) && bad++ < 3) morphology_show("close", i, &p, &b);

@@ -80,23 +80,23 @@ static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, c
     morphology_complement(&c, p, MORPHOLOGY_FRAME);
     polyset_copy(&turned, b);
     polyset_negate(&turned);
-    sunder_sum *closed = morphology_answer(&c, &turned, SUNDER_CLOSE), *eroded = morphology_answer(p, b, SUNDER_ERODE);
+    sunder_sum *closed = morphology_answer(&c, &turned, SUNDER_OPERATION_CLOSE), *eroded = morphology_answer(p, b, SUNDER_OPERATION_ERODE);
     const long ko = morphology_scale(opened), kc = morphology_scale(closed), ke = morphology_scale(eroded),
                k = ko * kc * ke;
     bool ok = true;
     if (k && k <= MORPHOLOGY_FINEST) {
         polyset left, closed_set, large, none, opened_set;
         double *segments, *points;
-        sunder_sum_counts counts;
+        sunder_sum_size size;
         morphology_scaled(eroded, k, &large, &segments, &points);
         polyset_free(&large);
-        sunder_sum_count(eroded, &counts);
+        sunder_sum_get_size(eroded, &size);
         morphology_scaled(closed, k, &closed_set, NULL, NULL);
         morphology_scaled(opened, k, &opened_set, NULL, NULL);
         morphology_complement(&left, &closed_set, 2.0 * MORPHOLOGY_FRAME * (double)k);
         polyset_copy(&large, b);
         polyset_scale(&large, (double)k, (double)k);
-        add_slim_parts(&left, &large, segments, counts.degenerate_segments, points, counts.degenerate_points);
+        add_slim_parts(&left, &large, segments, size.degenerate_segments, points, size.degenerate_points);
         /* All else than the closed set was left, beyond the frame, too: that goes to the other side. */
         polyset ring;
         polyset_init(&ring);
@@ -168,7 +168,7 @@ static bool is_blind_to_shifts(const polyset *p, const polyset *b, sunder_operat
     polyset_copy(&moved, b);
     polyset_move(&moved, 17, -5);
     char *here = text_of(p, b, operation), *there = text_of(p, &moved, operation);
-    if (operation == SUNDER_ERODE) {
+    if (operation == SUNDER_OPERATION_ERODE) {
         char *back = sum_text_moved(there, 0, 17, -5);
         free(there);
         there = back;
@@ -187,7 +187,7 @@ static bool is_adjoint(const polyset *y, const polyset *b, rng *r, size_t *fits)
     polyset_init(&x);
     const double at[2] = {(double)rng_int(r, 0, 5), (double)rng_int(r, 0, 5)};
     polyset_rectangle(&x, at[0], at[1], at[0] + (double)rng_int(r, 1, 2), at[1] + (double)rng_int(r, 1, 2));
-    sunder_sum *dilated = morphology_answer(&x, b, SUNDER_DILATE), *eroded = morphology_answer(y, b, SUNDER_ERODE);
+    sunder_sum *dilated = morphology_answer(&x, b, SUNDER_OPERATION_DILATE), *eroded = morphology_answer(y, b, SUNDER_OPERATION_ERODE);
     const long k = morphology_scale(dilated), m = morphology_scale(eroded);
     bool ok = true;
     if (k && m) {
@@ -220,17 +220,17 @@ static void test_laws(void **state)
         rng r = rng_start(test_seed() + 79, i);
         polyset p, b;
         morphology_case(&p, &b, &r);
-        sunder_sum *opened = morphology_answer(&p, &b, SUNDER_OPEN), *closed = morphology_answer(&p, &b, SUNDER_CLOSE);
+        sunder_sum *opened = morphology_answer(&p, &b, SUNDER_OPERATION_OPEN), *closed = morphology_answer(&p, &b, SUNDER_OPERATION_CLOSE);
         assert_non_null(opened);
         assert_non_null(closed);
         const long k = morphology_scale(opened), m = morphology_scale(closed);
         const char *broken = NULL;
         if (!opening_is_what_closing_leaves(&p, &b, opened)) broken = "an opening and the closing of the complement";
-        if (!is_idempotent(opened, &b, SUNDER_OPEN)) broken = "open twice";
-        if (!is_idempotent(closed, &b, SUNDER_CLOSE)) broken = "close twice";
-        if (!is_blind_to_shifts(&p, &b, SUNDER_OPEN)) broken = "open by a shape moved";
-        if (!is_blind_to_shifts(&p, &b, SUNDER_CLOSE)) broken = "close by a shape moved";
-        if (!is_blind_to_shifts(&p, &b, SUNDER_ERODE)) broken = "erode by a shape moved";
+        if (!is_idempotent(opened, &b, SUNDER_OPERATION_OPEN)) broken = "open twice";
+        if (!is_idempotent(closed, &b, SUNDER_OPERATION_CLOSE)) broken = "close twice";
+        if (!is_blind_to_shifts(&p, &b, SUNDER_OPERATION_OPEN)) broken = "open by a shape moved";
+        if (!is_blind_to_shifts(&p, &b, SUNDER_OPERATION_CLOSE)) broken = "close by a shape moved";
+        if (!is_blind_to_shifts(&p, &b, SUNDER_OPERATION_ERODE)) broken = "erode by a shape moved";
         if (!is_adjoint(&p, &b, &r, &fits)) broken = "dilate and erode";
         if (k && m) {
             polyset so, sc, sp;
@@ -278,7 +278,7 @@ static void test_overlaps(void **state)
             morphology_scaled(sum, k, &whole, NULL, NULL);
             polyset_scale(&p, (double)k, (double)k);
             polyset_scale(&b, (double)k, (double)k);
-            for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; op++) {
+            for (int op = SUNDER_OPERATION_DILATE; op <= SUNDER_OPERATION_CLOSE; op++) {
                 char *one = text_of(&p, &b, (sunder_operation)op), *two = text_of(&whole, &b, (sunder_operation)op);
                 if (strcmp(one, two) != 0) morphology_show(sunder_operation_string((sunder_operation)op), i, &p, &b);
                 assert_string_equal(one, two);

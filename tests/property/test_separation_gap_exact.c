@@ -189,7 +189,7 @@ static void look_at(polyset *p, polyset *q, rng *r)
 static sunder_shape *shape_or_null(const polyset *s)
 {
     sunder_shape *shape = NULL;
-    sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, &shape, NULL);
+    sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_VALIDITY_STRICT, &shape, NULL);
     return shape;
 }
 

@@ -76,8 +76,8 @@ static void nearer_segment(mpq_t least, const sunder_sum *sum, uint32_t u, uint3
 
 static void from_sum(mpq_t least, const sunder_sum *sum)
 {
-    sunder_sum_counts c;
-    sunder_sum_count(sum, &c);
+    sunder_sum_size c;
+    sunder_sum_get_size(sum, &c);
     mpq_set_si(least, -1, 1);
     for (size_t p = 0; p < c.polygons; p++)
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {

@@ -83,7 +83,7 @@ static void test_other_roads(void **state)
         random_grower(&q, &r);
         char *ours = library_sum_text(&p, &q);
         const sunder_sum_options how = {
-            .algorithm = SUNDER_INCREMENTAL, .decomposition = SUNDER_VERTICAL, .order = SUNDER_ORDER_FAT, .seed = seed};
+            .algorithm = SUNDER_ALGORITHM_INCREMENTAL, .decomposition = SUNDER_DECOMPOSITION_VERTICAL, .order = SUNDER_ORDER_FAT, .seed = seed};
         assert_non_null(ours);
         if (!road_agrees(&p, &q, &how, false, ours, true)) {
             print_message("SUNDER_SEED=%llu, case %zu, %s\n", (unsigned long long)seed, i, kind_name[i % DEEP_KINDS]);

@@ -69,8 +69,8 @@ static char *even_odd_sum(const polyset *p, const polyset *q)
     sunder_sum *sum = NULL;
     sunder_error err = {0};
     char *text = NULL;
-    sunder_status s = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_EVEN_ODD, &a, &err);
-    if (!s) s = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_EVEN_ODD, &b, &err);
+    sunder_status s = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_EVEN_ODD, &a, &err);
+    if (!s) s = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_EVEN_ODD, &b, &err);
     if (!s) s = sunder_minkowski_sum(a, b, NULL, &sum, &err);
     if (!s) text = sum_text(sum);
     else print_message("%s\n", err.message);

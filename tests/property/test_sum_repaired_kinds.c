@@ -25,7 +25,7 @@ static sunder_shape *even_odd(const polyset *p)
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_EVEN_ODD, &s, &err))
+    if (sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_EVEN_ODD, &s, &err))
         fail_msg("%s", err.message);
     return s;
 }
@@ -84,8 +84,8 @@ static void test_sums(void **state)
         pair p;
         open_pair(&p, seed, i);
         char *plain = sum_of(p.shape[0], p.shape[1], false, NULL);
-        const sunder_sum_options road = {.algorithm = (sunder_algorithm)(SUNDER_ARRANGEMENT + i % 3),
-                                         .decomposition = (sunder_decomposition)(i % (SUNDER_MIXED + 1))};
+        const sunder_sum_options road = {.algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + i % 3),
+                                         .decomposition = (sunder_decomposition)(i % (SUNDER_DECOMPOSITION_MIXED + 1))};
         expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], true, NULL), "another rung, another sum");
         expect_same(&p, plain, sum_of(p.shape[1], p.shape[0], false, NULL), "P + Q and Q + P differ");
         if (sunder_shape_vertices(p.shape[0]) < 40)

@@ -28,7 +28,7 @@ static sunder_shape *even_odd_shape(const polyset *p)
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_EVEN_ODD, &s, &err))
+    if (sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_EVEN_ODD, &s, &err))
         fail_msg("%s", err.message);
     return s;
 }

@@ -33,8 +33,8 @@ static uint64_t number_of(const char *name)
 /* The arrangement of two forks of 100 vertices, triangulated, has 7 million vertices and takes 4 GB. */
 static bool too_many(const sunder_sum_options *how)
 {
-    return how->algorithm == SUNDER_ARRANGEMENT &&
-           (how->decomposition == SUNDER_TRIANGULATION || how->decomposition == SUNDER_HERTEL_MEHLHORN);
+    return how->algorithm == SUNDER_ALGORITHM_ARRANGEMENT &&
+           (how->decomposition == SUNDER_DECOMPOSITION_TRIANGULATION || how->decomposition == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN);
 }
 
 static void compare(tally *t, const char *name, const polyset *p, const polyset *q)

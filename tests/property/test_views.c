@@ -52,7 +52,7 @@ static size_t make_obstacles(rng *r, int kind, double (*xy)[10], size_t *ends, s
             continue;
         }
         const size_t corners = rng_once_in(r, 3) ? 3 : 4, one = 1;
-        assert_int_equal(sunder_shape_from_rings(box, &corners, &one, 1, SUNDER_STRICT, &shapes[i], NULL), SUNDER_OK);
+        assert_int_equal(sunder_shape_from_rings(box, &corners, &one, 1, SUNDER_VALIDITY_STRICT, &shapes[i], NULL), SUNDER_OK);
         out[n++] = (sunder_obstacle){shapes[i], NULL, NULL, 0};
     }
     static const double away[2][2] = {{1e16, -3e17}, {1e300, 0x1p-1074}};
@@ -70,7 +70,7 @@ static sunder_shape *make_robot(rng *r, int kind)
     double xy[12];
     for (size_t i = 0; i < 2 * n; i++) xy[i] = scale * (l ? bent[i] : square[i]);
     sunder_shape *s;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
     return s;
 }
 

@@ -39,8 +39,8 @@ static void vertex_of(const sunder_sum *sum, uint32_t v, mpq_t xy[2])
 /* All vertices that the sum names: of rings, segments, points. */
 static uint32_t *named(const sunder_sum *sum, size_t *n)
 {
-    sunder_sum_counts c;
-    sunder_sum_count(sum, &c);
+    sunder_sum_size c;
+    sunder_sum_get_size(sum, &c);
     uint32_t *all = test_alloc(c.vertices + 2 * c.degenerate_segments + c.degenerate_points + 1, sizeof *all);
     *n = 0;
     for (size_t p = 0; p < c.polygons; p++)
@@ -93,8 +93,8 @@ static void scaled(const sunder_sum *sum, uint32_t v, long k, double xy[2])
 /* Its polygons times k, and (may be NULL) segments and points as pairs and singles of coordinates. */
 void morphology_scaled(const sunder_sum *sum, long k, polyset *set, double **segments, double **points)
 {
-    sunder_sum_counts c;
-    sunder_sum_count(sum, &c);
+    sunder_sum_size c;
+    sunder_sum_get_size(sum, &c);
     polyset_init(set);
     for (size_t p = 0; p < c.polygons; p++) {
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {

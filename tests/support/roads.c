@@ -10,13 +10,13 @@ sunder_sum_options road_options(size_t i, uint64_t seed)
 {
     const size_t a = i % ROAD_ALGORITHMS, d = i / ROAD_ALGORITHMS % ROAD_DECOMPOSITIONS;
     const size_t o = i / (ROAD_ALGORITHMS * ROAD_DECOMPOSITIONS) % ROAD_ORDERS;
-    return (sunder_sum_options){.algorithm = (sunder_algorithm)(SUNDER_ARRANGEMENT + a),
-                                .decomposition = (sunder_decomposition)(SUNDER_ANGLE_BISECTOR + d),
+    return (sunder_sum_options){.algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + a),
+                                .decomposition = (sunder_decomposition)(SUNDER_DECOMPOSITION_ANGLE_BISECTOR + d),
                                 .order = (sunder_order)(SUNDER_ORDER_RANDOM + o),
                                 .seed = seed};
 }
 
-static bool same_operations(const sunder_operations *a, const sunder_operations *b)
+static bool same_operations(const sunder_counts *a, const sunder_counts *b)
 {
     return a->comparisons == b->comparisons && a->orientation_tests == b->orientation_tests &&
            a->segment_intersections == b->segment_intersections && a->exact_fallbacks == b->exact_fallbacks;
@@ -27,9 +27,9 @@ static bool same_operations(const sunder_operations *a, const sunder_operations 
 static bool honest(const sunder_sum *sum, const sunder_sum_options *how)
 {
     sunder_sum_method method;
-    sunder_operations all, phase, total = {0, 0, 0, 0};
+    sunder_counts all, phase, total = {0, 0, 0, 0};
     sunder_sum_get_method(sum, &method);
-    sunder_sum_operations(sum, &all);
+    sunder_sum_get_counts(sum, &all);
     for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
         if (!sunder_sum_phase(sum, (sunder_phase)i, &phase)) return false;
         total.comparisons += phase.comparisons;
@@ -37,8 +37,8 @@ static bool honest(const sunder_sum *sum, const sunder_sum_options *how)
         total.segment_intersections += phase.segment_intersections;
         total.exact_fallbacks += phase.exact_fallbacks;
     }
-    const bool may_fall = how->decomposition == SUNDER_OPTIMAL || how->decomposition == SUNDER_MIXED;
-    const bool fell = may_fall && method.decomposition == SUNDER_HERTEL_MEHLHORN;
+    const bool may_fall = how->decomposition == SUNDER_DECOMPOSITION_OPTIMAL || how->decomposition == SUNDER_DECOMPOSITION_MIXED;
+    const bool fell = may_fall && method.decomposition == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN;
     return method.algorithm == how->algorithm && method.order == how->order &&
            (fell || method.decomposition == how->decomposition) && same_operations(&all, &total);
 }

@@ -114,10 +114,10 @@ static bool put_ring(FILE *f, const sunder_sum *sum, size_t polygon, size_t ring
 
 static bool put_sum(FILE *f, const sunder_sum *sum)
 {
-    sunder_sum_counts c;
+    sunder_sum_size c;
     size_t holes = 0, vertices = 0;
     bool ok = true;
-    sunder_sum_count(sum, &c);
+    sunder_sum_get_size(sum, &c);
     fputs("{\"polygons\": [", f);
     for (size_t p = 0; p < c.polygons; p++) {
         const size_t rings = sunder_sum_rings(sum, p);
@@ -193,7 +193,7 @@ char *library_sum_text_wide(const polyset *p, const polyset *q) { return sum_tex
 
 static sunder_status make_shape(const polyset *s, sunder_shape **out)
 {
-    return sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, out, NULL);
+    return sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_VALIDITY_STRICT, out, NULL);
 }
 
 static bool make_sum(void *context)

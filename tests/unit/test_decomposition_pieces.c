@@ -162,7 +162,7 @@ static void test_members_and_empty(void **state)
     sunder_shape *none = NULL;
     const size_t zero = 0;
     const double xy = 0;
-    assert_int_equal(sunder_shape_from_rings(&xy, &zero, &zero, 0, SUNDER_STRICT, &none, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(&xy, &zero, &zero, 0, SUNDER_VALIDITY_STRICT, &none, NULL), SUNDER_OK);
     sunder_shape *l = shape_of(L_SHAPE);
     for (int kind = SUNDER_I_HERTEL_MEHLHORN; kind <= SUNDER_I_MIXED; kind++) {
         sunder_i_placed placed;

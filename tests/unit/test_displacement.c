@@ -101,7 +101,7 @@ static void check_nothing(void **state)
     assert_true(s.summary.verified);
     add(&s, NULL);
     sunder_shape *empty = NULL;
-    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &empty, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_VALIDITY_STRICT, &empty, NULL), SUNDER_OK);
     add(&s, NULL)->shape = empty;
     run(&s, false);
     assert_int_equal(s.summary.features, 2);
@@ -151,8 +151,8 @@ static void check_fixed(void **state)
     run(&s, false);
     assert_int_equal(s.summary.before.too_close, 1);
     assert_int_equal(left(&s.summary), 0);
-    assert_int_equal(sunder_report_status(s.report, 0), SUNDER_FIXED);
-    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_MOVED);
+    assert_int_equal(sunder_report_status(s.report, 0), SUNDER_FEATURE_FIXED);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_FEATURE_MOVED);
     assert_near(length(&s, 1), 0.5, HAIR);
     /* Nothing can be done between two fixed ones. */
     s.feature[1].fixed = true;
@@ -187,7 +187,7 @@ static void check_limits(void **state)
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
     assert_int_equal(n, 1);
     assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
-    assert_int_equal(c->kind, SUNDER_OVERLAP);
+    assert_int_equal(c->kind, SUNDER_CONFLICT_OVERLAP);
     assert_near(c->depth, 2, HAIR);
     end(&s);
 }
@@ -204,13 +204,13 @@ static void check_chain_without_room(void **state)
     add_box(&s, 22.5, 0, 3, 3);
     run(&s, false);
     assert_true(left(&s.summary) > 0);
-    assert_int_equal(sunder_report_status(s.report, 5), SUNDER_MOVED);
+    assert_int_equal(sunder_report_status(s.report, 5), SUNDER_FEATURE_MOVED);
     size_t n;
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
     /* Either gap between the three could only grow if the other shrank, which nothing may: all stay. */
     assert_int_equal(n, 2);
     for (size_t k = 0; k < n; k++) {
-        assert_int_equal(c[k].kind, SUNDER_TOO_CLOSE);
+        assert_int_equal(c[k].kind, SUNDER_CONFLICT_TOO_CLOSE);
         assert_true(c[k].distance == 0.5 && c[k].before == 0.5);
     }
     for (size_t f = 2; f < 5; f++) assert_true(length(&s, f) == 0);
@@ -249,11 +249,11 @@ static void check_narrow_yard(void **state)
     size_t n = 0;
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
     assert_int_equal(n, 1);
-    assert_int_equal(c->kind, SUNDER_TOO_CLOSE);
+    assert_int_equal(c->kind, SUNDER_CONFLICT_TOO_CLOSE);
     assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
     assert_true(c->before == 1.75);
     assert_true(c->distance >= 1.75);
-    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_BLOCKED);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_FEATURE_BLOCKED);
     end(&s);
 }
 
@@ -307,7 +307,7 @@ static void check_inside_blocks(void **state)
     assert_int_equal(s.summary.before.inside_blocks, 2); /* 1 and 2 are the gap apart, exactly */
     assert_int_equal(s.summary.before.overlap + s.summary.before.too_close, 0);
     assert_int_equal(n, 1);
-    assert_int_equal(c->kind, SUNDER_OVERLAP);
+    assert_int_equal(c->kind, SUNDER_CONFLICT_OVERLAP);
     assert_int_equal(c->reason, SUNDER_REASON_SAME_BLOCK);
     assert_true(c->inside_block);
     assert_near(c->depth, 5, HAIR);
@@ -323,7 +323,7 @@ static void check_kept_inside(void **state)
 {
     scene s;
     begin(&s, 0);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 100, 100);
     add_box(&s, 97, 0, 100, 100);
     add_box(&s, 90, 40, 6, 6);
@@ -334,11 +334,11 @@ static void check_kept_inside(void **state)
     assert_int_equal(left(&s.summary), 0);
     /* The outline gives way by nearly 3, and would leave the house 1 of the 4 that it had; it need not move. */
     assert_near(length(&s, 0), 3, 0.01);
-    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_UNMOVED);
+    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_FEATURE_UNMOVED);
     /* Nearer the edge it is pushed in, by what the edge comes too far. */
     end(&s);
     begin(&s, 0);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 100, 100);
     add_box(&s, 97, 0, 100, 100)->weight = 1000;
     add_box(&s, 0.5, 40, 6, 6);
@@ -347,15 +347,15 @@ static void check_kept_inside(void **state)
     run(&s, false);
     assert_int_equal(left(&s.summary), 0);
     assert_near(length(&s, 0), 3, 0.02);
-    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_UNMOVED);
-    assert_int_equal(sunder_report_status(s.report, 4), SUNDER_UNMOVED);
+    assert_int_equal(sunder_report_status(s.report, 2), SUNDER_FEATURE_UNMOVED);
+    assert_int_equal(sunder_report_status(s.report, 4), SUNDER_FEATURE_UNMOVED);
     double dx, dy;
     sunder_report_move(s.report, 3, &dx, &dy);
     assert_near(dx, 0, HAIR);
     end(&s);
     /* The edge is pushed across the whole house: kept inside, the house goes along. */
     begin(&s, 0);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 100, 100);
     add_box(&s, 80, 0, 100, 100)->weight = 1000;
     add_box(&s, 79, 40, 6, 6)->weight = 1e-3;
@@ -366,7 +366,7 @@ static void check_kept_inside(void **state)
     end(&s);
     /* In both of two that part: it stays in the one whose edge is farther. */
     begin(&s, 0);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 100, 100);
     add_box(&s, 80, 0, 100, 100);
     add_box(&s, 81, 40, 4, 4)->weight = 1e-3;
@@ -387,12 +387,12 @@ static void check_contained(void **state)
     assert_int_equal(s.summary.blocks, 1);
     assert_int_equal(s.summary.before.contained, 0);
     assert_int_equal(s.summary.before.inside_blocks, 1);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     run(&s, false);
     assert_int_equal(s.summary.blocks, 0);
     assert_int_equal(left(&s.summary), 0);
     assert_int_equal(s.summary.moved, 0);
-    s.options.contained = SUNDER_CONTAINED_SEPARATE;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
     run(&s, false);
     assert_int_equal(s.summary.before.contained, 1);
     assert_int_equal(left(&s.summary), 0);
@@ -418,7 +418,7 @@ static void check_duplicates(void **state)
     for (int k = 0; k < 4; k++) add_box(&s, 3, 4, 2, 2);
     run(&s, true);
     assert_int_equal(s.summary.blocks, 1);
-    s.options.contained = SUNDER_CONTAINED_SEPARATE;
+    s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
     run(&s, true);
     assert_int_equal(s.summary.before.duplicate, 6);
     run(&s, false);
@@ -432,7 +432,7 @@ static void check_way_inside(void **state)
 {
     scene s;
     begin(&s, 3);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 100, 100)->fixed = true;
     add_box(&s, 94, 40, 10, 10)->max_shift = 7;
     add_box(&s, 105, 20, 15, 50)->fixed = true;
@@ -451,7 +451,7 @@ static void check_way_inside(void **state)
     end(&s);
     /* Neither fits in the other: then the gap is the only way. */
     begin(&s, 3);
-    s.options.contained = SUNDER_CONTAINED_IGNORE;
+    s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     add_box(&s, 0, 0, 8, 100)->fixed = true;
     add_box(&s, 4, 40, 10, 10)->max_shift = 6;
     run(&s, false);
@@ -501,7 +501,7 @@ static void check_ignored(void **state)
     run(&s, false);
     assert_int_equal(s.summary.skipped, 1);
     assert_int_equal(s.summary.moved, 0);
-    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_SKIPPED);
+    assert_int_equal(sunder_report_status(s.report, 1), SUNDER_FEATURE_SKIPPED);
     assert_int_equal(left(&s.summary), 0);
     end(&s);
 }

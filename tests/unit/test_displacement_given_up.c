@@ -102,7 +102,7 @@ static void add_box(sunder_feature *out, double x, double y, double w, double h,
     const size_t corners = 4, rings = 1;
     sunder_shape *shape = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(xy, &corners, &rings, 1, SUNDER_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(xy, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) fail_msg("%s", err.message);
     *out = (sunder_feature){.shape = shape, .weight = 1, .max_shift = 1, .block = -1, .fixed = fixed};
 }
 
@@ -146,7 +146,7 @@ static void check_inside(void **state)
     for (size_t k = 0; k < 3; k++) feature[k].max_shift = 20;
     sunder_layer_options options;
     sunder_layer_options_init(&options);
-    options.contained = SUNDER_CONTAINED_SEPARATE;
+    options.contained = SUNDER_CONTAINMENT_SEPARATE;
     sunder_layer *layer = NULL;
     sunder_report *report = NULL;
     sunder_error err;

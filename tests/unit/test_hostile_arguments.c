@@ -18,7 +18,7 @@ static sunder_shape *rectangle(double x, double y, double width, double height)
     const double xy[] = {x, y, x + width, y, x + width, y + height, x, y + height};
     const size_t ring_end = 4, poly_end = 1;
     sunder_shape *s = NULL;
-    sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_STRICT, &s, NULL);
+    sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL);
     return s;
 }
 
@@ -156,7 +156,7 @@ static void test_least_square(void **state)
     const double x = 0.1, xy[] = {x, x, nextafter(x, 1), x, x, nextafter(x, 0)};
     const size_t ring_end = 3, poly_end = 1;
     sunder_shape *p = rectangle(0, 0, DBL_TRUE_MIN, DBL_TRUE_MIN), *q = NULL;
-    assert_int_equal(sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_STRICT, &q, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &q, NULL), SUNDER_OK);
     sunder_separation s;
     assert_int_equal(sunder_pair_separate(p, q, 1, &s, NULL), SUNDER_OK);
     assert_true(s.overlap && s.distance > 0.85 && s.distance < 0.86);

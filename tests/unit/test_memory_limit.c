@@ -28,7 +28,7 @@ static sunder_status scribble(rng *g, int n, double reach, sunder_shape **out)
     double xy[2 * 64];
     const size_t ring_end = (size_t)n, poly_end = 1;
     for (int i = 0; i < 2 * n; i++) xy[i] = reach * rng_unit(g);
-    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_EVEN_ODD, out, NULL);
+    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, out, NULL);
 }
 
 static sunder_status read_all(const sunder_sum *sum)
@@ -59,7 +59,7 @@ static sunder_status everything(uint64_t seed)
     sunder_shape *p = NULL, *q = NULL;
     sunder_status status = scribble(&g, 18, 100, &p);
     if (status == SUNDER_OK) status = scribble(&g, 7, 0x1p-300, &q);
-    for (int road = SUNDER_CONVOLUTION; road <= SUNDER_DIVIDE && status == SUNDER_OK; road++) {
+    for (int road = SUNDER_ALGORITHM_CONVOLUTION; road <= SUNDER_ALGORITHM_DIVIDE && status == SUNDER_OK; road++) {
         const sunder_sum_options options = {.algorithm = (sunder_algorithm)road};
         sunder_sum *sum;
         status = sunder_minkowski_sum(p, q, &options, &sum, NULL);

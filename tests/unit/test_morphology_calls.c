@@ -50,28 +50,28 @@ static void expect_text(const char *p, const char *b, sunder_operation operation
 static void test_hall(void **state)
 {
     expect_text(
-        HALL, SQUARE, SUNDER_ERODE,
+        HALL, SQUARE, SUNDER_OPERATION_ERODE,
         "{\"polygons\": [], \"degenerate_segments\": [[[\"2\", \"2\"], [\"2\", \"8\"]]], \"degenerate_points\": []}");
-    expect_text(HALL, SQUARE, SUNDER_OPEN, RECTANGLE("0", "0", "4", "10"));
-    expect_text(HALL, SQUARE, SUNDER_CLOSE, RECTANGLE("0", "0", "4", "10"));
-    expect_text(HALL, SQUARE, SUNDER_DILATE, RECTANGLE("-2", "-2", "6", "12"));
+    expect_text(HALL, SQUARE, SUNDER_OPERATION_OPEN, RECTANGLE("0", "0", "4", "10"));
+    expect_text(HALL, SQUARE, SUNDER_OPERATION_CLOSE, RECTANGLE("0", "0", "4", "10"));
+    expect_text(HALL, SQUARE, SUNDER_OPERATION_DILATE, RECTANGLE("-2", "-2", "6", "12"));
 }
 
 /* A shape fits into itself in one place. */
 static void test_key(void **state)
 {
-    expect_text(ELL, ELL, SUNDER_ERODE,
+    expect_text(ELL, ELL, SUNDER_OPERATION_ERODE,
                 "{\"polygons\": [], \"degenerate_segments\": [], \"degenerate_points\": [[\"0\", \"0\"]]}");
-    expect_text(ELL, HALL, SUNDER_ERODE, NOTHING);
-    expect_text(ELL, HALL, SUNDER_OPEN, NOTHING);
-    expect_text(EMPTY, HALL, SUNDER_ERODE, NOTHING);
-    expect_text(EMPTY, HALL, SUNDER_CLOSE, NOTHING);
+    expect_text(ELL, HALL, SUNDER_OPERATION_ERODE, NOTHING);
+    expect_text(ELL, HALL, SUNDER_OPERATION_OPEN, NOTHING);
+    expect_text(EMPTY, HALL, SUNDER_OPERATION_ERODE, NOTHING);
+    expect_text(EMPTY, HALL, SUNDER_OPERATION_CLOSE, NOTHING);
 }
 
 /* A room and a corridor exactly as wide as the square: a polygon with a segment hanging off it. */
 static void test_room_and_corridor(void **state)
 {
-    expect_text("POLYGON ((0 0, 10 0, 10 3, 20 3, 20 7, 10 7, 10 10, 0 10))", SQUARE, SUNDER_ERODE,
+    expect_text("POLYGON ((0 0, 10 0, 10 3, 20 3, 20 7, 10 7, 10 10, 0 10))", SQUARE, SUNDER_OPERATION_ERODE,
                 "{\"polygons\": [{\"outer\": [[\"2\", \"2\"], [\"8\", \"2\"], [\"8\", \"8\"], [\"2\", \"8\"]], "
                 "\"holes\": []}], "
                 "\"degenerate_segments\": [[[\"8\", \"5\"], [\"18\", \"5\"]]], \"degenerate_points\": []}");
@@ -81,7 +81,7 @@ static void test_room_and_corridor(void **state)
 static void test_rational(void **state)
 {
     expect_text(
-        "POLYGON ((0 0, 7 0, 7 3, 0 3))", "POLYGON ((0 0, 3 0, 0 1))", SUNDER_OPEN,
+        "POLYGON ((0 0, 7 0, 7 3, 0 3))", "POLYGON ((0 0, 3 0, 0 1))", SUNDER_OPERATION_OPEN,
         "{\"polygons\": [{\"outer\": [[\"0\", \"0\"], [\"7\", \"0\"], [\"7\", \"2\"], [\"4\", \"3\"], [\"0\", \"3\"]], "
         "\"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}");
 }
@@ -89,16 +89,16 @@ static void test_rational(void **state)
 /* Gaps as wide as the square are closed, wider ones are not. */
 static void test_gap(void **state)
 {
-    expect_text("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14 0, 20 0, 20 10, 14 10)))", SQUARE, SUNDER_CLOSE,
+    expect_text("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14 0, 20 0, 20 10, 14 10)))", SQUARE, SUNDER_OPERATION_CLOSE,
                 RECTANGLE("0", "0", "20", "10"));
     sunder_shape *p = shape_of("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14.000000000000002 0, 20 0, 20 10, "
                                "14.000000000000002 10)))"),
                  *b = shape_of(SQUARE);
     sunder_sum *sum;
-    sunder_sum_counts counts;
-    assert_int_equal(sunder_morphology(p, b, SUNDER_CLOSE, NULL, &sum, NULL), SUNDER_OK);
-    sunder_sum_count(sum, &counts);
-    assert_int_equal(counts.polygons, 2);
+    sunder_sum_size size;
+    assert_int_equal(sunder_morphology(p, b, SUNDER_OPERATION_CLOSE, NULL, &sum, NULL), SUNDER_OK);
+    sunder_sum_get_size(sum, &size);
+    assert_int_equal(size.polygons, 2);
     sunder_sum_free(sum);
     sunder_shape_free(p);
     sunder_shape_free(b);
@@ -110,8 +110,8 @@ static void test_places(void **state)
     const double bow[10] = {0, 0, 3, 3, 3, 0, 0, 3, 0, 0};
     const size_t ring_end = 5, poly_end = 1;
     sunder_shape *p, *b = shape_of("POLYGON ((0 0, 0.5 0, 0 0.5))");
-    assert_int_equal(sunder_shape_from_rings(bow, &ring_end, &poly_end, 1, SUNDER_EVEN_ODD, &p, NULL), SUNDER_OK);
-    for (int op = SUNDER_ERODE; op <= SUNDER_CLOSE; op++) {
+    assert_int_equal(sunder_shape_from_rings(bow, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &p, NULL), SUNDER_OK);
+    for (int op = SUNDER_OPERATION_ERODE; op <= SUNDER_OPERATION_CLOSE; op++) {
         sunder_shape *moved;
         sunder_sum *here, *there;
         bool exact;
@@ -190,11 +190,11 @@ static void test_arguments(void **state)
     sunder_shape *p = shape_of(HALL), *none = shape_of(EMPTY);
     sunder_sum *sum = NULL;
     sunder_error err;
-    for (int op = SUNDER_DILATE; op <= SUNDER_CLOSE; op++)
+    for (int op = SUNDER_OPERATION_DILATE; op <= SUNDER_OPERATION_CLOSE; op++)
         assert_int_equal(sunder_morphology(p, none, (sunder_operation)op, NULL, &sum, &err), SUNDER_EARG);
     assert_int_equal(sunder_morphology(p, p, (sunder_operation)4, NULL, &sum, &err), SUNDER_EARG);
     assert_null(sum);
-    assert_string_equal(sunder_operation_string(SUNDER_CLOSE), "close");
+    assert_string_equal(sunder_operation_string(SUNDER_OPERATION_CLOSE), "close");
     assert_string_equal(sunder_operation_string((sunder_operation)9), "");
     sunder_shape_free(p);
     sunder_shape_free(none);
@@ -218,7 +218,7 @@ static bool stop_at(double fraction, void *user)
 static void test_stopping(void **state)
 {
     sunder_shape *p = shape_of("MULTIPOLYGON (((0 0, 4 0, 4 4, 0 4)), ((3 3, 8 3, 8 8)))"), *b = shape_of(ELL);
-    for (int op = SUNDER_ERODE; op <= SUNDER_CLOSE; op++) {
+    for (int op = SUNDER_OPERATION_ERODE; op <= SUNDER_OPERATION_CLOSE; op++) {
         sunder_status status = SUNDER_ECANCEL;
         int chances = 0;
         for (; status == SUNDER_ECANCEL; chances++) {
@@ -249,7 +249,7 @@ static void test_stopping_a_union(void **state)
         poly_end[i] = i + 1;
     }
     sunder_shape *p;
-    assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_STRICT, &p, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_VALIDITY_STRICT, &p, NULL), SUNDER_OK);
     stopping now = {0, 0};
     const sunder_sum_options how = {.progress = stop_at, .progress_user = &now};
     sunder_sum *sum = NULL;
@@ -268,7 +268,7 @@ static bool try_it(void *context)
     const attempt *a = context;
     sunder_sum *sum = NULL;
     double xy[2], off = 0;
-    const sunder_status status = a->operation > SUNDER_CLOSE
+    const sunder_status status = a->operation > SUNDER_OPERATION_CLOSE
                                      ? sunder_shape_union(a->p, NULL, &sum, NULL)
                                      : sunder_morphology(a->p, a->b, (sunder_operation)a->operation, NULL, &sum, NULL);
     const uint32_t first = 0;
@@ -283,7 +283,7 @@ static void test_memory(void **state)
 {
     attempt a = {shape_of("MULTIPOLYGON (((0 0, 6 0, 6 5, 1 4)), ((3 3, 8 3, 8 8)))"),
                  shape_of("POLYGON ((0 0, 1 0, 0 2))"), 0};
-    for (a.operation = SUNDER_DILATE; a.operation <= SUNDER_CLOSE + 1; a.operation++)
+    for (a.operation = SUNDER_OPERATION_DILATE; a.operation <= SUNDER_OPERATION_CLOSE + 1; a.operation++)
         assert_true(failing_loop(try_it, &a, false));
     sunder_shape_free(a.p);
     sunder_shape_free(a.b);

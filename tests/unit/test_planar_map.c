@@ -384,7 +384,7 @@ static void test_large_numbers(void **state)
         mark(&b);
         assert_int_equal(sunder_i_planar_map_clean(b.map, NULL), SUNDER_OK);
         check(&b);
-        assert_true(b.lattice.operations.exact_fallbacks > 0);
+        assert_true(b.lattice.counts.exact_fallbacks > 0);
         close_bed(&b);
     }
 }

@@ -123,8 +123,8 @@ static void test_points(void **state)
             if (k == 0) assert_true(sunder_i_i128_sign(sunder_i_narrow_orient(a, c, d)) == mpz_sgn(b.s));
         }
     }
-    assert_true(b.l[0].operations.orientation_tests >= ROUNDS && b.l[0].operations.comparisons >= ROUNDS);
-    assert_true(b.l[1].operations.exact_fallbacks >= ROUNDS);
+    assert_true(b.l[0].counts.orientation_tests >= ROUNDS && b.l[0].counts.comparisons >= ROUNDS);
+    assert_true(b.l[1].counts.exact_fallbacks >= ROUNDS);
     close_bench(&b);
 }
 
@@ -311,7 +311,7 @@ static void test_crossings(void **state)
     }
     print_message("%d ties, %d equal points\n", ties, equal_points);
     assert_true(ties > 20 && equal_points > 20);
-    assert_true(b.l[0].operations.segment_intersections > ROUNDS);
+    assert_true(b.l[0].counts.segment_intersections > ROUNDS);
     for (int i = 0; i < 3; i++) mpq_clears(c[i].t, c[i].x, c[i].y, NULL);
     close_bench(&b);
 }

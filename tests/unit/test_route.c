@@ -19,7 +19,7 @@ static sunder_shape *shape_of(const double *xy, size_t n)
 {
     const size_t poly_end = 1;
     sunder_shape *s = NULL;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &poly_end, 1, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, &n, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
     return s;
 }
 
@@ -78,9 +78,9 @@ static void obstacles_are_a_sum(void **state)
     assert_int_equal(sunder_minkowski_sum(p, minus, NULL, &sum, NULL), SUNDER_OK);
     sunder_route *r = find(&o, 1, q, at(-20, 0), at(20, 1));
     const sunder_sum *united = sunder_route_obstacles(r);
-    sunder_sum_counts a, b;
-    sunder_sum_count(sum, &a);
-    sunder_sum_count(united, &b);
+    sunder_sum_size a, b;
+    sunder_sum_get_size(sum, &a);
+    sunder_sum_get_size(united, &b);
     assert_memory_equal(&a, &b, sizeof a);
     assert_true(a.degenerate_segments == 1); /* its hook fits the slot exactly */
     for (size_t p_i = 0; p_i < a.polygons; p_i++)
@@ -173,7 +173,7 @@ static void rational_obstacles(void **state)
     static const double bow[] = {0, 0, 7, 5, 7, 0, 0, 3}; /* crosses itself */
     const size_t end = 4, one = 1;
     sunder_shape *p, *q = shape_of(robot, 4);
-    assert_int_equal(sunder_shape_from_rings(bow, &end, &one, 1, SUNDER_EVEN_ODD, &p, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(bow, &end, &one, 1, SUNDER_VALIDITY_EVEN_ODD, &p, NULL), SUNDER_OK);
     assert_true(sunder_shape_repaired(p));
     const sunder_obstacle o = {p, NULL, NULL, 0};
     sunder_route *r = find(&o, 1, q, at(-3, 2), at(10, 2));
@@ -204,7 +204,7 @@ static void lines_inside_the_robot(void **state)
             const size_t corners = i == 3 ? 8 : rings[i][0], n = i == 3 ? 2 : 1;
             for (size_t j = 0; j < 2 * corners; j++) scaled[j] = scale[k] * xy[i][j];
             sunder_shape *q;
-            assert_int_equal(sunder_shape_from_rings(scaled, rings[i], polygons[i], n, SUNDER_EVEN_ODD, &q, NULL),
+            assert_int_equal(sunder_shape_from_rings(scaled, rings[i], polygons[i], n, SUNDER_VALIDITY_EVEN_ODD, &q, NULL),
                              SUNDER_OK);
             for (size_t end = 1; end <= 2; end++) {
                 const sunder_obstacle o = {NULL, line, &end, 1};
@@ -235,7 +235,7 @@ static void arguments(void **state)
         const sunder_route_options options = {.gap = gaps[i]};
         assert_int_equal(sunder_route_find(NULL, 0, q, &good, &good, &options, &r, &err), SUNDER_EARG);
     }
-    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &none, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_VALIDITY_STRICT, &none, NULL), SUNDER_OK);
     assert_int_equal(sunder_route_find(NULL, 0, none, &good, &good, NULL, &r, &err), SUNDER_EARG);
     const double line[] = {0, 0, NAN, 1};
     const size_t end = 2;
@@ -251,10 +251,10 @@ static void arguments(void **state)
     assert_true(sunder_route_length(r) == 5);
     sunder_route_free(r);
     sunder_route_free(NULL);
-    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_FOUND), "found");
-    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_START_COLLIDES), "start_in_collision");
-    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_GOAL_COLLIDES), "goal_in_collision");
-    assert_string_equal(sunder_no_route_string(SUNDER_ROUTE_DISCONNECTED), "disconnected");
+    assert_string_equal(sunder_route_status_string(SUNDER_ROUTE_FOUND), "found");
+    assert_string_equal(sunder_route_status_string(SUNDER_ROUTE_START_COLLIDES), "start_in_collision");
+    assert_string_equal(sunder_route_status_string(SUNDER_ROUTE_GOAL_COLLIDES), "goal_in_collision");
+    assert_string_equal(sunder_route_status_string(SUNDER_ROUTE_DISCONNECTED), "disconnected");
     sunder_shape_free(q);
     sunder_shape_free(none);
 }
@@ -328,7 +328,7 @@ static void memory_runs_out(void **state)
     static const double members[] = {-1, -1, 0, -1, 0, 1, -1, 1, 0, -1, 1, -1, 0.5, 0, 1, 1, 0, 1};
     const size_t rings[] = {4, 9}, polygons[] = {1, 2};
     sunder_shape *m;
-    assert_int_equal(sunder_shape_from_rings(members, rings, polygons, 2, SUNDER_STRICT, &m, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(members, rings, polygons, 2, SUNDER_VALIDITY_STRICT, &m, NULL), SUNDER_OK);
     a.robot = m;
     a.o[1] = (sunder_obstacle){NULL, line, end, 2};
     assert_true(failing_loop(try_route, &a, false));

@@ -208,7 +208,7 @@ static void repaired_operands(void **state)
     static const double TIE[] = {0, 0, 3, 1, 3, 0, 0, 2};
     static const size_t END[] = {4}, ONE[] = {1};
     sunder_shape *tie, *thrice = shape("MULTIPOLYGON(((0 0,6 2,0 6,0 0)),((9 3,6 2,9 0,9 3)))");
-    assert_int_equal(sunder_shape_from_rings(TIE, END, ONE, 1, SUNDER_EVEN_ODD, &tie, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(TIE, END, ONE, 1, SUNDER_VALIDITY_EVEN_ODD, &tie, NULL), SUNDER_OK);
     assert_true(sunder_shape_repaired(tie));
     static const char *Q[][2] = {{"POLYGON((1 0,4 0,4 1,1 1,1 0))", "POLYGON((3 0,12 0,12 3,3 3,3 0))"},
                                  {"POLYGON((2 1,3 2,1 2,2 1))", "POLYGON((6 3,9 6,3 6,6 3))"},
@@ -275,7 +275,7 @@ static void empty_operands(void **state)
 {
     sunder_shape *p = shape(SQUARE), *none;
     const size_t end[1] = {0};
-    assert_int_equal(sunder_shape_from_rings(NULL, end, end, 0, SUNDER_STRICT, &none, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(NULL, end, end, 0, SUNDER_VALIDITY_STRICT, &none, NULL), SUNDER_OK);
     sunder_separation s;
     assert_int_equal(sunder_pair_separate(p, none, 1, &s, NULL), SUNDER_OK);
     assert_true(!s.overlap && s.distance == 0);

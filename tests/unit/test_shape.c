@@ -27,7 +27,7 @@ static sunder_shape *sound(const char *wkt)
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    if (build(wkt, SUNDER_STRICT, &s, &err)) fail_msg("%s: %s", wkt, err.message);
+    if (build(wkt, SUNDER_VALIDITY_STRICT, &s, &err)) fail_msg("%s: %s", wkt, err.message);
     const char *fault = sunder_i_shape_check(s);
     if (fault) fail_msg("%s: %s", wkt, fault);
     assert_false(sunder_shape_repaired(s));
@@ -38,13 +38,13 @@ static void refused(const char *wkt, const char *sentence, size_t ring, size_t v
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    assert_int_equal(build(wkt, SUNDER_STRICT, &s, &err), SUNDER_EINVALID);
+    assert_int_equal(build(wkt, SUNDER_VALIDITY_STRICT, &s, &err), SUNDER_EINVALID);
     assert_null(s);
     assert_string_equal(err.message, sentence);
     assert_int_equal(err.status, SUNDER_EINVALID);
     assert_int_equal(err.ring, ring);
     assert_int_equal(err.vertex, vertex);
-    assert_int_equal(build(wkt, SUNDER_STRICT, &s, NULL), SUNDER_EINVALID);
+    assert_int_equal(build(wkt, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_EINVALID);
 }
 
 static void test_refusals(void **state)
@@ -88,12 +88,12 @@ static void test_empty_rings(void **state)
         const size_t poly_end[] = {2};
         sunder_shape *s = NULL;
         sunder_error err;
-        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_STRICT, &s, &err), SUNDER_EINVALID);
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_STRICT, &s, &err), SUNDER_EINVALID);
         assert_int_equal(err.ring, i == 1);
         assert_true(err.vertex == SIZE_MAX);
         assert_string_equal(err.message,
                             i == 1 ? "polygon 0, ring 1: the ring is empty" : "polygon 0, ring 0: the ring is empty");
-        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_EVEN_ODD, &s, &err), SUNDER_OK);
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, &err), SUNDER_OK);
         assert_true(sunder_shape_area(s) == (i == 2 ? 0 : 40.5));
         assert_true(sunder_shape_repaired(s));
         sunder_shape_free(s);
@@ -101,7 +101,7 @@ static void test_empty_rings(void **state)
     /* A polygon without rings among others is no fault. */
     const size_t ring_end[] = {3}, poly_end[] = {0, 1, 1};
     sunder_shape *s = NULL;
-    assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 3, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 3, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
     assert_int_equal(sunder_shape_polygons(s), 1);
     sunder_shape_free(s);
 }
@@ -112,7 +112,7 @@ static void test_not_finite(void **state)
     const double bad[] = {NAN, INFINITY, -INFINITY};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         for (size_t k = 0; k < 12; k++)
-            for (int validity = SUNDER_STRICT; validity <= SUNDER_EVEN_ODD; validity++) {
+            for (int validity = SUNDER_VALIDITY_STRICT; validity <= SUNDER_VALIDITY_EVEN_ODD; validity++) {
                 double xy[] = {0, 0, 9, 0, 0, 9, 1, 1, 2, 1, 1, 2};
                 const size_t ring_end[] = {3, 6}, poly_end[] = {2};
                 sunder_shape *s = NULL;
@@ -228,7 +228,7 @@ static void repaired_to(const char *wkt, size_t polygons, size_t vertices, doubl
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    if (build(wkt, SUNDER_EVEN_ODD, &s, &err)) fail_msg("%s: %s", wkt, err.message);
+    if (build(wkt, SUNDER_VALIDITY_EVEN_ODD, &s, &err)) fail_msg("%s: %s", wkt, err.message);
     const char *fault = sunder_i_shape_check(s);
     if (fault) fail_msg("%s: %s", wkt, fault);
     assert_true(sunder_shape_repaired(s));
@@ -261,7 +261,7 @@ static void test_empty(void **state)
 {
     (void)state;
     sunder_shape *s = NULL;
-    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(NULL, NULL, NULL, 0, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
     assert_true(sunder_shape_is_empty(s));
     assert_int_equal(sunder_shape_vertices(s), 0);
     double box[4] = {1, 1, 1, 1}, anchor[2] = {1, 1};
@@ -366,7 +366,7 @@ static void test_reflect(void **state)
     static const char *const wkt[] = {"POLYGON((0 0,9 0,9 9,4 7,0 9),(2 2,3 2,3 3))", "POLYGON((0 0,3 3,3 0,0 2,0 0))"};
     for (size_t i = 0; i < 2; i++) {
         sunder_shape *s = NULL, *r = NULL, *back = NULL;
-        assert_int_equal(build(wkt[i], SUNDER_EVEN_ODD, &s, NULL), SUNDER_OK);
+        assert_int_equal(build(wkt[i], SUNDER_VALIDITY_EVEN_ODD, &s, NULL), SUNDER_OK);
         assert_int_equal(sunder_shape_reflect(s, &r, NULL), SUNDER_OK);
         assert_int_equal(sunder_shape_reflect(r, &back, NULL), SUNDER_OK);
         assert_null(sunder_i_shape_check(r));
@@ -420,7 +420,7 @@ static void test_translate(void **state)
     assert_null(t);
     sunder_shape_free(s);
     /* Rational corners move exactly too. */
-    assert_int_equal(build("POLYGON((0 0,3 3,3 0,0 2,0 0))", SUNDER_EVEN_ODD, &s, NULL), SUNDER_OK);
+    assert_int_equal(build("POLYGON((0 0,3 3,3 0,0 2,0 0))", SUNDER_VALIDITY_EVEN_ODD, &s, NULL), SUNDER_OK);
     assert_int_equal(sunder_shape_translate(s, 0.125, -16, &t, &exact, &err), SUNDER_OK);
     assert_true(exact && t->rational);
     assert_null(sunder_i_shape_check(t));

@@ -143,7 +143,7 @@ static bool make_bow(void *context)
     double a[2], b[2];
     bool exact;
     (void)context;
-    if (sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_EVEN_ODD, &s, NULL)) return false;
+    if (sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, NULL)) return false;
     bool made = sunder_shape_reflect(s, &r, NULL) == SUNDER_OK;
     if (made) {
         assert_true(sunder_shape_area(r) == 3.9);
@@ -181,7 +181,7 @@ static void test_copies_keep_touches(void **state)
         sunder_shape *s, *r, *t, *u;
         bool exact;
         assert_int_equal(
-            sunder_shape_from_rings(i ? plain : pinched, ring_end, poly_end, 1, SUNDER_STRICT, &s, NULL), SUNDER_OK);
+            sunder_shape_from_rings(i ? plain : pinched, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
         assert_int_equal(sunder_shape_touches(s), i == 0);
         assert_int_equal(sunder_shape_reflect(s, &r, NULL), SUNDER_OK);
         assert_int_equal(sunder_shape_translate(s, 8, -3, &t, &exact, NULL), SUNDER_OK);

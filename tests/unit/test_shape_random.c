@@ -27,7 +27,7 @@ static sunder_shape *build(const polyset *set, uint64_t i)
 {
     sunder_shape *s = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_STRICT, &s, &err))
+    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_STRICT, &s, &err))
         explain(set, i, err.message);
     const char *fault = sunder_i_shape_check(s);
     if (fault) explain(set, i, fault);
@@ -92,7 +92,7 @@ static void test_gears(void **state)
         sunder_shape *s = NULL;
         sunder_error err;
         /* A hole may have come out crossing itself. */
-        if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_EVEN_ODD, &s, &err))
+        if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_VALIDITY_EVEN_ODD, &s, &err))
             explain(&set, i, err.message);
         const char *fault = sunder_i_shape_check(s);
         if (fault) explain(&set, i, fault);
@@ -191,7 +191,7 @@ static sunder_shape *bow_tie(rng *g)
     const double xy[] = {0, 0, a, 7, a, 0, 0, b + 0.125};
     const size_t ring_end[] = {4}, poly_end[] = {1};
     sunder_shape *s = NULL;
-    assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_EVEN_ODD, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, NULL), SUNDER_OK);
     return s;
 }
 
@@ -257,7 +257,7 @@ static void test_no_memory(void **state)
         "MULTIPOLYGON(((0 0,7 5,7 0,0 6)),((1 1,3 1,3 3)),((0 0,1e200 1e-200,3 7,1 -1e-300)))",
     };
     for (size_t i = 0; i < sizeof wkt / sizeof *wkt; i++) {
-        attempt_context c = {.validity = SUNDER_EVEN_ODD};
+        attempt_context c = {.validity = SUNDER_VALIDITY_EVEN_ODD};
         polyset_init(&c.set);
         assert_true(polyset_read_wkt(&c.set, wkt[i], NULL));
         /* Area and anchor answer zero where memory is out, so an attempt may well survive a failure elsewhere. */
@@ -265,7 +265,7 @@ static void test_no_memory(void **state)
         polyset_free(&c.set);
     }
     /* Something large: grids, trees, many holes. */
-    attempt_context c = {.validity = SUNDER_STRICT};
+    attempt_context c = {.validity = SUNDER_VALIDITY_STRICT};
     polyset_init(&c.set);
     const double outer[] = {0, 0, 100, 0, 100, 100, 0, 100};
     polyset_ring(&c.set, outer, 4);

@@ -117,7 +117,7 @@ static void test_spikes(void **state)
     rng r = rng_start(test_seed(), 0);
     spikes(xy, &r);
     sunder_shape *shape;
-    assert_int_equal(sunder_shape_from_rings(xy, &ring, &polygon, 1, SUNDER_STRICT, &shape, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, NULL), SUNDER_OK);
     assert_false(sunder_shape_touches(shape));
     sunder_shape_free(shape);
 
@@ -127,12 +127,12 @@ static void test_spikes(void **state)
     moved[2 * (SPIKES - 2)] = other[0];
     moved[2 * (SPIKES - 2) + 1] = other[1];
     sunder_error err;
-    const sunder_status touching = sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_STRICT, &shape, &err);
+    const sunder_status touching = sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err);
     assert_true(touching == SUNDER_EINVALID || (touching == SUNDER_OK && sunder_shape_touches(shape)));
     if (touching == SUNDER_OK) sunder_shape_free(shape);
     moved[2 * (SPIKES - 2)] = 3 * other[0] - foot[0];
     moved[2 * (SPIKES - 2) + 1] = 3 * other[1] - foot[1];
-    assert_int_equal(sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_STRICT, &shape, &err), SUNDER_EINVALID);
+    assert_int_equal(sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_EINVALID);
 }
 
 int main(void)

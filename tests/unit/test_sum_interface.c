@@ -58,9 +58,9 @@ static void test_same_operand(void **state)
     assert_int_equal(sunder_minkowski_sum(p, q, NULL, &twice, NULL), SUNDER_OK);
     char *a = sum_text(once), *b = sum_text(twice);
     assert_string_equal(a, b);
-    sunder_operations n;
+    sunder_counts n;
     double decompose = -1, subsums = -1, unite = -1;
-    sunder_sum_operations(once, &n);
+    sunder_sum_get_counts(once, &n);
     assert_true(n.comparisons + n.orientation_tests > 0);
     sunder_sum_seconds(once, &decompose, &subsums, &unite);
     assert_true(decompose >= 0 && subsums >= 0 && unite >= 0);
@@ -95,8 +95,8 @@ static void expect_frames(const sunder_sum *sum, const double m[4])
 {
     static const double outer[3] = {91, 61, 31}, inner[3] = {79, 49, 19};
     bool found[3] = {false, false, false};
-    sunder_sum_counts n;
-    sunder_sum_count(sum, &n);
+    sunder_sum_size n;
+    sunder_sum_get_size(sum, &n);
     assert_int_equal(n.polygons, 3);
     assert_int_equal(n.holes, 3);
     for (size_t p = 0; p < 3; p++) {
@@ -211,8 +211,8 @@ static bool sum_run(void *context)
     sunder_error err = {0};
     char *x = NULL, *y = NULL, *area = NULL;
     const polyset *s = &c->p, *t = &c->q;
-    sunder_status status = sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_STRICT, &p, &err);
-    if (!status) status = sunder_shape_from_rings(t->xy, t->ring_end, t->poly_end, t->polygons, SUNDER_STRICT, &q, &err);
+    sunder_status status = sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_VALIDITY_STRICT, &p, &err);
+    if (!status) status = sunder_shape_from_rings(t->xy, t->ring_end, t->poly_end, t->polygons, SUNDER_VALIDITY_STRICT, &q, &err);
     if (!status) status = sunder_minkowski_sum(p, q, NULL, &sum, &err);
     if (!status) status = sunder_sum_area_text(sum, &area, &err);
     if (!status) status = sunder_sum_vertex_text(sum, 0, &x, &y, &err);

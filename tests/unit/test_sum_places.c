@@ -59,7 +59,7 @@ static uint64_t add_twice(bool wide, int64_t step, size_t expected)
     sunder_i_places_free(&places);
     assert_false(l.arena.failed);
     sunder_i_lattice_free(&l);
-    return l.operations.comparisons;
+    return l.counts.comparisons;
 }
 
 /* Far apart, within a square of the grid, and closer than neighbouring doubles are. */

@@ -122,15 +122,15 @@ static void check_covered(const sunder_sum *sum, const sunder_map *m)
             } while (h != sunder_map_out(m, v));
         points += alone;
     }
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
     char *text;
     assert_int_equal(sunder_sum_area_text(sum, &text, NULL), SUNDER_OK);
     assert_int_equal(mpq_set_str(want, text, 10), 0);
     mpq_div_2exp(area, area, 1);
     assert_true(mpq_equal(area, want));
-    assert_int_equal(points, counts.degenerate_points);
-    assert_true(slits / 2 >= counts.degenerate_segments && (slits == 0) == (counts.degenerate_segments == 0));
+    assert_int_equal(points, size.degenerate_points);
+    assert_true(slits / 2 >= size.degenerate_segments && (slits == 0) == (size.degenerate_segments == 0));
     sunder_free(text);
     mpq_clears(a[0], a[1], b[0], b[1], area, part, want, NULL);
 }
@@ -153,9 +153,9 @@ static void test_map(void **state)
             check_links(m);
             check_boundaries(m);
             check_covered(sum, m);
-            sunder_sum_counts counts;
-            sunder_sum_count(sum, &counts);
-            holes += counts.degenerate_points + counts.degenerate_segments;
+            sunder_sum_size size;
+            sunder_sum_get_size(sum, &size);
+            holes += size.degenerate_points + size.degenerate_segments;
             sunder_sum_free(sum);
             sunder_shape_free(a);
             sunder_shape_free(b);
@@ -180,8 +180,8 @@ static void test_map_of_four(void **state)
     sunder_sum_method method;
     assert_int_equal(sunder_minkowski_sum(a, b, &how, &sum, NULL), SUNDER_OK);
     sunder_sum_get_method(sum, &method);
-    assert_int_equal(method.algorithm, SUNDER_ARRANGEMENT); /* what AUTO is with a map */
-    assert_int_equal(method.decomposition, SUNDER_ANGLE_BISECTOR);
+    assert_int_equal(method.algorithm, SUNDER_ALGORITHM_ARRANGEMENT); /* what AUTO is with a map */
+    assert_int_equal(method.decomposition, SUNDER_DECOMPOSITION_ANGLE_BISECTOR);
     assert_int_equal(method.pieces_p, 2);
     assert_int_equal(method.pieces_q, 1);
     const sunder_map *m = sunder_sum_map(sum);
@@ -306,7 +306,7 @@ static void test_fatness(void **state)
             sunder_i_map_size size;
             sunder_i_planar_map_size(map, &size);
             edges[w] = size.edges;
-            crossings[w] = f.u.lattice->operations.segment_intersections;
+            crossings[w] = f.u.lattice->counts.segment_intersections;
             sunder_i_planar_map_free(map);
             fixture_end(&f);
             assert_int_equal(edges[w], edges[0]);
@@ -329,7 +329,7 @@ static void test_options(void **state)
     const sunder_sum_options wrong[] = {{.algorithm = (sunder_algorithm)17},
                                         {.decomposition = (sunder_decomposition)17},
                                         {.order = (sunder_order)17},
-                                        {.algorithm = SUNDER_CONVOLUTION, .keep_map = true}};
+                                        {.algorithm = SUNDER_ALGORITHM_CONVOLUTION, .keep_map = true}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         sunder_sum *sum = NULL;
         sunder_error err;
@@ -338,14 +338,14 @@ static void test_options(void **state)
         assert_null(sum);
     }
     sunder_sum *sum;
-    sunder_operations operations;
+    sunder_counts counts;
     assert_int_equal(sunder_minkowski_sum(p, p, NULL, &sum, NULL), SUNDER_OK);
     assert_null(sunder_sum_map(sum));
-    assert_false(sunder_sum_phase(sum, SUNDER_PHASE_UNION, &operations));
-    assert_int_equal(operations.comparisons, 0);
+    assert_false(sunder_sum_phase(sum, SUNDER_PHASE_UNION, &counts));
+    assert_int_equal(counts.comparisons, 0);
     sunder_sum_free(sum);
-    assert_string_equal(sunder_algorithm_string(SUNDER_DIVIDE), "divide");
-    assert_string_equal(sunder_decomposition_string(SUNDER_MIXED), "mixed");
+    assert_string_equal(sunder_algorithm_string(SUNDER_ALGORITHM_DIVIDE), "divide");
+    assert_string_equal(sunder_decomposition_string(SUNDER_DECOMPOSITION_MIXED), "mixed");
     assert_string_equal(sunder_order_string(SUNDER_ORDER_GIVEN), "given");
     assert_string_equal(sunder_order_string((sunder_order)17), "");
     sunder_shape_free(p);
@@ -366,10 +366,10 @@ static void test_empty(void **state)
         const sunder_shape *const pairs[3][2] = {{p, q}, {q, p}, {p, p}};
         for (int k = 0; k < 3; k++) {
             sunder_sum *sum;
-            sunder_sum_counts counts;
+            sunder_sum_size size;
             assert_int_equal(sunder_minkowski_sum(pairs[k][0], pairs[k][1], &how, &sum, NULL), SUNDER_OK);
-            sunder_sum_count(sum, &counts);
-            assert_int_equal(counts.polygons, 0);
+            sunder_sum_get_size(sum, &size);
+            assert_int_equal(size.polygons, 0);
             assert_int_equal(sunder_map_faces(sunder_sum_map(sum)), 1);
             sunder_sum_free(sum);
         }

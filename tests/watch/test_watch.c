@@ -50,7 +50,7 @@ typedef struct operands {
 
 static sunder_status shape_of(const polyset *set, sunder_shape **out)
 {
-    return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_EVEN_ODD, out, NULL);
+    return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_EVEN_ODD, out, NULL);
 }
 
 static sunder_status make(operands *o, int how)
@@ -77,11 +77,11 @@ static sunder_status copy(operands *o, int how)
 static sunder_status read_sum(sunder_sum *sum)
 {
     char *text = NULL, *x, *y;
-    sunder_sum_counts counts;
-    sunder_sum_count(sum, &counts);
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
     sunder_status status = sunder_sum_area_text(sum, &text, NULL);
     if (status == SUNDER_OK) sunder_free(text);
-    for (size_t p = 0; p < counts.polygons && status == SUNDER_OK; p++) {
+    for (size_t p = 0; p < size.polygons && status == SUNDER_OK; p++) {
         size_t n;
         double deviation = 0;
         const uint32_t *ring = sunder_sum_ring(sum, p, 0, &n);
@@ -102,7 +102,7 @@ static sunder_status add(operands *o, int how)
 {
     const sunder_sum_options options = {.algorithm = (sunder_algorithm)(how % 10),
                                         .decomposition = (sunder_decomposition)(how / 10),
-                                        .keep_map = how % 10 == SUNDER_ARRANGEMENT};
+                                        .keep_map = how % 10 == SUNDER_ALGORITHM_ARRANGEMENT};
     sunder_sum *sum;
     const sunder_status status = sunder_minkowski_sum(o->shape[0], o->shape[1], &options, &sum, NULL);
     return status == SUNDER_OK ? read_sum(sum) : status;
@@ -187,13 +187,13 @@ typedef struct work {
 } work;
 
 static const work works[] = {
-    {"from_rings", make, 0}, {"reflect, translate", copy, 0}, {"sum, convolution", add, SUNDER_CONVOLUTION},
-    {"sum, arrangement", add, SUNDER_ARRANGEMENT}, {"sum, incremental", add, SUNDER_INCREMENTAL},
-    {"sum, divide", add, SUNDER_DIVIDE}, {"sum, vertical pieces", add, 10 * SUNDER_VERTICAL + SUNDER_DIVIDE},
-    {"sum, triangles", add, 10 * SUNDER_TRIANGULATION + SUNDER_DIVIDE},
-    {"sum, optimal pieces", add, 10 * SUNDER_OPTIMAL + SUNDER_DIVIDE},
-    {"sum, mixed pieces", add, 10 * SUNDER_MIXED + SUNDER_DIVIDE},
-    {"erode", grow, SUNDER_ERODE}, {"open", grow, SUNDER_OPEN}, {"close", grow, SUNDER_CLOSE}, {"union", unite, 0},
+    {"from_rings", make, 0}, {"reflect, translate", copy, 0}, {"sum, convolution", add, SUNDER_ALGORITHM_CONVOLUTION},
+    {"sum, arrangement", add, SUNDER_ALGORITHM_ARRANGEMENT}, {"sum, incremental", add, SUNDER_ALGORITHM_INCREMENTAL},
+    {"sum, divide", add, SUNDER_ALGORITHM_DIVIDE}, {"sum, vertical pieces", add, 10 * SUNDER_DECOMPOSITION_VERTICAL + SUNDER_ALGORITHM_DIVIDE},
+    {"sum, triangles", add, 10 * SUNDER_DECOMPOSITION_TRIANGULATION + SUNDER_ALGORITHM_DIVIDE},
+    {"sum, optimal pieces", add, 10 * SUNDER_DECOMPOSITION_OPTIMAL + SUNDER_ALGORITHM_DIVIDE},
+    {"sum, mixed pieces", add, 10 * SUNDER_DECOMPOSITION_MIXED + SUNDER_ALGORITHM_DIVIDE},
+    {"erode", grow, SUNDER_OPERATION_ERODE}, {"open", grow, SUNDER_OPERATION_OPEN}, {"close", grow, SUNDER_OPERATION_CLOSE}, {"union", unite, 0},
     {"pair", part, 0}, {"pair, gap 3", part, 3}, {"overlap", relate, 0}, {"apart", relate, 1}, {"distance", relate, 2},
     {"check", layer, 0}, {"check, gap 3", layer, 6}, {"separate", layer, 1}, {"separate, gap 3", layer, 7},
     {"route", route, 0}, {"route, gap", route, 1}};
