@@ -23,8 +23,8 @@
  *
  * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
 #include "decomposition/maker.h"
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

@@ -13,7 +13,7 @@
  * ends on the other side of a line or runs on as the extension of an edge, are left out of the pieces
  * (sunder_i_maker_end_piece()). */
 #include "decomposition/maker.h"
-#include "number/sort.h"
+#include "base/sort.h"
 
 #include <string.h>
 

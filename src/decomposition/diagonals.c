@@ -1,6 +1,6 @@
 /* Decompositions by diagonals alone: every corner is a vertex of the shape. */
 #include "decomposition/maker.h"
-#include "number/sort.h"
+#include "base/sort.h"
 
 #include <math.h>
 

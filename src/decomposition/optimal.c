@@ -30,7 +30,7 @@
  * n) at worst and far less as a rule; memory O(r n). */
 #include "decomposition/maker.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>

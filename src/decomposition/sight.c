@@ -8,7 +8,7 @@
  * through several windows. */
 #include "decomposition/maker.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <string.h>
 

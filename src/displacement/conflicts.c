@@ -1,7 +1,7 @@
 /* Conflicts as they are reported: what kind, how bad, and why they remain. */
 #include "displacement/peace.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

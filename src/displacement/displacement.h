@@ -3,9 +3,10 @@
 #ifndef SUNDER_I_DISPLACEMENT_H
 #define SUNDER_I_DISPLACEMENT_H
 
-#include "number/parallel.h"
-#include "number/watch.h"
+#include "base/parallel.h"
+#include "base/watch.h"
 #include "separation/separation.h"
+#include "spatial/rtree.h"
 
 /* ---- The layer ---------------------------------------------------------------------------------------------- */
 
@@ -36,48 +37,6 @@ sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out,
 static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
     return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
-}
-
-/* ---- Broad phase ------------------------------------------------------------------------------------------------ */
-
-/* A packed R-tree over boxes; it serves as well when some of them move. */
-typedef struct sunder_i_index {
-    double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
-    uint32_t *item;   /* [leaves] what each leaf holds */
-    uint32_t *leaf;   /* [items] where each is; of no meaning for those that were not present */
-    size_t level[16]; /* first node of each level; level[levels] is the end */
-    unsigned levels;
-    size_t leaves;
-    double sprawl, packed; /* sum of width and height of all nodes that are no leaves: now, and when it was built */
-} sunder_i_index;
-
-/* Boxes of the items for which present[i] (NULL: all). */
-sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
-                                   sunder_error *err);
-void sunder_i_index_free(sunder_i_index *tree);
-/* A present item has another box from now on. */
-void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4]);
-/* Have so many moved so far that it should be built again? */
-bool sunder_i_index_is_worn(const sunder_i_index *tree);
-
-typedef struct sunder_i_list {
-    uint32_t *item;
-    size_t n, capacity;
-} sunder_i_list;
-
-/* For qsort() and bsearch(). */
-int sunder_i_by_number(const void *a, const void *b);
-/* Sorts n numbers and drops repeats; returns how many are left. */
-size_t sunder_i_set_make(uint32_t *number, size_t n);
-bool sunder_i_set_has(const uint32_t *set, size_t n, uint32_t number);
-
-/* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
-bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
-/* The box grown by reach, rounded outward. */
-void sunder_i_box_grow(const double box[4], double reach, double out[4]);
-static inline bool sunder_i_box_meet(const double *a, const double *b)
-{
-    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
 /* ---- Exact relations of pairs ------------------------------------------------------------------------------------ */
@@ -139,16 +98,6 @@ typedef struct sunder_i_piece {
 
 /* How far the body may go. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
-
-/* Two features that may overlap; sorted. */
-typedef struct sunder_i_couple {
-    uint32_t a, b;
-} sunder_i_couple;
-
-/* For qsort(). */
-int sunder_i_by_couple(const void *a, const void *b);
-/* Where the pair, in either order, is in a sorted list of pairs with the lesser first; n if it is not. */
-size_t sunder_i_couple_at(const sunder_i_couple *list, size_t n, uint32_t x, uint32_t y);
 
 /* A pair of features, a < b, that is left in conflict, and what is demanded of it instead of peace: that b + shift keep
  * `gap` from a; or that the one stay inside the other. See truce.c. */

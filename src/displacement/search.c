@@ -1,7 +1,7 @@
 /* One cluster as the search sees it: which bodies stand near each other, which clash, and by how much. */
 #include "displacement/search.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>

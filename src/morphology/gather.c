@@ -2,8 +2,8 @@
  * lexicographic order. The lattices have one unit. */
 #include "morphology/morphology.h"
 
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 /* Where something of a part is found. */
 typedef struct source {

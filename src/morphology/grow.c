@@ -26,9 +26,9 @@
  * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
 #include "minkowski/minkowski.h"
 #include "morphology/morphology.h"
-#include "number/random.h"
+#include "base/random.h"
 #include "predicate/vector.h"
-#include "unions/unions.h"
+#include "sum/from_map.h"
 
 typedef struct growth {
     const sunder_i_figure *figure;

@@ -8,7 +8,7 @@
  *
  * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
 #include "morphology/morphology.h"
-#include "number/parallel.h"
+#include "base/parallel.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -9,7 +9,7 @@
  * rounded in between. P's members may overlap: an erosion takes their union first. */
 #include "morphology/morphology.h"
 #include "minkowski/minkowski.h"
-#include "number/watch.h"
+#include "base/watch.h"
 
 /* A stage of several, as the caller's options see it. */
 typedef struct stage {

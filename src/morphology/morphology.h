@@ -10,7 +10,7 @@
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
 
-#include "minkowski/sum.h"
+#include "sum/sum.h"
 #include "planar_map/planar_map.h"
 #include "shape/shape.h"
 

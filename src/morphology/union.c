@@ -4,9 +4,9 @@
  * The open pieces leave out the diagonals between them and walls that members share. Both have cover on both sides, so
  * neither is boundary; they would come out as degenerate segments and points, which the union of closed members has
  * none of. */
-#include "minkowski/buried.h"
-#include "minkowski/hulls.h"
-#include "minkowski/stages.h"
+#include "outline/buried.h"
+#include "convex/hulls.h"
+#include "outline/outline.h"
 #include "morphology/morphology.h"
 
 #include <string.h>

@@ -6,8 +6,8 @@
  * be reached is decided exactly, and reaching a farther one would not be wrong. */
 #include "motion/corners.h"
 
-#include "minkowski/coverage.h"
-#include "minkowski/strips.h"
+#include "outline/coverage.h"
+#include "spatial/strips.h"
 
 #include <math.h>
 #include <string.h>

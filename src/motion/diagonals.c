@@ -1,6 +1,6 @@
 #include "motion/diagonals.h"
 
-#include "number/sort.h"
+#include "base/sort.h"
 #include "predicate/predicate.h"
 #include "predicate/vector.h"
 

@@ -16,7 +16,7 @@
 #ifndef SUNDER_I_DIAGONALS_H
 #define SUNDER_I_DIAGONALS_H
 
-#include "minkowski/hulls.h"
+#include "convex/hulls.h"
 #include "shape/shape.h"
 
 typedef struct sunder_i_diagonals {

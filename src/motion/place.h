@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_PLACE_AT_H
 #define SUNDER_I_PLACE_AT_H
 
-#include "minkowski/sum.h"
+#include "sum/sum.h"
 
 typedef struct sunder_i_place_at {
     sunder_i_big x, y, w;

@@ -1,7 +1,7 @@
 /* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
 #include "motion/search.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "motion/space.h"
 
-#include "minkowski/buried.h"
-#include "minkowski/stages.h"
+#include "outline/buried.h"
+#include "outline/outline.h"
 #include "motion/diagonals.h"
 #include "motion/whole.h"
 #include "predicate/predicate.h"

@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_SPACE_H
 #define SUNDER_I_SPACE_H
 
-#include "minkowski/hulls.h"
+#include "convex/hulls.h"
 #include "motion/place.h"
 
 /* A stretch of the outline between two vertices of the sum: a side of O, or of a degenerate segment. */

@@ -5,7 +5,7 @@
  * to these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
 #include "motion/space.h"
 
-#include "shape/build.h"
+#include "spatial/curve.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "motion/view.h"
 
-#include "shape/build.h"
+#include "spatial/curve.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "number/big.h"
 
 #include "number/huge.h"
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <limits.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_BIG_H
 #define SUNDER_I_BIG_H
 
-#include "number/memory.h"
+#include "base/memory.h"
 #include "number/wide.h"
 
 #include <gmp.h>

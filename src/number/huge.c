@@ -1,6 +1,6 @@
 #include "number/huge.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <string.h>
 

@@ -21,7 +21,7 @@
 #define SUNDER_I_LATTICE_H
 
 #include "number/big.h"
-#include "number/memory.h"
+#include "base/memory.h"
 #include "sunder.h"
 
 #define SUNDER_I_NARROW_BITS 60 /* |coordinate| and |sum of two operands' coordinates| < 2^60 on a narrow lattice */

@@ -9,7 +9,7 @@
  * 0 towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should. */
 #include "planar_map/map.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 void sunder_i_map_settle_edge(sunder_i_planar_map *map, uint32_t e)
 {

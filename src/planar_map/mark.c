@@ -3,7 +3,7 @@
  * trapezoids along one side of it are neighbours across walls. */
 #include "planar_map/map.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t stop, uint32_t to[6], int64_t step[6])
 {

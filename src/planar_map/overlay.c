@@ -3,7 +3,7 @@
  * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the
  * other map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior,
  * so walks add nothing to it but what the overlaid edges say. */
-#include "number/random.h"
+#include "base/random.h"
 #include "planar_map/map.h"
 
 static uint32_t copied_line(sunder_i_planar_map *map, const sunder_i_map_line *from)

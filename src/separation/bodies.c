@@ -2,7 +2,7 @@
  * they hold for certain. */
 #include "separation/bodies.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

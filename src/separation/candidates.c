@@ -7,7 +7,7 @@
  * them covers is covered: each is asked for itself. Diagonals of the decomposition lie inside an operand, so what they
  * would carry is covered. */
 #include "separation/candidates.h"
-#include "number/watch.h"
+#include "base/watch.h"
 #include "separation/cones.h"
 #include "separation/held.h"
 

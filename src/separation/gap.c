@@ -1,6 +1,6 @@
 #include "separation/gap_search.h"
 
-#include "number/sort.h"
+#include "base/sort.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The search with a gap: its numbers, and what covers a point. */
 #include "separation/gap_search.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <float.h>
 #include <math.h>

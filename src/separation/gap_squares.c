@@ -11,8 +11,8 @@
 #include "separation/gap.h"
 #include "separation/squares_inner.h"
 
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>

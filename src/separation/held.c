@@ -5,7 +5,7 @@
  * of all subsums that come within that error. */
 #include "separation/held.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

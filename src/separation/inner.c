@@ -1,6 +1,6 @@
 #include "separation/inner.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_PAIRING_H
 #define SUNDER_I_PAIRING_H
 
-#include "number/watch.h"
+#include "base/watch.h"
 #include "predicate/kernel.h"
 #include "separation/separation.h"
 

@@ -2,8 +2,8 @@
  * pieces are parted from short ones, and those of one direction from those of another. */
 #include "separation/piece_tree.h"
 
-#include "number/random.h"
-#include "number/watch.h"
+#include "base/random.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

@@ -12,7 +12,7 @@
  * error. */
 #include "separation/squares_inner.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

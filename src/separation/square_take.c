@@ -1,7 +1,7 @@
 /* The subsums of an open square, and the segments of the reduced convolution that come near it. */
 #include "separation/squares_inner.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 

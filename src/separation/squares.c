@@ -3,7 +3,7 @@
  * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
 #include "separation/squares_inner.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

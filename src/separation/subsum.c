@@ -2,8 +2,8 @@
  * by direction. */
 #include "separation/pairing.h"
 
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>

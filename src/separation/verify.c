@@ -2,8 +2,8 @@
  * the search. */
 #include "separation/nearest.h"
 
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 #include <math.h>
 

@@ -6,7 +6,7 @@
  * crossed on the way to it. */
 #include "shape/even_odd.h"
 
-#include "number/sort.h"
+#include "base/sort.h"
 
 #include <string.h>
 

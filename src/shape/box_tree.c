@@ -8,6 +8,8 @@
  * are always candidates. */
 #include "shape/build.h"
 
+#include "spatial/curve.h"
+
 #include <math.h>
 
 /* Tails of the edges, rings in the curve's order of their first vertices. */

@@ -1,7 +1,6 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
  * clean.c      one raw ring -> its corners
- * curve.c      order along a space-filling curve
  * box_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
  * contact.c    where rings cross (an error) or touch
  * simple.c     that nothing meets, by a sweep, where boxes do not tell edges apart
@@ -92,11 +91,7 @@ typedef struct sunder_i_problem {
 uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
                              uint32_t hi, uint32_t *keep, sunder_i_problem *problem);
 
-/* ---- curve.c, box_tree.c ---- */
-
-/* Sorts a list of n numbers along a space-filling curve; number i stands at vertex[i]. The arena says if memory is
- * out. */
-void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *list, size_t n, sunder_i_arena *arena);
+/* ---- box_tree.c ---- */
 
 /* A binary tree of boxes over edges in the order of the rings (rings that are many are first put in order along a
  * space-filling curve). Edges near each other along a ring are near each other in the plane, so nothing is sorted. */

@@ -21,7 +21,8 @@
  * candidates too. */
 #include "shape/ears.h"
 
-#include "number/watch.h"
+#include "base/watch.h"
+#include "spatial/curve.h"
 
 #include <float.h>
 #include <math.h>

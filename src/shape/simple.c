@@ -9,9 +9,9 @@
  * as its place is sought; nothing has gone wrong in the order before that. */
 #include "shape/build.h"
 
-#include "number/random.h"
-#include "number/sort.h"
-#include "number/watch.h"
+#include "base/random.h"
+#include "base/sort.h"
+#include "base/watch.h"
 
 typedef struct node {
     uint32_t edge, up, low, high; /* of the tree; NONE */

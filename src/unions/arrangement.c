@@ -11,7 +11,7 @@
  *
  * Cost: expected O(I + k log k) for k sides of subsums and I crossings, whatever the sum is like: I may be of order k^2
  * for a sum of a few vertices. The insertion order bears on the search and on walls cut, never on I. */
-#include "number/random.h"
+#include "base/random.h"
 #include "unions/unions.h"
 
 static sunder_status arrange(sunder_i_uniting *u, uint32_t *subsum, sunder_i_planar_map *map, sunder_error *err)

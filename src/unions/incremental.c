@@ -10,7 +10,7 @@
  * Cost: what is inserted and what is removed. Good where the union stays small, and better where fat subsums come first
  * (order.c); where no subsum covers much of another's crossings, nothing is gained over the arrangement and removal is
  * paid besides. */
-#include "number/random.h"
+#include "base/random.h"
 #include "unions/unions.h"
 
 static sunder_status unite(sunder_i_uniting *u, uint32_t *subsum, uint32_t first, uint32_t n, sunder_i_planar_map *map,

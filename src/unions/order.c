@@ -12,8 +12,8 @@
  *
  * and README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
  * same union. */
-#include "number/random.h"
-#include "number/sort.h"
+#include "base/random.h"
+#include "base/sort.h"
 #include "unions/unions.h"
 
 #include <math.h>

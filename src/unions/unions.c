@@ -1,6 +1,9 @@
 /* The stages of a sum by union: operands on one lattice, pieces, the union, the outline read off its map. */
 #include "unions/unions.h"
 
+#include "sum/from_map.h"
+#include "sum/map_view.h"
+
 #include <inttypes.h>
 #include <string.h>
 #include <time.h>

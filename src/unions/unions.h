@@ -7,13 +7,12 @@
  * order.c        in what order the subsums go in
  * feed.c         subsums made one at a time and put into a map
  * arrangement.c, incremental.c, divide.c    the three unions
- * outline.c      from a marked map to the canonical sum
- * map_view.c     the map, for users */
+ * and sum/from_map.c, map_view.c             from a marked map to the canonical sum; the map, for users */
 #ifndef SUNDER_I_UNIONS_H
 #define SUNDER_I_UNIONS_H
 
-#include "decomposition/convex_sum.h"
-#include "minkowski/sum.h"
+#include "convex/convex_sum.h"
+#include "sum/sum.h"
 #include "planar_map/planar_map.h"
 
 /* Fills an empty sum (but for its algorithm) by one of the three roads. On failure the caller frees the sum.
@@ -64,24 +63,5 @@ sunder_status sunder_i_unite_by_halves(sunder_i_uniting *u, sunder_i_planar_map 
 /* The incremental union of the subsums first .. first + n - 1. */
 sunder_status sunder_i_unite_some(sunder_i_uniting *u, uint32_t first, uint32_t n, sunder_i_planar_map **out,
                                   sunder_error *err);
-
-/* The canonical sum off a marked map: fills vertices, rings, polygons, segments and points of the sum. */
-sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);
-
-/* Another set than what is covered: its faces (by number; not face 0), and which of the edges and vertices that no
- * region covers, between covered faces, are its parts without area (NULL: none). An edge with the set on both sides is
- * inside. */
-typedef struct sunder_i_inside {
-    const bool *face, *edge, *vertex;
-} sunder_i_inside;
-
-/* The same, off a map whose faces are in force. */
-sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
-                                  sunder_error *err);
-
-/* Takes a marked map over for users to look at, also on failure. */
-sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum *sum, sunder_map **out,
-                                     sunder_error *err);
-void sunder_i_map_view_free(sunder_map *map);
 
 #endif

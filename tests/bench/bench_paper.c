@@ -6,7 +6,7 @@
  *
  * Seconds are medians for pieces, of one run for orders. Uses the library's inner headers: pieces and measures are no
  * part of the public interface. */
-#include "decomposition/convex_sum.h"
+#include "convex/convex_sum.h"
 #include "unions/unions.h"
 #include "wkt_input.h"
 

@@ -2,7 +2,7 @@
  * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is
  * dropped. */
 #include "generate.h"
-#include "minkowski/buried.h"
+#include "outline/buried.h"
 #include "minkowski/minkowski.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -3,7 +3,7 @@
  * that the general road cannot answer for it; where it declines there is nothing to compare, but it may not always do
  * so. */
 #include "generate.h"
-#include "minkowski/traced.h"
+#include "minkowski/convolution.h"
 #include "oracle.h"
 #include "sum_text.h"
 

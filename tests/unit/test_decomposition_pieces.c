@@ -1,6 +1,6 @@
 /* Convex decompositions on shapes small enough to know the answer; sums of convex pieces against hulls of all sums
  * of corners; memory that runs out. The proofs on random input are in property/test_decomposition.c. */
-#include "decomposition/convex_sum.h"
+#include "convex/convex_sum.h"
 #include "decomposition/maker.h"
 #include "failing.h"
 #include "generate.h"

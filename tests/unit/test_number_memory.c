@@ -1,7 +1,7 @@
 /* number/memory and number/sort: the hooks, growing arrays, arenas, errors; sorting on memory of our own. */
 #include "failing.h"
-#include "number/memory.h"
-#include "number/sort.h"
+#include "base/memory.h"
+#include "base/sort.h"
 #include "random.h"
 
 #include <setjmp.h>

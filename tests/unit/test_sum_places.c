@@ -1,7 +1,7 @@
 /* minkowski/places.h: every point gets the number of its place, however its integers are written, spread out or crowded
  * in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
 #include "failing.h"
-#include "minkowski/places.h"
+#include "outline/places.h"
 #include "random.h"
 
 #include <setjmp.h>

@@ -1,0 +1,47 @@
+/* The error of a failed call: what a person needs to know, in a caller's struct. */
+#include "base/error.h"
+
+#include "base/watch.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void fill(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
+                 const char *format, va_list args)
+{
+    err->status = status;
+    err->polygon = polygon;
+    err->ring = ring;
+    err->vertex = vertex;
+    vsnprintf(err->message, sizeof err->message, format, args);
+}
+
+sunder_status sunder_i_fail(sunder_error *err, sunder_status status, const char *format, ...)
+{
+    if (err) {
+        va_list args;
+        va_start(args, format);
+        fill(err, status, SIZE_MAX, SIZE_MAX, SIZE_MAX, format, args);
+        va_end(args);
+    }
+    return status;
+}
+
+sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
+                               const char *format, ...)
+{
+    if (err) {
+        va_list args;
+        va_start(args, format);
+        fill(err, status, polygon, ring, vertex, format, args);
+        va_end(args);
+    }
+    return status;
+}
+
+sunder_status sunder_i_no_memory(sunder_error *err)
+{
+    const bool too_many = sunder_i_was_too_many();
+    const sunder_status why = sunder_i_stopped() ? SUNDER_ECANCEL : too_many ? SUNDER_ESIZE : SUNDER_ENOMEM;
+    return sunder_i_fail(err, why, "%s", sunder_status_string(why));
+}

@@ -1,0 +1,17 @@
+/* Filling a caller's error. */
+#ifndef SUNDER_I_ERROR_H
+#define SUNDER_I_ERROR_H
+
+#include "sunder.h"
+
+/* Fills *err (if not NULL) and returns status, so that a function can end with `return sunder_i_fail(...)`. */
+sunder_status sunder_i_fail(sunder_error *err, sunder_status status, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The same with a place. */
+sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
+                               const char *format, ...) __attribute__((format(printf, 6, 7)));
+/* The error of work that was given no memory, or otherwise cut short: SUNDER_ENOMEM, or, where that is why (watch.h),
+ * SUNDER_ECANCEL or SUNDER_ESIZE. */
+sunder_status sunder_i_no_memory(sunder_error *err);
+
+#endif

@@ -1,0 +1,150 @@
+#include "base/memory.h"
+
+#include "base/watch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The hooks are the one piece of global state; sunder_set_allocator() says when they may be set. */
+static void *(*hook_alloc)(size_t) = malloc;
+static void *(*hook_realloc)(void *, size_t) = realloc;
+static void (*hook_free)(void *) = free;
+
+void sunder_set_allocator(void *(*allocate)(size_t), void *(*reallocate)(void *, size_t), void (*release)(void *))
+{
+    hook_alloc = allocate ? allocate : malloc;
+    hook_realloc = reallocate ? reallocate : realloc;
+    hook_free = release ? release : free;
+}
+
+void sunder_free(void *memory) { sunder_i_free(memory); }
+
+static bool bytes(size_t n, size_t size, size_t *out)
+{
+    if (size != 0 && n > SIZE_MAX / 2 / size) return false;
+    *out = n == 0 || size == 0 ? 1 : n * size;
+    return true;
+}
+
+void *sunder_i_alloc(size_t n, size_t size)
+{
+    size_t b;
+    return sunder_i_step() && bytes(n, size, &b) ? hook_alloc(b) : NULL;
+}
+
+void *sunder_i_calloc(size_t n, size_t size)
+{
+    size_t b;
+    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
+    void *p = hook_alloc(b);
+    if (p) memset(p, 0, b);
+    return p;
+}
+
+void *sunder_i_realloc(void *old, size_t n, size_t size)
+{
+    size_t b;
+    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
+    return old ? hook_realloc(old, b) : hook_alloc(b);
+}
+
+void sunder_i_free(void *memory)
+{
+    if (memory) hook_free(memory);
+}
+
+bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
+{
+    if (need <= *capacity) return true;
+    size_t want = *capacity ? *capacity : need > 16 ? need : 16; /* a first size that was worked out is kept to */
+    while (want < need) {
+        if (want > SIZE_MAX / 4) return false;
+        want *= 2;
+    }
+    void *old;
+    memcpy(&old, array, sizeof old);
+    void *grown = sunder_i_realloc(old, want, size);
+    if (!grown) return false;
+    memcpy(array, &grown, sizeof grown);
+    *capacity = want;
+    return true;
+}
+
+/* ---- Arenas ---- */
+
+typedef struct sunder_i_chunk {
+    struct sunder_i_chunk *older;
+    size_t size, used;
+    bool lent; /* not ours to free */
+    _Alignas(16) unsigned char data[];
+} sunder_i_chunk;
+
+void sunder_i_arena_init(sunder_i_arena *arena)
+{
+    arena->chunk = NULL;
+    arena->failed = false;
+}
+
+void sunder_i_arena_init_on(sunder_i_arena *arena, void *memory, size_t bytes)
+{
+    sunder_i_chunk *c = memory;
+    *c = (sunder_i_chunk){.size = bytes - sizeof *c, .lent = true};
+    arena->chunk = c;
+    arena->failed = false;
+}
+
+static bool arena_grow(sunder_i_arena *arena, size_t need)
+{
+    size_t size = arena->chunk ? arena->chunk->size * 2 : 4096;
+    const size_t limit = (size_t)1 << 22;
+    if (size > limit) size = limit;
+    if (size < need) size = need;
+    sunder_i_chunk *c = sunder_i_alloc(sizeof *c + size, 1);
+    if (!c) {
+        arena->failed = true;
+        return false;
+    }
+    c->older = arena->chunk;
+    c->size = size;
+    c->used = 0;
+    c->lent = false;
+    arena->chunk = c;
+    return true;
+}
+
+void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
+{
+    size_t b;
+    if (arena->failed) return NULL;
+    if (!sunder_i_step() || !bytes(n, size, &b) || b > SIZE_MAX - 64) {
+        arena->failed = true;
+        return NULL;
+    }
+    b = (b + 15) & ~(size_t)15;
+    if (!arena->chunk || arena->chunk->size - arena->chunk->used < b)
+        if (!arena_grow(arena, b)) return NULL;
+    void *p = arena->chunk->data + arena->chunk->used;
+    arena->chunk->used += b;
+    return p;
+}
+
+sunder_i_mark sunder_i_arena_mark(const sunder_i_arena *arena)
+{
+    return (sunder_i_mark){arena->chunk, arena->chunk ? arena->chunk->used : 0};
+}
+
+void sunder_i_arena_release(sunder_i_arena *arena, sunder_i_mark mark)
+{
+    while (arena->chunk != mark.chunk) {
+        sunder_i_chunk *older = arena->chunk->older;
+        if (!arena->chunk->lent) sunder_i_free(arena->chunk);
+        arena->chunk = older;
+    }
+    if (arena->chunk) arena->chunk->used = mark.used;
+}
+
+void sunder_i_arena_free(sunder_i_arena *arena)
+{
+    sunder_i_arena_release(arena, (sunder_i_mark){NULL, 0});
+    arena->failed = false;
+}

@@ -1,0 +1,79 @@
+#include "base/sort.h"
+
+#include "base/watch.h"
+
+#include <string.h>
+
+#define RUN 8 /* insertion sort below this: measured fastest between 6 and 12 */
+
+typedef int (*comparison)(void *, uint32_t, uint32_t);
+
+static void insertion(uint32_t *index, size_t n, comparison compare, void *context)
+{
+    for (size_t i = 1; i < n; i++) {
+        const uint32_t v = index[i];
+        size_t j = i;
+        for (; j > 0 && compare(context, index[j - 1], v) > 0; j--) index[j] = index[j - 1];
+        index[j] = v;
+    }
+}
+
+static void merge(const uint32_t *from, uint32_t *to, size_t left, size_t middle, size_t right, comparison compare,
+                  void *context)
+{
+    size_t i = left, j = middle;
+    for (size_t k = left; k < right; k++)
+        to[k] = j >= right || (i < middle && compare(context, from[i], from[j]) <= 0) ? from[i++] : from[j++];
+}
+
+bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *context)
+{
+    for (size_t i = 0; i < n; i += RUN) insertion(index + i, n - i < RUN ? n - i : RUN, compare, context);
+    if (n <= RUN) return true;
+    uint32_t *scratch = sunder_i_alloc(n, sizeof *scratch);
+    if (!scratch) return false;
+    uint32_t *from = index, *to = scratch;
+    for (size_t width = RUN; width < n; width *= 2) {
+        for (size_t left = 0; left < n; left += 2 * width) {
+            const size_t middle = left + width < n ? left + width : n;
+            const size_t right = left + 2 * width < n ? left + 2 * width : n;
+            if (!sunder_i_steps((right - left) / 8 + 1)) {
+                sunder_i_free(scratch);
+                return false;
+            }
+            merge(from, to, left, middle, right, compare, context);
+        }
+        uint32_t *t = from;
+        from = to;
+        to = t;
+    }
+    if (from != index) memcpy(index, from, n * sizeof *index);
+    sunder_i_free(scratch);
+    return true;
+}
+
+#define DIGIT 11
+
+bool sunder_i_sort_keys(uint64_t *key, size_t n)
+{
+    uint64_t used = 0;
+    for (size_t i = 1; i < n; i++) used |= key[i] ^ key[0];
+    if (used == 0) return true;
+    uint64_t *scratch = sunder_i_alloc(n, sizeof *scratch);
+    if (!scratch) return false;
+    uint64_t *from = key, *to = scratch;
+    for (int shift = 0; shift < 64; shift += DIGIT) {
+        if (((used >> shift) & ((1u << DIGIT) - 1)) == 0) continue; /* all keys agree here */
+        size_t start[(1u << DIGIT) + 1] = {0};
+        for (size_t i = 0; i < n; i++) start[((from[i] >> shift) & ((1u << DIGIT) - 1)) + 1]++;
+        for (size_t d = 0; d < 1u << DIGIT; d++) start[d + 1] += start[d];
+        for (size_t i = 0; i < n; i++) to[start[(from[i] >> shift) & ((1u << DIGIT) - 1)]++] = from[i];
+        uint64_t *t = from;
+        from = to;
+        to = t;
+        sunder_i_steps(n / 32);
+    }
+    if (from != key) memcpy(key, from, n * sizeof *key);
+    sunder_i_free(scratch);
+    return true;
+}

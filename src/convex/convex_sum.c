@@ -1,0 +1,56 @@
+#include "convex/convex_sum.h"
+
+#include "predicate/predicate.h"
+
+static bool is_one(sunder_i_big w) { return w.size == 1 && w.limb[0] == 1; }
+
+/* a + b; where both have denominators the product of these is the sum's, not reduced. */
+static void add_corners(sunder_i_arena *arena, const sunder_i_corner *a, const sunder_i_corner *b, sunder_i_big out[3])
+{
+    const bool whole_a = is_one(a->w), whole_b = is_one(b->w);
+    const sunder_i_big ax = whole_b ? a->x : sunder_i_big_mul(arena, a->x, b->w);
+    const sunder_i_big ay = whole_b ? a->y : sunder_i_big_mul(arena, a->y, b->w);
+    const sunder_i_big bx = whole_a ? b->x : sunder_i_big_mul(arena, b->x, a->w);
+    const sunder_i_big by = whole_a ? b->y : sunder_i_big_mul(arena, b->y, a->w);
+    out[0] = sunder_i_big_add(arena, ax, bx);
+    out[1] = sunder_i_big_add(arena, ay, by);
+    out[2] = whole_a ? b->w : whole_b ? a->w : sunder_i_big_mul(arena, a->w, b->w);
+}
+
+static bool make_room(sunder_i_arena *arena, uint32_t most, sunder_i_convex_sum *s)
+{
+    s->corners = 0;
+    s->xyw = sunder_i_arena_alloc(arena, most, sizeof *s->xyw);
+    s->along = sunder_i_arena_alloc(arena, most, sizeof *s->along);
+    s->of_p = sunder_i_arena_alloc(arena, most, sizeof *s->of_p);
+    s->of_q = sunder_i_arena_alloc(arena, most, sizeof *s->of_q);
+    s->side_p = sunder_i_arena_alloc(arena, most, sizeof *s->side_p);
+    s->side_q = sunder_i_arena_alloc(arena, most, sizeof *s->side_q);
+    return !arena->failed;
+}
+
+bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p, uint32_t i,
+                            const sunder_i_decomposition *q, uint32_t j, sunder_i_arena *arena,
+                            sunder_i_convex_sum *out)
+{
+    const uint32_t pf = sunder_i_piece_first(p, i), pe = p->piece_end[i];
+    const uint32_t qf = sunder_i_piece_first(q, j), qe = q->piece_end[j];
+    sunder_i_convex_sum s;
+    if (!make_room(arena, pe - pf + qe - qf, &s)) return false;
+    for (uint32_t a = pf, b = qf; a < pe || b < qe;) {
+        /* A piece whose sides are all used waits in its first corner. */
+        const uint32_t k = s.corners++;
+        s.of_p[k] = p->piece_corner[a < pe ? a : pf];
+        s.of_q[k] = q->piece_corner[b < qe ? b : qf];
+        add_corners(arena, &p->corner[s.of_p[k]], &q->corner[s.of_q[k]], s.xyw[k]);
+        const int c = a >= pe ? 1 : b >= qe ? -1 : sunder_i_angle_cmp(l, p->along[a], q->along[b]);
+        s.side_p[k] = c <= 0;
+        s.side_q[k] = c >= 0;
+        s.along[k] = c <= 0 ? p->along[a] : q->along[b];
+        if (s.side_p[k]) a++;
+        if (s.side_q[k]) b++;
+    }
+    if (arena->failed || l->arena.failed) return false;
+    *out = s;
+    return true;
+}

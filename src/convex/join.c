@@ -1,0 +1,127 @@
+#include "convex/join.h"
+
+#include "predicate/predicate.h"
+
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+/* Half-edges along the pieces, in the order of the shape's corner list. */
+typedef struct mesh {
+    sunder_i_lattice *lattice;
+    const sunder_i_point *at;
+    uint32_t n;
+    uint32_t *origin, *next, *prev;
+    uint32_t *slot; /* half-edges by (origin, end); NONE where free */
+    uint32_t mask;
+} mesh;
+
+static uint32_t slot_of(const mesh *m, uint32_t u, uint32_t v)
+{
+    const uint64_t h = ((uint64_t)u << 32 | v) * 0x9e3779b97f4a7c15u;
+    return (uint32_t)(h >> 32) & m->mask;
+}
+
+static uint32_t end_of(const mesh *m, uint32_t h) { return m->origin[m->next[h]]; }
+
+static uint32_t find(const mesh *m, uint32_t u, uint32_t v)
+{
+    for (uint32_t s = slot_of(m, u, v); m->slot[s] != NONE; s = (s + 1) & m->mask)
+        if (m->origin[m->slot[s]] == u && end_of(m, m->slot[s]) == v) return m->slot[s];
+    return NONE;
+}
+
+static bool mesh_init(mesh *m, const sunder_shape *shape)
+{
+    m->n = shape->piece_end[shape->pieces - 1];
+    uint32_t slots = 16;
+    while (slots < 2 * m->n) slots *= 2;
+    m->mask = slots - 1;
+    m->origin = sunder_i_alloc(m->n, sizeof *m->origin);
+    m->next = sunder_i_alloc(m->n, sizeof *m->next);
+    m->prev = sunder_i_alloc(m->n, sizeof *m->prev);
+    m->slot = sunder_i_alloc(slots, sizeof *m->slot);
+    if (!m->origin || !m->next || !m->prev || !m->slot) return false;
+    memcpy(m->origin, shape->piece_vertex, m->n * sizeof *m->origin);
+    memset(m->slot, 0xff, slots * sizeof *m->slot);
+    for (uint32_t i = 0, first = 0; i < shape->pieces; first = shape->piece_end[i++])
+        for (uint32_t h = first; h < shape->piece_end[i]; h++) {
+            m->next[h] = h + 1 < shape->piece_end[i] ? h + 1 : first;
+            m->prev[h] = h > first ? h - 1 : shape->piece_end[i] - 1;
+        }
+    for (uint32_t h = 0; h < m->n; h++) {
+        const uint32_t u = m->origin[h], v = end_of(m, h);
+        if (sunder_i_is_boundary(shape, u, v)) continue;
+        uint32_t s = slot_of(m, u, v);
+        while (m->slot[s] != NONE) s = (s + 1) & m->mask;
+        m->slot[s] = h;
+    }
+    return true;
+}
+
+static void mesh_free(mesh *m)
+{
+    sunder_i_free(m->origin);
+    sunder_i_free(m->next);
+    sunder_i_free(m->prev);
+    sunder_i_free(m->slot);
+}
+
+/* Would the corner at the origin of h be convex or straight without h and its twin g? */
+static bool good_without(const mesh *m, uint32_t h, uint32_t g)
+{
+    const uint32_t before = m->origin[m->prev[h]], after = end_of(m, m->next[g]);
+    return sunder_i_orient(m->lattice, m->at[before], m->at[m->origin[h]], m->at[after]) >= 0;
+}
+
+/* Removes a diagonal; its half-edges get the origin NONE, so that find() does not meet them again. */
+static void dissolve(mesh *m, uint32_t h, uint32_t g)
+{
+    m->next[m->prev[h]] = m->next[g];
+    m->prev[m->next[g]] = m->prev[h];
+    m->next[m->prev[g]] = m->next[h];
+    m->prev[m->next[h]] = m->prev[g];
+    m->origin[h] = m->origin[g] = NONE;
+}
+
+static void collect(mesh *m, sunder_i_joined *out)
+{
+    uint32_t corners = 0;
+    for (uint32_t h = 0; h < m->n; h++) {
+        if (m->origin[h] == NONE) continue;
+        for (uint32_t g = h; m->origin[g] != NONE; g = m->next[g]) {
+            out->vertex[corners++] = m->origin[g];
+            m->origin[g] = NONE;
+        }
+        out->end[out->pieces++] = corners;
+    }
+}
+
+bool sunder_i_join_pieces(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
+                          sunder_i_joined *out)
+{
+    memset(out, 0, sizeof *out);
+    if (shape->pieces == 0) return true;
+    mesh m = {.lattice = lattice, .at = at};
+    out->end = sunder_i_alloc(shape->pieces, sizeof *out->end);
+    out->vertex = sunder_i_alloc(shape->piece_end[shape->pieces - 1], sizeof *out->vertex);
+    const bool ok = out->end && out->vertex && mesh_init(&m, shape);
+    for (uint32_t h = 0; ok && h < m.n; h++) {
+        if (m.origin[h] == NONE || sunder_i_is_boundary(shape, m.origin[h], end_of(&m, h))) continue;
+        const uint32_t g = find(&m, end_of(&m, h), m.origin[h]);
+        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other they stay. */
+        if (g == NONE || m.next[h] == g || m.next[g] == h) continue;
+        if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve(&m, h, g);
+    }
+    if (ok) collect(&m, out);
+    mesh_free(&m);
+    if (!ok) sunder_i_joined_free(out);
+    return ok;
+}
+
+void sunder_i_joined_free(sunder_i_joined *joined)
+{
+    sunder_i_free(joined->end);
+    sunder_i_free(joined->vertex);
+    memset(joined, 0, sizeof *joined);
+}

@@ -1,0 +1,261 @@
+/* A polygon P, with holes or not, plus one convex polygon Q: no decomposition and no arrangement of many subsums, only
+ * one walk around P. Most buildings are such.
+ *
+ * The convolution [GRS83] of P's rings with Q is a closed curve for each ring: every side of P moved by the corner of Q
+ * that is extreme in its outward direction, joined at a convex vertex v by the arc of v + Q between the two corners, at
+ * a reflex one by that arc run backwards. Its winding number at x is the Euler characteristic of the meet of P and x -
+ * Q: how many pieces that has, less the holes of P that lie inside x - Q. Here
+ *
+ *  - no hole of P has a box that fits into Q's, so that the number counts pieces: the interiors meet at x exactly
+ *    where it is positive, and nowhere is it negative;
+ *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord, which is inside
+ *    v + Q, where it was positive already. So what is positive remains the same.
+ *
+ * The curve is tame if no two links have a point in common but those that follow each other, in their ends, and pairs
+ * that cross in their insides, no third one passing there. Then walk along it with the number on the right hand. It
+ * changes only where another link crosses, by one, and the pieces of links that have 0 on their right bound the sum,
+ * all of them.
+ *
+ * There are no degenerate holes then. A point that the interiors do not meet in, all around it they do, is on the
+ * curve. On a chord, ends included, it is not: x - Q has the reflex vertex v on its boundary or around it, and reaches
+ * into P. Beside a moved side or arc the number is positive on both hands, so on the right hand there is a piece other
+ * than the one that the link's own contact brings and takes away; that piece is still there on the link, since for it
+ * to vanish there another link would have to pass. At a crossing the same holds of the quarter to the right of both
+ * links.
+ *
+ * Rings of the result: as no point has two boundary pieces but a vertex where one goes on in the other, they are simple
+ * and have no points in common. P and Q are connected, so there is one outer ring. Collinear vertices cannot arise:
+ * sides of P and of Q of one direction are joined. All tests are exact, and on a narrow lattice; elsewhere nothing is
+ * tried, and where the curve is not tame the general road is taken. */
+#include "minkowski/convolution.h"
+
+#include "minkowski/convolution_inner.h"
+#include "base/sort.h"
+
+/* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
+ * stop_begin(i) + i on, one more than it has stops. */
+typedef struct walker {
+    const sunder_i_curve *curve;
+    int32_t *right; /* [pieces] the winding number on the right hand */
+    bool *done;     /* [pieces] */
+    bool tame;      /* nothing was found that cannot be */
+} walker;
+
+static uint32_t stop_begin(const sunder_i_curve *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
+
+/* ---- Winding numbers ---- */
+
+static uint32_t smallest_corner(const sunder_i_curve *c, uint32_t begin, uint32_t end)
+{
+    uint32_t least = begin;
+    for (uint32_t i = begin + 1; i < end; i++) {
+        const sunder_i_point a = c->corner[i], b = c->corner[least];
+        if (a.x < b.x || (a.x == b.x && a.y < b.y)) least = i;
+    }
+    return least;
+}
+
+/* How often links outside [begin, end) wind around a place that none of them touches: those that cross the ray from
+ * there to the left. */
+static int32_t winding_of_others(const sunder_i_curve *c, sunder_i_point at, uint32_t begin, uint32_t end)
+{
+    int32_t winding = 0;
+    for (uint32_t i = 0; i < c->links; i++) {
+        if (i == begin) i = end;
+        if (i >= c->links) break;
+        const sunder_i_point a = c->corner[i], b = c->corner[c->next[i]];
+        if ((a.y > at.y) == (b.y > at.y)) continue;
+        const bool up = b.y > at.y;
+        const sunder_i_i128 side = sunder_i_narrow_orient(a, b, at);
+        if (up ? side < 0 : side > 0) winding += up ? -1 : 1; /* it passes to the left of the place */
+    }
+    return winding;
+}
+
+/* At a ring's smallest corner the outside of the ring is to the left of the bend: a left turn has it on the right hand,
+ * a right turn on the left, and there the ring itself counts -1 on the right. */
+static int32_t number_at(const sunder_i_curve *c, uint32_t least, uint32_t begin, uint32_t end)
+{
+    const uint32_t last = least > begin ? least - 1 : end - 1;
+    const int32_t others = c->p->rings > 1 ? winding_of_others(c, c->corner[least], begin, end) : 0;
+    return others - (sunder_i_narrow_orient(c->corner[last], c->corner[least], c->corner[c->next[least]]) < 0);
+}
+
+static void number_ring(walker *w, uint32_t begin, uint32_t end)
+{
+    const sunder_i_curve *c = w->curve;
+    const uint32_t least = smallest_corner(c, begin, end);
+    const int32_t start = number_at(c, least, begin, end);
+    int32_t right = start;
+    uint32_t i = least;
+    do {
+        uint32_t piece = stop_begin(c, i) + i;
+        for (uint32_t s = stop_begin(c, i); s < c->stop_end[i]; s++) {
+            w->right[piece++] = right;
+            right += c->stop[s].rises ? 1 : -1;
+        }
+        w->right[piece] = right;
+        if (right < 0 || (right == 0 && c->chord[i])) w->tame = false;
+        i = c->next[i];
+    } while (i != least);
+    if (right != start) w->tame = false;
+}
+
+/* ---- Rings ---- */
+
+typedef struct traced_ring {
+    uint32_t first, least, end; /* vertices of the sum */
+} traced_ring;
+
+static bool add_vertex(sunder_sum *sum, size_t *room, sunder_i_hpoint at)
+{
+    if (sum->vertices == *room && !sunder_i_reserve(&sum->vertex, room, (size_t)sum->vertices + 1, sizeof *sum->vertex))
+        return false;
+    sum->vertex[sum->vertices++] = at;
+    return true;
+}
+
+/* Follows the boundary from piece k of link i until it closes: at a crossing it goes on on the link that comes from the
+ * left, which has the free side on its right as well. False if memory is out. */
+static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *room)
+{
+    const sunder_i_curve *c = w->curve;
+    for (;;) {
+        const uint32_t piece = stop_begin(c, i) + i + k, s = stop_begin(c, i) + k;
+        if (w->done[piece]) return true;
+        if (w->right[piece] != 0) w->tame = false;
+        w->done[piece] = true;
+        sunder_i_hpoint at;
+        if (s < c->stop_end[i]) {
+            const sunder_i_stop *stop = &c->stop[s];
+            at = sunder_i_hpoint_at(c->lattice, c->corner[i], c->corner[c->next[i]], &stop->at);
+            i = c->stop[stop->partner].link;
+            k = stop->partner - stop_begin(c, i) + 1;
+        } else {
+            i = c->next[i];
+            k = 0;
+            at = sunder_i_hpoint_of(c->lattice, c->corner[i]);
+        }
+        if (!add_vertex(sum, room, at)) return false;
+    }
+}
+
+typedef struct ring_list {
+    traced_ring *ring;
+    size_t n, room;
+} ring_list;
+
+static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
+{
+    const sunder_i_curve *c = w->curve;
+    size_t room = 0;
+    if (!sunder_i_reserve(&sum->vertex, &room, c->links + c->stops / 2, sizeof *sum->vertex)) return false;
+    for (uint32_t i = 0; i < c->links; i++)
+        for (uint32_t k = 0; k <= c->stop_end[i] - stop_begin(c, i); k++) {
+            const uint32_t piece = stop_begin(c, i) + i + k;
+            if (w->right[piece] != 0 || w->done[piece]) continue;
+            if (rings->n == rings->room &&
+                !sunder_i_reserve(&rings->ring, &rings->room, rings->n + 1, sizeof *rings->ring))
+                return false;
+            traced_ring r = {.first = sum->vertices, .least = sum->vertices};
+            if (!follow(w, i, k, sum, &room)) return false;
+            r.end = sum->vertices;
+            for (uint32_t v = r.first + 1; v < r.end; v++)
+                if (sunder_i_hpoint_cmp(c->lattice, &sum->vertex[v], &sum->vertex[r.least]) < 0) r.least = v;
+            rings->ring[rings->n++] = r;
+        }
+    return true;
+}
+
+typedef struct ring_order {
+    const sunder_sum *sum;
+    sunder_i_lattice *lattice;
+    const traced_ring *ring;
+} ring_order;
+
+/* No two have a vertex in common; the outer ring has the smallest of all. */
+static int compare_rings(void *context, uint32_t a, uint32_t b)
+{
+    const ring_order *o = context;
+    if (a == b) return 0;
+    return sunder_i_hpoint_cmp(o->lattice, &o->sum->vertex[o->ring[a].least], &o->sum->vertex[o->ring[b].least]);
+}
+
+static bool put_rings(const walker *w, const ring_list *rings, sunder_sum *sum)
+{
+    const size_t n = rings->n;
+    sum->ring_vertex = sunder_i_alloc(sum->vertices, sizeof *sum->ring_vertex);
+    sum->ring_end = sunder_i_alloc(n, sizeof *sum->ring_end);
+    sum->poly_end = sunder_i_alloc(1, sizeof *sum->poly_end);
+    uint32_t *order = sunder_i_alloc(n, sizeof *order);
+    ring_order by = {sum, w->curve->lattice, rings->ring};
+    for (uint32_t r = 0; order && r < n; r++) order[r] = r;
+    const bool ok = sum->ring_vertex && sum->ring_end && sum->poly_end && order &&
+                    sunder_i_sort_indices(order, n, compare_rings, &by);
+    size_t at = 0;
+    for (size_t i = 0; ok && i < n; i++) {
+        const traced_ring *r = &rings->ring[order[i]];
+        for (uint32_t v = r->least; v < r->end; v++) sum->ring_vertex[at++] = v;
+        for (uint32_t v = r->first; v < r->least; v++) sum->ring_vertex[at++] = v;
+        sum->ring_end[i] = at;
+    }
+    if (ok) {
+        sum->rings = sum->poly_end[0] = n;
+        sum->polygons = 1;
+    }
+    sunder_i_free(order);
+    return ok;
+}
+
+/* ---- All of it ---- */
+
+static void forget(sunder_sum *sum)
+{
+    sunder_i_free(sum->vertex);
+    sum->vertex = NULL;
+    sum->vertices = 0;
+}
+
+static bool walk(const sunder_i_curve *c, sunder_sum *sum, bool *done)
+{
+    const size_t pieces = c->links + c->stops;
+    walker w = {c, sunder_i_alloc(pieces, sizeof *w.right), sunder_i_calloc(pieces, sizeof *w.done), true};
+    ring_list rings = {0};
+    bool ok = w.right && w.done;
+    for (uint32_t r = 0; ok && r < c->p->rings; r++) number_ring(&w, sunder_i_curve_first(c, r), c->ring_end[r]);
+    ok = ok && (!w.tame || follow_all(&w, sum, &rings));
+    *done = ok && w.tame;
+    if (*done)
+        ok = put_rings(&w, &rings, sum);
+    else
+        forget(sum);
+    sunder_i_free(w.right);
+    sunder_i_free(w.done);
+    sunder_i_free(rings.ring);
+    return ok;
+}
+
+static sunder_status trace(sunder_i_curve *c, sunder_sum *sum, const sunder_i_point *at_p, const sunder_shape *q,
+                           const sunder_i_point *at_q, bool *done, sunder_error *err)
+{
+    bool fits;
+    sunder_status status = sunder_i_curve_build(c, at_p, q, at_q, &fits, err);
+    if (status == SUNDER_OK && fits) status = sunder_i_curve_cross(c, &fits, err);
+    if (status != SUNDER_OK || !fits) return status;
+    return walk(c, sum, done) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+/* For each ring all links are gone through to locate it. */
+enum { MOST_RINGS = 64 };
+
+sunder_status sunder_i_traced_build(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
+                                    const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
+{
+    *done = false;
+    if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > MOST_RINGS || q->pieces != 1)
+        return SUNDER_OK;
+    sunder_i_curve c = {.lattice = &sum->lattice, .p = p};
+    const sunder_status status = trace(&c, sum, at_p, q, at_q, done, err);
+    sunder_i_curve_free(&c);
+    return status;
+}

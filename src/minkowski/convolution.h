@@ -1,0 +1,14 @@
+/* The sum with one convex polygon, traced along the other's outline where that is all there is to it. */
+#ifndef SUNDER_I_TRACED_H
+#define SUNDER_I_TRACED_H
+
+#include "sum/sum.h"
+#include "shape/shape.h"
+
+/* Fills in the vertices and rings of sum, which stands on a lattice that both operands are placed on, and sets *done;
+ * leaves both alone where tracing does not prove the result: the general road has to be taken then. Fails only with
+ * SUNDER_ENOMEM. */
+sunder_status sunder_i_traced_build(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
+                                    const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err);
+
+#endif

@@ -1,0 +1,163 @@
+/* Where the curve crosses itself: chains by their boxes, from left to right, then link by link, exactly. */
+#include "minkowski/convolution_inner.h"
+
+#include "base/sort.h"
+
+#include <string.h>
+
+typedef struct crosser {
+    sunder_i_curve *curve;
+    size_t pairs; /* that may still be looked at */
+    bool fits, no_memory;
+} crosser;
+
+/* Pairs of chains and pairs of links to look at, a chain on the average. What is longer in the direction of the sweep
+ * is left to the general road, which has a better order. */
+static const size_t patience = 256;
+
+static bool boxes_apart(const sunder_i_chain *a, const sunder_i_chain *b)
+{
+    return a->high[0] < b->low[0] || b->high[0] < a->low[0] || a->high[1] < b->low[1] || b->high[1] < a->low[1];
+}
+
+/* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
+ * both of its vertices v. Two sides with a chord between them cross, mostly. */
+static bool are_neighbours(const sunder_i_curve *c, const sunder_i_chain *a, const sunder_i_chain *b)
+{
+    const uint32_t *next = c->p->next;
+    if (a->side && b->side) {
+        const uint32_t v = next[a->vertex] == b->vertex ? b->vertex : a->vertex;
+        if (v == a->vertex && next[b->vertex] != a->vertex) return false;
+        return c->joined[v] || !c->reflex[v];
+    }
+    if (a->side == b->side) return false;
+    const sunder_i_chain *side = a->side ? a : b, *joint = a->side ? b : a;
+    return side->vertex == joint->vertex || next[side->vertex] == joint->vertex;
+}
+
+static bool link_apart(sunder_i_point a, sunder_i_point b, const sunder_i_chain *c)
+{
+    return (a.x < c->low[0] && b.x < c->low[0]) || (a.x > c->high[0] && b.x > c->high[0]) ||
+           (a.y < c->low[1] && b.y < c->low[1]) || (a.y > c->high[1] && b.y > c->high[1]);
+}
+
+static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, sunder_i_point d)
+{
+    return (a.x < c.x && a.x < d.x && b.x < c.x && b.x < d.x) || (a.x > c.x && a.x > d.x && b.x > c.x && b.x > d.x) ||
+           (a.y < c.y && a.y < d.y && b.y < c.y && b.y < d.y) || (a.y > c.y && a.y > d.y && b.y > c.y && b.y > d.y);
+}
+
+static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
+{
+    sunder_i_curve *c = x->curve;
+    if (c->stops + 2 > c->stops_capacity &&
+        !sunder_i_reserve(&c->stop, &c->stops_capacity, c->stops + 2, sizeof *c->stop)) {
+        x->no_memory = true;
+        return;
+    }
+    const bool rises = sunder_i_narrow_cross(sunder_i_narrow_sub(cd[1], cd[0]), sunder_i_narrow_sub(ab[1], ab[0])) > 0;
+    const uint32_t n = (uint32_t)c->stops;
+    c->stop[n] = (sunder_i_stop){i, n + 1, sunder_i_crossing(c->lattice, ab[0], ab[1], cd[0], cd[1]), rises};
+    c->stop[n + 1] = (sunder_i_stop){j, n, sunder_i_crossing(c->lattice, cd[0], cd[1], ab[0], ab[1]), !rises};
+    c->stops += 2;
+}
+
+static void cross_chains(crosser *x, const sunder_i_chain *a, const sunder_i_chain *b)
+{
+    const sunder_i_curve *c = x->curve;
+    for (uint32_t i = a->first; i < a->end && x->fits && !x->no_memory; i++) {
+        const sunder_i_point ab[2] = {c->corner[i], c->corner[c->next[i]]};
+        if (link_apart(ab[0], ab[1], b)) continue;
+        for (uint32_t j = b->first; j < b->end && x->fits && !x->no_memory; j++) {
+            const sunder_i_point cd[2] = {c->corner[j], c->corner[c->next[j]]};
+            if (links_apart(ab[0], ab[1], cd[0], cd[1])) continue;
+            const sunder_i_meeting how = sunder_i_segments_meet(c->lattice, ab[0], ab[1], cd[0], cd[1]);
+            if (how == SUNDER_I_CROSS)
+                add_crossing(x, i, ab, j, cd);
+            else if (how != SUNDER_I_APART)
+                x->fits = false;
+        }
+    }
+}
+
+static int compare_lows(void *context, uint32_t a, uint32_t b)
+{
+    const sunder_i_chain *e = context;
+    return (e[a].low[0] > e[b].low[0]) - (e[a].low[0] < e[b].low[0]);
+}
+
+static void cross_all(crosser *x, const uint32_t *order)
+{
+    const sunder_i_curve *c = x->curve;
+    for (uint32_t i = 0; i < c->chains; i++) {
+        const sunder_i_chain *a = &c->chain[order[i]];
+        for (uint32_t k = i + 1; k < c->chains && c->chain[order[k]].low[0] <= a->high[0]; k++) {
+            const sunder_i_chain *b = &c->chain[order[k]];
+            if (x->pairs-- == 0) x->fits = false;
+            if (!x->fits || x->no_memory) return;
+            if (!boxes_apart(a, b) && !are_neighbours(c, a, b)) cross_chains(x, a, b);
+        }
+    }
+}
+
+/* ---- Stops in the order of their links ---- */
+
+typedef struct stop_order {
+    sunder_i_lattice *lattice;
+    const sunder_i_stop *stop;
+} stop_order;
+
+static int compare_stops(void *context, uint32_t a, uint32_t b)
+{
+    const stop_order *o = context;
+    const sunder_i_stop *s = &o->stop[a], *t = &o->stop[b];
+    if (s->link != t->link) return s->link < t->link ? -1 : 1;
+    return a == b ? 0 : sunder_i_fraction_cmp(o->lattice, &s->at, &t->at);
+}
+
+/* Puts the stops in order, partners with them. Two stops at one place of a link are three links that cross there. */
+static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_stop *sorted)
+{
+    sunder_i_curve *c = x->curve;
+    const uint32_t n = (uint32_t)c->stops;
+    for (uint32_t i = 0; i < n; i++) order[i] = i;
+    stop_order by = {c->lattice, c->stop};
+    if (!sunder_i_sort_indices(order, n, compare_stops, &by)) return false;
+    for (uint32_t i = 0; i < n; i++) {
+        if (i > 0 && compare_stops(&by, order[i - 1], order[i]) == 0) x->fits = false;
+        rank[order[i]] = i;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        sorted[i] = c->stop[order[i]];
+        sorted[i].partner = rank[sorted[i].partner];
+    }
+    for (uint32_t i = 0; i < n; i++) c->stop[i] = sorted[i];
+    uint32_t at = 0;
+    for (uint32_t k = 0; k < c->links; k++) {
+        while (at < n && c->stop[at].link == k) at++;
+        c->stop_end[k] = at;
+    }
+    return true;
+}
+
+sunder_status sunder_i_curve_cross(sunder_i_curve *curve, bool *fits, sunder_error *err)
+{
+    crosser x = {.curve = curve, .pairs = patience * curve->chains, .fits = true};
+    uint32_t *order = sunder_i_alloc(curve->chains, sizeof *order);
+    curve->stop_end = sunder_i_alloc(curve->links, sizeof *curve->stop_end);
+    bool ok = order && curve->stop_end;
+    for (uint32_t i = 0; ok && i < curve->chains; i++) order[i] = i;
+    ok = ok && sunder_i_sort_indices(order, curve->chains, compare_lows, curve->chain);
+    if (ok) cross_all(&x, order);
+    sunder_i_free(order);
+    ok = ok && !x.no_memory;
+    if (ok && x.fits) {
+        uint32_t *both = sunder_i_alloc(2 * curve->stops, sizeof *both);
+        sunder_i_stop *sorted = sunder_i_alloc(curve->stops, sizeof *sorted);
+        ok = both && sorted && order_stops(&x, both, both + curve->stops, sorted);
+        sunder_i_free(both);
+        sunder_i_free(sorted);
+    }
+    *fits = x.fits;
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

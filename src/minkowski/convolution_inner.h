@@ -1,0 +1,55 @@
+/* What the files of the tracing share: the curve and its crossings. Internal to traced*.c. */
+#ifndef SUNDER_I_TRACED_INNER_H
+#define SUNDER_I_TRACED_INNER_H
+
+#include "minkowski/convolution.h"
+#include "predicate/kernel.h"
+
+/* Closed polylines, one for each ring of P, that follow each other in corner[]. They are made of chains: moved sides,
+ * arcs of v + Q at convex vertices, chords at reflex ones. */
+typedef struct sunder_i_chain {
+    int64_t low[2], high[2];
+    uint32_t first, end; /* links */
+    uint32_t vertex;     /* of P, where the side leaves or the arc or chord stands */
+    bool side;
+} sunder_i_chain;
+
+/* A crossing as seen from one of its two links. */
+typedef struct sunder_i_stop {
+    uint32_t link, partner; /* partner: the stop of the other link */
+    sunder_i_fraction at;   /* along the link */
+    bool rises;             /* the link goes to the left of the other one */
+} sunder_i_stop;
+
+typedef struct sunder_i_curve {
+    sunder_i_lattice *lattice;
+    const sunder_shape *p;
+    uint32_t links;
+    sunder_i_point *corner; /* [links] where each link starts */
+    uint32_t *next;         /* [links] the one that starts where it ends */
+    uint32_t *ring_end;     /* [rings of P] in links */
+    bool *chord;            /* [links] */
+    sunder_i_chain *chain;
+    uint32_t chains;
+    bool *joined;       /* [vertices of P] sides meet there, without arc or chord */
+    bool *reflex;       /* [vertices of P] */
+    uint32_t *stop_end; /* [links] past the last stop on each; stops of a link in its direction */
+    sunder_i_stop *stop;
+    size_t stops, stops_capacity;
+} sunder_i_curve;
+
+/* Builds the curve; *fits is false where P or Q is of no kind that can be traced. Fails only with SUNDER_ENOMEM; free
+ * the curve in any case. */
+sunder_status sunder_i_curve_build(sunder_i_curve *curve, const sunder_i_point *at_p, const sunder_shape *q,
+                                   const sunder_i_point *at_q, bool *fits, sunder_error *err);
+/* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes too long.
+ */
+sunder_status sunder_i_curve_cross(sunder_i_curve *curve, bool *fits, sunder_error *err);
+void sunder_i_curve_free(sunder_i_curve *curve);
+
+static inline uint32_t sunder_i_curve_first(const sunder_i_curve *curve, uint32_t ring)
+{
+    return ring ? curve->ring_end[ring - 1] : 0;
+}
+
+#endif

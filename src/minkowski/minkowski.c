@@ -1,0 +1,103 @@
+/* The public face of the sum: the three stages, and what a caller may ask of the result. */
+#include "outline/buried.h"
+#include "minkowski/convex_operands.h"
+#include "minkowski/minkowski.h"
+#include "outline/outline.h"
+#include "convex/subsums.h"
+#include "minkowski/convolution.h"
+#include "base/watch.h"
+#include "unions/unions.h"
+
+#include <string.h>
+#include <time.h>
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                           const sunder_sum_options *options, sunder_error *err)
+{
+    const double start = now();
+    sunder_i_placed placed;
+    const sunder_i_place_options place = {.force_wide = force_wide};
+    sunder_status status = sunder_i_place(p, q, &place, &placed, err);
+    if (status != SUNDER_OK) return status;
+    sum->lattice = placed.lattice; /* moved: the points refer to its pool */
+    memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
+    memcpy(sum->origin[1], placed.origin_q, sizeof sum->origin[1]);
+    memset(&placed.lattice, 0, sizeof placed.lattice);
+    if (sunder_i_are_convex(p, q)) {
+        status = sunder_i_convex_build(sum, p, placed.p, q, placed.q, err);
+        sunder_i_placed_free(&placed);
+        sum->seconds[2] = now() - start;
+        return status;
+    }
+    bool traced = false;
+    if (q->pieces == 1)
+        status = sunder_i_traced_build(sum, p, placed.p, q, placed.q, &traced, err);
+    else if (p->pieces == 1)
+        status = sunder_i_traced_build(sum, q, placed.q, p, placed.p, &traced, err);
+    if (status != SUNDER_OK || traced) {
+        sunder_i_placed_free(&placed);
+        sum->seconds[2] = now() - start;
+        return status;
+    }
+    sunder_i_subsums subsums;
+    status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
+    sunder_i_placed_free(&placed);
+    if (status != SUNDER_OK) return status;
+    /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
+    if (p->polygons > 1 || q->polygons > 1)
+        status = sunder_i_bury_candidates(&subsums, err);
+    sum->seconds[1] = now() - start;
+    if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
+    sunder_i_subsums_free(&subsums);
+    sum->seconds[2] = now() - start - sum->seconds[1];
+    return status;
+}
+
+/* Is each option one of its values? */
+static sunder_status check_options(const sunder_sum_options *o, sunder_error *err)
+{
+    if ((unsigned)o->algorithm > SUNDER_ALGORITHM_DIVIDE) return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
+    if ((unsigned)o->decomposition > SUNDER_DECOMPOSITION_MIXED)
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such decomposition");
+    if ((unsigned)o->order > SUNDER_ORDER_GIVEN) return sunder_i_fail(err, SUNDER_EARG, "there is no such order");
+    if (o->keep_map && o->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
+        return sunder_i_fail(err, SUNDER_EARG, "the convolution makes no planar map; the other algorithms do");
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                                     const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
+{
+    sunder_sum_options o = {0};
+    if (options) o = *options;
+    sunder_status status = check_options(&o, err);
+    if (status != SUNDER_OK) return status;
+    sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
+    if (!sum) return sunder_i_no_memory(err);
+    sum->method.algorithm = o.algorithm ? o.algorithm : o.keep_map ? SUNDER_ALGORITHM_ARRANGEMENT : SUNDER_ALGORITHM_CONVOLUTION;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    if (sum->method.algorithm == SUNDER_ALGORITHM_CONVOLUTION)
+        status = build(sum, p, q, force_wide, &o, err);
+    else
+        status = sunder_i_union_sum(sum, p, q, force_wide, &o, err);
+    sunder_i_watch_end(&watch);
+    if (status == SUNDER_OK)
+        *out = sum;
+    else
+        sunder_sum_free(sum);
+    return status;
+}
+
+sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q, const sunder_sum_options *options,
+                                   sunder_sum **out, sunder_error *err)
+{
+    return sunder_i_minkowski_sum(p, q, false, options, out, err);
+}

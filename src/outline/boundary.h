@@ -1,0 +1,19 @@
+/* From pieces to the canonical sum: places identified, rings traced, components told apart, everything in order.
+ *
+ * Boundary pieces become directed edges with the sum on their left. At a vertex where more than two edges meet, two
+ * different pairings are needed. Pairing across *covered* wedges walks round one component of the interior from inside:
+ * it tells which edges belong to one component C. Pairing across *free* wedges, among the edges of one C only, then
+ * gives one simple ring for each component of the plane minus the closure of C. (Free wedges alone would mix components
+ * that touch in two points; covered wedges alone would give rings that visit a vertex twice.) */
+#ifndef SUNDER_I_BOUNDARY_H
+#define SUNDER_I_BOUNDARY_H
+
+#include "outline/coverage.h"
+#include "sum/sum.h"
+
+/* Takes the places of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with
+ * SUNDER_ENOMEM; the caller then frees the sum. */
+sunder_status sunder_i_boundary_build(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                      sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
+
+#endif

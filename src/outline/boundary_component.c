@@ -1,0 +1,124 @@
+/* Which hole walks belong to which outer walk. */
+#include "outline/boundary_graph.h"
+#include "spatial/strips.h"
+
+#include <math.h>
+
+/* Outer walks that may hold a place: which, and whether the ray from there crosses each an odd number of times. */
+typedef struct finder {
+    const sunder_i_graph *g;
+    const uint32_t *walk; /* [components] the outer walk of each */
+    uint32_t *edge;       /* edges of outer walks, by height in the strips */
+    sunder_i_strips strips;
+    bool *odd;       /* [components] all false between questions */
+    uint32_t *holds; /* [edges] those that were crossed, with repeats */
+} finder;
+
+/* Edges and places of height y are at most this far off, with y the largest there is. */
+static double margin(double y) { return y * 0x1p-47 + 0x1p-900; }
+
+static bool sort_edges(finder *f)
+{
+    const sunder_i_graph *g = f->g;
+    double(*span)[2] = sunder_i_alloc(g->edges, sizeof *span), most = 0;
+    uint32_t n = 0;
+    if (!span) return false;
+    for (uint32_t v = 0; v < g->vertices; v++) most = fmax(most, fabs(g->vertex[v].ay));
+    for (uint32_t e = 0; e < g->edges; e++) {
+        if (!g->walk_outer[g->walk[e]]) continue;
+        const double a = g->vertex[g->edge[e].from].ay, b = g->vertex[g->edge[e].to].ay;
+        span[n][0] = fmin(a, b) - margin(most);
+        span[n][1] = fmax(a, b) + margin(most);
+        f->edge[n++] = e;
+    }
+    const bool ok = sunder_i_strips_build(&f->strips, (const double(*)[2])span, n);
+    sunder_i_free(span);
+    return ok;
+}
+
+/* The outer walks that hold the place just left of vertex v, in f->holds; how many. Counts the edges that a ray from
+ * there to the left crosses. The wedge at v around the direction to the left holds no edge: v is the smallest vertex of
+ * a hole walk, whose covered side is there. */
+static uint32_t find_holders(finder *f, uint32_t v)
+{
+    const sunder_i_graph *g = f->g;
+    const sunder_i_hpoint *place = &g->vertex[v];
+    size_t from, to;
+    uint32_t crossed = 0, n = 0;
+    sunder_i_strips_at(&f->strips, place->ay, &from, &to);
+    for (; from < to; from++) {
+        const uint32_t e = f->edge[f->strips.item[from]], c = g->component[g->walk[e]];
+        const sunder_i_edge *edge = &g->edge[e];
+        const bool from_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->from], place) > 0;
+        const bool to_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->to], place) > 0;
+        /* Lines run with angles in [0, pi), so this one runs upwards: it is crossed to the left of v where v is right
+         * of it. */
+        const sunder_i_line *line = &g->lines->line[edge->line];
+        if (from_above == to_above || sunder_i_orient_hpoint(g->lattice, line->a, line->b, place) >= 0) continue;
+        if (!f->odd[c]) f->holds[crossed++] = c; /* perhaps not for the first time */
+        f->odd[c] = !f->odd[c];
+    }
+    for (uint32_t i = 0; i < crossed; i++) {
+        const uint32_t c = f->holds[i];
+        if (f->odd[c]) f->holds[n++] = c;
+        f->odd[c] = false;
+    }
+    return n;
+}
+
+/* Of two outer walks that hold one place, is a the inner one? Components are disjoint, so what the two enclose is
+ * nested, and the inner walk has no vertex before the smallest one of the outer walk. Where both start in one vertex,
+ * the outer walk's lowest ray is below everything that it encloses there; no two walks share an edge, so the two rays
+ * differ. (Areas would need exact numbers: those of long slanted shapes are lost in doubles.) */
+static bool inner_of(const finder *f, uint32_t a, uint32_t b)
+{
+    const sunder_i_graph *g = f->g;
+    const uint32_t ea = g->walk_start[f->walk[a]], eb = g->walk_start[f->walk[b]]; /* of outer walks they leave */
+    const uint32_t va = g->edge[ea].from, vb = g->edge[eb].from;
+    if (va != vb) return sunder_i_hpoint_cmp(g->lattice, &g->vertex[va], &g->vertex[vb]) > 0;
+    return sunder_i_ray_height(g, 2 * ea) > sunder_i_ray_height(g, 2 * eb);
+}
+
+static uint32_t owner_of(finder *f, uint32_t walk)
+{
+    /* judge_walk() left the walk's start as the edge of the lowest ray at its smallest vertex; of a hole it arrives
+     * there. */
+    const uint32_t n = find_holders(f, f->g->edge[f->g->walk_start[walk]].to);
+    uint32_t best = n ? f->holds[0] : 0;
+    for (uint32_t i = 1; i < n; i++)
+        if (inner_of(f, f->holds[i], best)) best = f->holds[i];
+    return best;
+}
+
+static bool find_owners(sunder_i_graph *g, const uint32_t *walk)
+{
+    finder f = {.g = g,
+                .walk = walk,
+                .edge = sunder_i_alloc(g->edges, sizeof *f.edge),
+                .odd = sunder_i_calloc(g->components, sizeof *f.odd),
+                .holds = sunder_i_alloc(g->edges, sizeof *f.holds)};
+    const bool ok = f.edge && f.odd && f.holds && sort_edges(&f);
+    for (uint32_t w = 0; ok && w < g->walks; w++)
+        if (!g->walk_outer[w]) g->component[w] = owner_of(&f, w);
+    sunder_i_strips_free(&f.strips);
+    sunder_i_free(f.edge);
+    sunder_i_free(f.odd);
+    sunder_i_free(f.holds);
+    return ok;
+}
+
+bool sunder_i_graph_components(sunder_i_graph *graph)
+{
+    graph->components = 0;
+    graph->component = sunder_i_calloc(graph->walks, sizeof *graph->component);
+    uint32_t *outer = sunder_i_alloc(graph->walks, sizeof *outer);
+    bool ok = graph->component && outer;
+    for (uint32_t w = 0; ok && w < graph->walks; w++)
+        if (graph->walk_outer[w]) {
+            outer[graph->components] = w;
+            graph->component[w] = graph->components++;
+        }
+    if (ok && graph->components > 1 && graph->components < graph->walks) ok = find_owners(graph, outer);
+    sunder_i_free(outer);
+    return ok && !graph->lattice->arena.failed;
+}

@@ -1,0 +1,59 @@
+/* The directed boundary edges and the order of their ends around each vertex. Internal to boundary*.c. */
+#ifndef SUNDER_I_BOUNDARY_GRAPH_H
+#define SUNDER_I_BOUNDARY_GRAPH_H
+
+#include "outline/coverage.h"
+
+typedef struct sunder_i_edge {
+    uint32_t from, to; /* vertices; the sum is on the left */
+    uint32_t rank, line;
+} sunder_i_edge;
+
+/* An end of an edge at a vertex: edge * 2, + 1 where the edge arrives. */
+typedef uint32_t sunder_i_ray;
+
+typedef struct sunder_i_graph {
+    sunder_i_lattice *lattice;
+    const sunder_i_lines *lines;
+    const sunder_i_hpoint *vertex;
+    uint32_t classes, vertices;
+    sunder_i_edge *edge;
+    uint32_t edges;
+    uint32_t *ray_end;  /* [vertices] past its last ray */
+    sunder_i_ray *ray;  /* counter-clockwise around each vertex, from the positive x axis */
+    uint32_t *walk;     /* [edges] which covered walk an edge belongs to */
+    uint32_t walks;
+    uint32_t *walk_start; /* [walks] an edge that leaves the walk's lexicographically smallest vertex, or arrives there */
+    bool *walk_outer;     /* [walks] is the walk the outer boundary of its component? */
+    uint32_t *component;  /* [walks] numbered from 0 */
+    uint32_t components;
+} sunder_i_graph;
+
+static inline uint32_t sunder_i_first_ray(const sunder_i_graph *g, uint32_t v) { return v ? g->ray_end[v - 1] : 0; }
+
+static inline uint32_t sunder_i_ray_rank(const sunder_i_graph *g, sunder_i_ray r)
+{
+    const uint32_t rank = g->edge[r >> 1].rank;
+    if (!(r & 1)) return rank;
+    return rank < g->classes ? rank + g->classes : rank - g->classes;
+}
+
+/* The ray's place in the half-turn to the right of a lexicographically smallest vertex, lowest first: angles -pi/2 ..
+ * pi/2. */
+static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray r)
+{
+    const uint32_t rank = sunder_i_ray_rank(g, r);
+    return rank < g->classes ? rank + g->classes : rank - g->classes;
+}
+
+/* Edges, rays, covered walks and components; false if memory is out. */
+bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage);
+/* Numbers the components (boundary_component.c). */
+bool sunder_i_graph_components(sunder_i_graph *graph);
+/* The edge that follows `edge` on the ring of its component that has the same free face. */
+uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge);
+/* The edge that follows on the covered walk. */
+uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge);
+void sunder_i_graph_free(sunder_i_graph *graph);
+
+#endif

@@ -1,0 +1,437 @@
+#include "outline/cells_inner.h"
+
+#include "base/watch.h"
+
+#include <string.h>
+
+/* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than
+ * sorting it out. Measured on stars, combs, forks and random polygons. */
+#define LEAF_PAIRS 48
+#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
+/* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
+ * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
+ * a subsum have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
+ * split at most doubles them, all leaves together have no more than four times the pairs of the root, whatever the
+ * input. */
+#define MOST_GROWTH 2
+#define TRIAL_PAIRS 4096 /* what fewer cost is no matter */
+/* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
+ * its subsums more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
+ * way the more pairs it has; or sides that are truly concurrent. */
+#define STUBBORN_SPLITS 12
+#define STUBBORN_SHARE 8
+#define MANY_SIDES 250
+#define RECENT_BITS_MOST 14 /* 128 KB, which stay in the second-level cache; more hardly finds more */
+
+/* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
+ * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
+ * sides run against each other is tried. */
+static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
+{
+    if (f->dx * g->dx + f->dy * g->dy >= 0) return false;
+    const double cx = c->low[0] / 2 + c->high[0] / 2, cy = c->low[1] / 2 + c->high[1] / 2;
+    const double hx = c->high[0] / 2 - c->low[0] / 2, hy = c->high[1] / 2 - c->low[1] / 2;
+    const double fs = fabs(f->dx) + fabs(f->dy), gs = fabs(g->dx) + fabs(g->dy), r = fs / gs;
+    const double fc = f->dx * (cy - f->ay) - f->dy * (cx - f->ax), gc = g->dx * (cy - g->ay) - g->dy * (cx - g->ax);
+    const double reach = hx * fabs(f->dy + r * g->dy) + hy * fabs(f->dx + r * g->dx);
+    /* The errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs. */
+    const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + 0x1p-900;
+    return fc + r * gc - reach > error;
+}
+
+#define SINGLES 8 /* so many subsums with one side in the cell are tried in pairs; more are rare */
+
+/* Two subsums, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
+static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
+{
+    uint32_t side[SINGLES], subsum[SINGLES], n = 0;
+    size_t at = c->run_from;
+    for (size_t e = c->entry_from; e < c->entry_to && n < SINGLES; at += b->entries[e].runs, e++)
+        if (b->entries[e].runs == 1 && b->runs[at] <= b->single_most) {
+            side[n] = b->runs[at];
+            subsum[n++] = b->entries[e].subsum;
+        }
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < i; j++)
+            if (both_hold(b, &b->side[side[i]], &b->side[side[j]], where_to)) {
+                two[0] = subsum[j];
+                two[1] = subsum[i];
+                return true;
+            }
+    return false;
+}
+
+/* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same
+ * set, with the same candidate along its border. */
+static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
+{
+    const uint32_t line = b->lines->of[side];
+    if (line == SUNDER_I_NO_LINE) return false;
+    uint32_t *seen = &b->single[2 * (size_t)line + (b->subsums->rank[side] >= b->subsums->classes)];
+    if (*seen != stamp) {
+        *seen = stamp;
+        return false;
+    }
+    b->shared[line] = true;
+    return true;
+}
+
+/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns how many
+ * lines they are on. */
+static size_t shrink(builder *b, cell *c, const box *whole)
+{
+    size_t lines = 0;
+    double span[2] = {0, 0}; /* of all candidates together, along each axis */
+    box need = nothing;
+    b->cells++;
+    sunder_i_cells_gather(b, c->run_from, c->run_to, whole);
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const crossing *x = &b->crossing[i];
+        grow(&need, &x->part);
+        span[0] += x->part.high[0] - x->part.low[0];
+        span[1] += x->part.high[1] - x->part.low[1];
+        lines += b->stamp[x->line] != b->cells;
+        b->stamp[x->line] = b->cells;
+    }
+    c->b = need;
+    /* Across the axis along which candidates are short beside the cell: fewer of them fall into both halves. */
+    c->axis = span[0] * (need.high[1] - need.low[1]) > span[1] * (need.high[0] - need.low[0]);
+    return lines;
+}
+
+/* One half of a cell while its lists are made. */
+typedef struct half {
+    box b;
+    double cx, cy; /* centre */
+    entry *entries;
+    run *runs;
+    size_t entries_n, runs_n, sides;
+    bool held;
+    uint32_t holder; /* the subsum that holds it */
+    uint32_t stamp;  /* of known_half_plane() */
+} half;
+
+/* Takes note of what one subsum is in one half: its runs that pass are behind the half's list, n of them with so
+ * many sides. */
+static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t n, uint32_t sides)
+{
+    if (n == 0) {
+        h->held = true;
+        h->holder = subsum;
+    } else if (sides > 1 || !known_half_plane(b, h->runs[h->runs_n], h->stamp)) {
+        h->entries[h->entries_n++] = (entry){subsum, n};
+        h->runs_n += n;
+        h->sides += sides;
+    }
+}
+
+enum { BEYOND, WITHIN, ACROSS }; /* of a box: outside a line for certain, inside for certain, or neither */
+
+/* The half and the line along s through the start of `at`; hx, hy: half the extent of the half. */
+static int side_of_half(const builder *b, const half *h, const approx_side *s, const approx_side *at, double hx,
+                        double hy)
+{
+    const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+    const double error = b->error * (adx + ady) + 0x1p-900;
+    const double c = s->dx * (h->cy - at->ay) - s->dy * (h->cx - at->ax);
+    return c + reach < -error ? BEYOND : c - reach > error ? WITHIN : ACROSS;
+}
+
+/* What of a run passes through a half: how many runs, and sides in them. */
+typedef struct passed {
+    bool beyond; /* all of the half is beyond the subsum */
+    uint32_t n, sides;
+} passed;
+
+/* Writes what of a run of several sides passes to `out`.
+ *
+ * The start of the run is inside all its sides, and their directions lie between those of the first and the last:
+ * so what is inside the two lines along these through the start is inside all sides. */
+static passed pass_run(const builder *b, const half *h, run r, double hx, double hy, run *out)
+{
+    struct {
+        uint32_t from, n;
+    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most 2^5 sides, halved again and again */
+    passed p = {false, 0, 0};
+    for (uint32_t waiting = 0;;) {
+        const approx_side *first = &b->side[at.from], *last = first + at.n - 1, *middle = first + at.n / 2;
+        const int where = side_of_half(b, h, first, first, hx, hy);
+        if (where == BEYOND) return (passed){true, 0, 0};
+        if (where == ACROSS || (at.n > 1 && side_of_half(b, h, last, first, hx, hy) != WITHIN)) {
+            if (at.n > 1 && fabs(last->ax - first->ax) + fabs(last->ay - first->ay) > hx + hy) {
+                todo[waiting].from = at.from + at.n / 2;
+                todo[waiting++].n = at.n - at.n / 2;
+                at.n /= 2;
+                continue;
+            }
+            if (at.n > 1 && side_of_half(b, h, middle, middle, hx, hy) == BEYOND) return (passed){true, 0, 0};
+            out[p.n++] = (at.n - 1) << RUN_BITS | at.from;
+            p.sides += at.n;
+        }
+        if (waiting == 0) return p;
+        at = todo[--waiting];
+    }
+}
+
+/* One subsum against one half, from its run i on; of the runs before, n with so many sides pass. */
+static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more,
+                       double hx, double hy)
+{
+    if (h->held) return;
+    run *out = h->runs + h->runs_n;
+    const run single_most = b->single_most;
+    for (; i < source->runs; i++) {
+        const run r = runs[i];
+        if (r > single_most) {
+            const passed p = pass_run(b, h, r, hx, hy, out + n);
+            if (p.beyond) return;
+            n += p.n;
+            more += p.sides - p.n;
+            continue;
+        }
+        const approx_side *s = &b->side[r];
+        const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
+        if (c + reach < -error) return; /* all of the half is beyond this side */
+        out[n] = r;
+        n += !(c - reach > error); /* else all of it is on the inner side, and the side need not be kept */
+    }
+    settle_entry(b, h, source->subsum, n, n + more);
+}
+
+/* A subsum that is in one half with all that it has: every side passes. In the upper cells that are nearly all. */
+static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
+{
+    const box *reach = &b->reach[source->subsum];
+    const int k = apart(reach, &h[0].b);
+    if (h[k].held || !within(reach, &h[k].b) || !apart(reach, &h[1 - k].b)) return false;
+    run *out = h[k].runs + h[k].runs_n;
+    uint32_t sides = 0;
+    for (uint32_t i = 0; i < source->runs; i++) {
+        sides += run_end(b, runs[i]) - run_from(b, runs[i]);
+        out[i] = runs[i];
+    }
+    h[k].entries[h[k].entries_n++] = *source;
+    h[k].runs_n += source->runs;
+    h[k].sides += sides;
+    return true;
+}
+
+/* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
+ * half. */
+static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
+{
+    run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
+    const run single_most = b->single_most;
+    uint32_t i = 0, n0 = 0, n1 = 0, more0 = 0, more1 = 0;
+    bool miss0 = h[0].held || apart(&b->reach[source->subsum], &h[0].b);
+    bool miss1 = h[1].held || apart(&b->reach[source->subsum], &h[1].b);
+    for (; i < source->runs && !miss0 && !miss1; i++) {
+        const run r = runs[i];
+        if (r > single_most) {
+            const passed p0 = pass_run(b, &h[0], r, hx, hy, out0 + n0), p1 = pass_run(b, &h[1], r, hx, hy, out1 + n1);
+            miss0 = p0.beyond;
+            miss1 = p1.beyond;
+            n0 += p0.n;
+            n1 += p1.n;
+            more0 += p0.sides - p0.n;
+            more1 += p1.sides - p1.n;
+            continue;
+        }
+        const approx_side *s = &b->side[r];
+        const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
+        const double error = b->error * (adx + ady) + 0x1p-900;
+        const double c0 = s->dx * (h[0].cy - s->ay) - s->dy * (h[0].cx - s->ax);
+        const double c1 = s->dx * (h[1].cy - s->ay) - s->dy * (h[1].cx - s->ax);
+        out0[n0] = out1[n1] = r;
+        n0 += !(c0 - reach > error);
+        n1 += !(c1 - reach > error);
+        miss0 = c0 + reach < -error;
+        miss1 = c1 + reach < -error;
+    }
+    if (!miss0) filter_one(b, &h[0], runs, source, i, n0, more0, hx, hy);
+    if (!miss1) filter_one(b, &h[1], runs, source, i, n1, more1, hx, hy);
+}
+
+/* A cell with many sides that splits well is split on, across its longer axis, without a closer look. */
+static size_t halve(cell *c, const half *h)
+{
+    c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
+    return h->sides;
+}
+
+/* Along which axis splits can still tell anything: not below what start points may be off by, where details are small
+ * beside the coordinates that they have. False if along neither. */
+static bool choose_axis(const builder *b, cell *c)
+{
+    const double room = 4 * b->error;
+    if (c->b.high[c->axis] - c->b.low[c->axis] <= room) c->axis = !c->axis;
+    return c->b.high[c->axis] - c->b.low[c->axis] > room;
+}
+
+/* Pairs of a side and a subsum other than its own. */
+static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
+
+/* By how much they have grown in the halves, on the whole, since they were fewest. */
+static double growth_of(const cell *c, const half h[2])
+{
+    const double before = pairs_of(c->sides, c->entry_to - c->entry_from);
+    double after = 0;
+    for (int k = 0; k < 2; k++) after += h[k].held ? 0 : pairs_of(h[k].sides, h[k].entries_n);
+    return before > 0 ? most_of(1, c->growth * (after / before)) : 1;
+}
+
+/* What is left of a half when its lists are made: a cell to split further, or settled. */
+static void settle_half(builder *b, const cell *parent, const half *h, double growth)
+{
+    if (h->held) {
+        sunder_i_cells_close(b, parent, &h->b, h->holder, h->holder);
+        b->done += parent->share / 2;
+        return;
+    }
+    cell c = {h->b, b->entries_n,     b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0,
+              0,    parent->share / 2, growth,        0};
+    memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
+    memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
+    if (h->entries_n == 1) {
+        sunder_i_cells_lone_leaf(b, &c);
+        b->done += c.share;
+        return;
+    }
+    uint32_t two[2];
+    if (find_two(b, &c, &h->b, two)) {
+        sunder_i_cells_close(b, parent, &h->b, two[0], two[1]);
+        b->done += c.share;
+        return;
+    }
+    c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
+    const bool grown = growth > MOST_GROWTH && !b->trial.on;
+    const bool stubborn = c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
+    const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !grown && !stubborn && choose_axis(b, &c);
+    const size_t lines = at_once ? halve(&c, h) : shrink(b, &c, &h->b);
+    c.trial = grown && pairs_of(lines, h->entries_n) >= TRIAL_PAIRS ? pairs_of(lines, h->entries_n) : 0;
+    const bool enough = stubborn || (grown && !(c.trial > 0));
+    const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
+    const bool leaf = enough || lines * (h->entries_n - 1) <= few || (lines > 0 && !choose_axis(b, &c));
+    if (lines > 0 && !leaf) {
+        b->entries_n = c.entry_to;
+        b->runs_n = c.run_to;
+        b->stack[b->stack_n++] = c;
+        return;
+    }
+    if (lines > 0) sunder_i_cells_open_leaf(b, &c);
+    b->done += c.share;
+}
+
+/* Room on the stack for the lists of both halves, the second behind the longest that the first can be; one more
+ * side is written than kept. */
+static bool reserve_halves(builder *b, const cell *c)
+{
+    const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
+    if (sunder_i_reserve(&b->entries, &b->entries_capacity, b->entries_n + 2 * e, sizeof *b->entries) &&
+        sunder_i_reserve(&b->runs, &b->runs_capacity, b->runs_n + 2 * s, sizeof *b->runs) &&
+        sunder_i_reserve(&b->stack, &b->stack_capacity, b->stack_n + 2, sizeof *b->stack))
+        return true;
+    b->no_memory = true;
+    return false;
+}
+
+static void split(builder *b, const cell *c)
+{
+    if (!reserve_halves(b, c)) return;
+    b->trial.spent += (double)c->sides;
+    const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
+    half h[2];
+    memset(h, 0, sizeof h);
+    h[0].b = h[1].b = c->b;
+    h[0].b.high[c->axis] = h[1].b.low[c->axis] = c->b.low[c->axis] / 2 + c->b.high[c->axis] / 2;
+    for (int k = 0; k < 2; k++) {
+        h[k].cx = h[k].b.low[0] / 2 + h[k].b.high[0] / 2;
+        h[k].cy = h[k].b.low[1] / 2 + h[k].b.high[1] / 2;
+        h[k].entries = b->entries + b->entries_n + (size_t)k * e;
+        h[k].runs = b->runs + b->runs_n + (size_t)k * s;
+        h[k].stamp = ++b->cells;
+    }
+    /* The halves are of one size up to rounding; the larger stands for both. */
+    const double hx = most_of(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
+    const double hy = most_of(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
+    size_t from = c->run_from;
+    for (size_t i = c->entry_from; i < c->entry_to && !(h[0].held && h[1].held); i++) {
+        if ((i & 31) == 0 && !sunder_i_steps(32)) {
+            b->no_memory = true;
+            return;
+        }
+        if (!keep_whole(b, h, b->runs + from, &b->entries[i]))
+            filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
+        from += b->entries[i].runs;
+    }
+    const double growth = growth_of(c, h);
+    settle_half(b, c, &h[0], growth);
+    if (!b->no_memory) settle_half(b, c, &h[1], growth);
+}
+
+static sunder_status descend(builder *b, sunder_error *err)
+{
+    cell root;
+    if (!sunder_i_cells_root(b, &root)) return sunder_i_no_memory(err);
+    split(b, &root);
+    unsigned tick = 0;
+    while (b->stack_n > 0 && !b->no_memory) {
+        if (b->stack_n == b->trial.stack_n) b->trial.on = false; /* it has paid */
+        const cell c = b->stack[--b->stack_n];
+        b->entries_n = c.entry_to; /* lists above belong to cells already done */
+        b->runs_n = c.run_to;
+        if (b->options && b->options->progress && (++tick & 63) == 0 &&
+            !b->options->progress(b->done, b->options->progress_user))
+            return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+        if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, b->out->n, b->done, 0};
+        split(b, &c);
+        if (b->trial.on) sunder_i_cells_end_trial(b);
+    }
+    return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
+sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                  const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    if (subsums->sides == 0) return SUNDER_OK;
+    const bool runs = subsums->sides < (size_t)1 << RUN_BITS;
+    builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX,
+                 .run_shift = runs ? RUN_BITS : 32,
+                 .subsums = subsums,
+                 .lines = lines,
+                 .options = options,
+                 .out = out};
+    out->fate = sunder_i_calloc(subsums->sides, sizeof *out->fate);
+    out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
+    b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
+    b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
+    b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
+    for (b.recent_bits = 6; b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits; b.recent_bits++) {}
+    b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
+    const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
+    if (ok) sunder_i_cells_forget_pairs(&b);
+    sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
+    if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
+    sunder_i_free(b.side);
+    sunder_i_free(b.before);
+    sunder_i_free(b.entries);
+    sunder_i_free(b.runs);
+    sunder_i_free(b.stack);
+    sunder_i_free(b.stamp);
+    sunder_i_free(b.single);
+    sunder_i_free(b.shared);
+    sunder_i_free(b.recent);
+    if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
+    return status;
+}
+
+void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing)
+{
+    sunder_i_free(pairing->pair);
+    sunder_i_free(pairing->fate);
+    sunder_i_free(pairing->live_line);
+    memset(pairing, 0, sizeof *pairing);
+}

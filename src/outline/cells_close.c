@@ -1,0 +1,144 @@
+/* The end: which pairs of a line and a subsum come of a cell that is not split further, and which fates of the
+ * candidates. */
+#include "outline/cells_inner.h"
+
+#include <string.h>
+
+/* Neighbouring leaves have most of their pairs in common (features that overlap: nine of ten). Those pushed of late are
+ * known again, by their slot; what has been driven out of it comes in twice, which does no harm. */
+static bool is_known(builder *b, uint64_t pair)
+{
+    uint64_t *slot = &b->recent[(pair * 0x9e3779b97f4a7c15u) >> (64 - b->recent_bits)];
+    if (*slot == pair) return true;
+    *slot = pair;
+    return false;
+}
+
+void sunder_i_cells_forget_pairs(builder *b) { memset(b->recent, 0xff, sizeof *b->recent << b->recent_bits); }
+
+static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
+{
+    sunder_i_cell_pairs *p = b->out;
+    if (is_known(b, (uint64_t)line << 32 | subsum)) return true;
+    if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
+        b->no_memory = true;
+        return false;
+    }
+    p->pair[p->n++] = (uint64_t)line << 32 | subsum;
+    return true;
+}
+
+/* Lists the candidates of some runs that pass through a box. */
+void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
+{
+    const uint32_t *of = b->lines->of;
+    b->crossing_n = 0;
+    for (size_t i = from; i < to; i++) {
+        const run r = b->runs[i];
+        if (r <= b->single_most && of[r] == SUNDER_I_NO_LINE) continue; /* the usual case */
+        const uint32_t first = run_from(b, r), end = run_end(b, r);
+        if (b->before[first] == b->before[end]) continue;
+        if (end - first > 1) {
+            const approx_side *s = &b->side[first], *t = &b->side[end - 1];
+            const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};
+            box part;
+            if (!clip(b, &whole, c, &part)) continue;
+        }
+        for (uint32_t k = first; k < end; k++) {
+            if (of[k] == SUNDER_I_NO_LINE) continue;
+            crossing *x = &b->crossing[b->crossing_n];
+            if (!clip(b, &b->side[k], c, &x->part)) continue;
+            x->side = k;
+            x->line = of[k];
+            b->crossing_n++;
+        }
+    }
+}
+
+/* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes
+ * through it is covered there. */
+void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
+{
+    b->cells++;
+    sunder_i_cells_gather(b, parent->run_from, parent->run_to, c);
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        b->out->fate[b->crossing[i].side] |= CONTESTED;
+        if (b->stamp[line] == b->cells) continue;
+        b->stamp[line] = b->cells;
+        if (!push_pair(b, line, one) || (other != one && !push_pair(b, line, other))) return;
+    }
+}
+
+/* A leaf that one subsum alone reaches into. */
+void sunder_i_cells_lone_leaf(builder *b, const cell *c)
+{
+    sunder_i_cells_gather(b, c->run_from, c->run_to, &c->b);
+    for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
+}
+
+/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. The candidates are
+ * gathered. */
+void sunder_i_cells_open_leaf(builder *b, const cell *c)
+{
+    const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        b->out->fate[b->crossing[i].side] |= PASSES;
+        b->stamp[line] = b->stamp[line] == once || b->stamp[line] == again ? again : once;
+    }
+    const uint32_t pushed = ++b->cells;
+    for (size_t i = 0; i < b->crossing_n; i++) {
+        const uint32_t line = b->crossing[i].line;
+        if (b->stamp[line] == pushed) continue;
+        const bool alone = b->stamp[line] == once;
+        b->stamp[line] = pushed;
+        for (size_t e = c->entry_from; e < c->entry_to; e++) {
+            const uint32_t subsum = b->entries[e].subsum;
+            if (alone && apart(&b->reach[subsum], &b->crossing[i].part)) continue;
+            if (!push_pair(b, line, subsum)) return;
+        }
+    }
+}
+
+/* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. A trial may take
+ * half of what it can save, and leave half the pairs. */
+#define PAIR_COST 8
+
+/* Marks that the trial left on candidates stay: they only make more of them open. */
+void sunder_i_cells_end_trial(builder *b)
+{
+    trial *t = &b->trial;
+    if (t->spent + PAIR_COST * (double)(b->out->n - t->pairs_n) <= PAIR_COST / 2 * t->of.trial) return;
+    t->on = false;
+    b->stack_n = t->stack_n;
+    b->entries_n = t->of.entry_to;
+    b->runs_n = t->of.run_to;
+    b->out->n = t->pairs_n;
+    sunder_i_cells_forget_pairs(b);
+    sunder_i_cells_gather(b, t->of.run_from, t->of.run_to, &t->of.b);
+    sunder_i_cells_open_leaf(b, &t->of);
+    b->done = t->done + t->of.share;
+}
+
+/* Of the marks the fates. An open candidate is paired with its own subsum, where leaves that it has to itself did
+ * not do so. */
+bool sunder_i_cells_fates(builder *b)
+{
+    const sunder_i_subsums *s = b->subsums;
+    for (uint32_t i = 0; i < s->n; i++)
+        for (uint32_t k = sunder_i_subsum_first(s, i); k < s->end[i]; k++) {
+            uint8_t *fate = &b->out->fate[k];
+            if ((*fate & (PASSES | ALONE)) == 0)
+                *fate = SUNDER_I_COVERED;
+            else if (*fate == ALONE && !b->shared[b->lines->of[k]]) {
+                *fate = SUNDER_I_WHOLE;
+                b->out->whole++;
+            } else {
+                if ((*fate & ALONE) && !push_pair(b, b->lines->of[k], i)) return false;
+                *fate = SUNDER_I_OPEN;
+                b->out->live_line[b->lines->of[k]] = true;
+            }
+        }
+    return true;
+}

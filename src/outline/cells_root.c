@@ -1,0 +1,144 @@
+/* The beginning: sides as doubles, and the lists of the root cell. */
+#include "outline/cells_inner.h"
+#include "base/sort.h"
+#include "base/watch.h"
+#include "predicate/predicate.h"
+
+/* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block
+ * freed so far, and with that all memory of a sum for the next one, instead of giving it back and fetching it again
+ * page by page. */
+static bool make_room(builder *b)
+{
+    const sunder_i_subsums *s = b->subsums;
+    const size_t bytes = s->sides * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
+    b->side = sunder_i_alloc(bytes + bytes / 2, 1);
+    if (!b->side) return false;
+    b->crossing = (crossing *)(void *)(b->side + s->sides);
+    b->reach = (box *)(void *)(b->crossing + s->sides);
+    b->before = sunder_i_alloc(s->sides + 1, sizeof *b->before);
+    if (!b->before) return false;
+    uint32_t n = 0;
+    for (size_t k = 0; k < s->sides; k++) {
+        b->before[k] = n;
+        n += b->lines->of[k] != SUNDER_I_NO_LINE;
+    }
+    b->before[s->sides] = n;
+    return true;
+}
+
+/* Doubles of all sides; false if memory is out. Vectors are taken from exact differences, so that their error is
+ * relative to themselves. */
+static bool approximate(builder *b, box *all)
+{
+    const sunder_i_subsums *s = b->subsums;
+    sunder_i_lattice *l = s->lattice;
+    double most = 0;
+    *all = nothing;
+    const bool narrow = l->narrow;
+    for (size_t i = 0; i < s->n; i++) {
+        const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
+        if (!sunder_i_step()) return false;
+        box own = nothing;
+        for (uint32_t k = first; k < end; k++) {
+            const sunder_i_point from = s->corner[k], to = s->corner[k + 1 < end ? k + 1 : first];
+            const double x = narrow ? (double)from.x : sunder_i_approx(l, from.x);
+            const double y = narrow ? (double)from.y : sunder_i_approx(l, from.y);
+            double dx, dy;
+            if (narrow) {
+                dx = (double)(to.x - from.x);
+                dy = (double)(to.y - from.y);
+            } else {
+                sunder_i_point_difference(l, to, from, &dx, &dy);
+            }
+            b->side[k] = (approx_side){x, y, dx, dy};
+            own.low[0] = least(own.low[0], x);
+            own.high[0] = most_of(own.high[0], x);
+            own.low[1] = least(own.low[1], y);
+            own.high[1] = most_of(own.high[1], y);
+            most = most_of(most, most_of(fabs(x), fabs(y)));
+        }
+        b->reach[i] = own;
+        grow(all, &own);
+    }
+    /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start
+     * point is off by 2u * most (conversion), differences of coordinates by as much again, products and their
+     * difference by 3u of products up to 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is
+     * used. Subnormals: approx_shift keeps the largest coordinates near 2^500, and the 2^-900 covers what
+     * underflows. */
+    b->error = 0x1p-48 * most + 0x1p-900;
+    b->out->most = most;
+    /* A candidate on the very border must not be missed. */
+    widen(all, b->error);
+    for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);
+    return !l->arena.failed;
+}
+
+/* Twice the area of a subsum, nearly. */
+static double extent_of(const builder *b, size_t subsum)
+{
+    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum);
+    const approx_side *o = &b->side[first];
+    double area = 0;
+    for (uint32_t k = first; k < b->subsums->end[subsum]; k++) {
+        const approx_side *s = &b->side[k];
+        area += (s->ax - o->ax) * s->dy - (s->ay - o->ay) * s->dx;
+    }
+    return area;
+}
+
+static int compare_extents(void *context, uint32_t a, uint32_t b)
+{
+    const double *extent = context;
+    return (extent[a] < extent[b]) - (extent[a] > extent[b]);
+}
+
+static bool one_quadrant(const approx_side *s, const approx_side *t)
+{
+    return (s->dx > 0) == (t->dx > 0) && (s->dy > 0) == (t->dy > 0) && (s->dx < 0) == (t->dx < 0) &&
+           (s->dy < 0) == (t->dy < 0);
+}
+
+/* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
+static void add_runs(builder *b, uint32_t subsum)
+{
+    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum), end = b->subsums->end[subsum];
+    const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
+    const size_t before = b->runs_n;
+    for (uint32_t k = first; k < end;) {
+        uint32_t n = 1;
+        while (n < longest && k + n < end && one_quadrant(&b->side[k], &b->side[k + n])) n++;
+        b->runs[b->runs_n++] = n > 1 ? (n - 1) << RUN_BITS | k : k;
+        k += n;
+    }
+    b->entries[b->entries_n++] = (entry){subsum, (uint32_t)(b->runs_n - before)};
+}
+
+/* The root holds every side of every subsum, the largest subsums first: those are the ones that close cells. */
+static bool list_all(builder *b, const box *all, cell *root)
+{
+    const sunder_i_subsums *s = b->subsums;
+    double *extent = sunder_i_alloc(s->n, sizeof *extent);
+    uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
+    bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&
+              sunder_i_reserve(&b->runs, &b->runs_capacity, s->sides, sizeof *b->runs);
+    for (uint32_t i = 0; ok && i < s->n; i++) {
+        order[i] = i;
+        extent[i] = extent_of(b, i);
+    }
+    ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
+    for (size_t i = 0; ok && i < s->n; i++) {
+        add_runs(b, order[i]);
+        ok = sunder_i_step();
+    }
+    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1, 0};
+    root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
+    sunder_i_free(extent);
+    sunder_i_free(order);
+    return ok;
+}
+
+bool sunder_i_cells_root(builder *b, cell *root)
+{
+    box all;
+    return make_room(b) && approximate(b, &all) && list_all(b, &all, root);
+}

@@ -1,0 +1,330 @@
+#include "outline/coverage.h"
+
+#include "base/sort.h"
+#include "base/watch.h"
+#include "predicate/kernel.h"
+
+#include <string.h>
+
+/* How many cover, rest on either bank, or are live candidates. */
+typedef struct state {
+    int32_t cover, left, right, domain;
+} state;
+
+/* What changes at a place on the line; all zero where only a corner stands there. */
+typedef struct event {
+    sunder_i_fraction at;
+    state change;
+    uint32_t corner; /* of a subsum, at that place; NO_CORNER if none is known */
+} event;
+
+#define NO_CORNER UINT32_MAX
+
+typedef struct finder {
+    const sunder_i_subsums *subsums;
+    const sunder_i_lines *lines;
+    const uint8_t *fate;
+    sunder_i_coverage *out;
+    event *events; /* of the line at hand */
+    size_t events_n, events_capacity;
+    uint32_t *order;
+    size_t order_capacity;
+    bool no_memory;
+} finder;
+
+static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t corner)
+{
+    if (f->events_n == f->events_capacity &&
+        !sunder_i_reserve(&f->events, &f->events_capacity, f->events_n + 1, sizeof *f->events)) {
+        f->no_memory = true;
+        return;
+    }
+    f->events[f->events_n++] = (event){at, change, corner};
+}
+
+/* ---- One subsum and one line ---- */
+
+typedef struct polygon {
+    const sunder_i_subsums *s;
+    uint32_t first, n;
+} polygon;
+
+/* i < 2 n, cyclically. */
+static sunder_i_point corner(const polygon *p, uint32_t i)
+{
+    return p->s->corner[p->first + (i < p->n ? i : i - p->n)];
+}
+
+/* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is
+ * past a full turn. Corners there are extreme in the direction normal to r. */
+static uint32_t first_above(const polygon *p, uint32_t r)
+{
+    const uint32_t *rank = p->s->rank + p->first;
+    uint32_t low = 0, high = p->n;
+    while (low < high) {
+        const uint32_t middle = (low + high) / 2;
+        if (rank[middle] > r)
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
+{
+    sunder_i_lattice *l = p->s->lattice;
+    if (!l->narrow) return sunder_i_orient(l, line->a, line->b, corner(p, i));
+    l->counts.orientation_tests++;
+    return sunder_i_i128_sign(
+        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a)));
+}
+
+/* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes
+ * through. */
+static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line, uint32_t from, uint32_t to, int sign)
+{
+    uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
+    while (high - low > 1) {
+        const uint32_t middle = (low + high) / 2;
+        if (side_of(p, line, middle) == -sign)
+            low = middle;
+        else
+            high = middle;
+    }
+    return sunder_i_crossing(p->s->lattice, line->a, line->b, corner(p, low), corner(p, high));
+}
+
+/* One side on the line, covering one bank of it. */
+static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, uint32_t side, bool left)
+{
+    sunder_i_lattice *l = p->s->lattice;
+    const uint32_t next = side + 1 < p->first + p->n ? side + 1 : p->first;
+    const sunder_i_fraction from = sunder_i_along(l, line->a, line->b, p->s->corner[side]);
+    const sunder_i_fraction to = sunder_i_along(l, line->a, line->b, p->s->corner[next]);
+    const int32_t live = f->fate[side] == SUNDER_I_OPEN;
+    if (left) {
+        add_event(f, from, (state){0, 1, 0, live}, side);
+        add_event(f, to, (state){0, -1, 0, -live}, next);
+    } else {
+        add_event(f, to, (state){0, 0, 1, live}, next);
+        add_event(f, from, (state){0, 0, -1, -live}, side);
+    }
+}
+
+/* The subsum rests on the line: sides of the wanted rank end in corner i (several where a piece has straight
+ * corners); or it touches the line there. */
+static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
+{
+    const uint32_t end = p->first + (i < p->n ? i : 0);
+    uint32_t side = p->first + (i ? i : p->n) - 1;
+    if (p->s->rank[side] != rank) {
+        add_event(f, sunder_i_along(p->s->lattice, line->a, line->b, p->s->corner[end]), (state){0, 0, 0, 0}, end);
+        return;
+    }
+    for (; p->s->rank[side] == rank; side = side > p->first ? side - 1 : p->first + p->n - 1)
+        rest_side(f, p, line, side, left);
+}
+
+static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
+{
+    const sunder_i_subsums *s = f->subsums;
+    const uint32_t first = sunder_i_subsum_first(s, subsum), forward = line->class, back = forward + s->classes;
+    const polygon p = {s, first, s->end[subsum] - first};
+    /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
+    const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
+    const int low = side_of(&p, line, lowest), high = side_of(&p, line, highest);
+    if (low < 0 && high > 0) {
+        const uint32_t up_to = highest >= lowest ? highest : highest + p.n;
+        const uint32_t down_to = lowest > highest ? lowest : lowest + p.n;
+        add_event(f, cross_chain(&p, line, highest, down_to, -1), (state){1, 0, 0, 0}, NO_CORNER);
+        add_event(f, cross_chain(&p, line, lowest, up_to, 1), (state){-1, 0, 0, 0}, NO_CORNER);
+    } else if (low == 0)
+        rest_on(f, &p, line, lowest, forward, true);
+    else if (high == 0)
+        rest_on(f, &p, line, highest, back, false);
+}
+
+/* ---- Along one line ---- */
+
+static int compare_events(void *context, uint32_t a, uint32_t b)
+{
+    const finder *f = context;
+    return sunder_i_fraction_cmp(f->subsums->lattice, &f->events[a].at, &f->events[b].at);
+}
+
+static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
+
+static uint8_t banks(const state *s)
+{
+    return (uint8_t)((s->left > 0 ? SUNDER_I_LEFT : 0) | (s->right > 0 ? SUNDER_I_RIGHT : 0));
+}
+
+/* A place of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
+static uint32_t add_place(finder *f, const sunder_i_line *line, const sunder_i_fraction *at, uint32_t corner)
+{
+    sunder_i_lattice *l = f->subsums->lattice;
+    const sunder_i_hpoint p = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
+                                                  : sunder_i_hpoint_of(l, f->subsums->corner[corner]);
+    const uint32_t place = sunder_i_places_add(&f->out->places, &p);
+    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
+    return place;
+}
+
+static void add_piece(finder *f, sunder_i_piece piece)
+{
+    sunder_i_coverage *o = f->out;
+    if (o->pieces == o->pieces_capacity &&
+        !sunder_i_reserve(&o->piece, &o->pieces_capacity, o->pieces + 1, sizeof *o->piece)) {
+        f->no_memory = true;
+        return;
+    }
+    o->piece[o->pieces++] = piece;
+}
+
+/* Sweeps the events of one line, place by place. */
+static void sweep(finder *f, uint32_t number)
+{
+    const sunder_i_line *line = &f->lines->line[number];
+    state s = {0, 0, 0, 0};
+    uint32_t last = 0; /* the place where the open piece starts, while uncovered(&s) */
+    for (size_t i = 0; i < f->events_n;) {
+        const event *here = &f->events[f->order[i]];
+        const state before = s;
+        int32_t cover_ends = 0, domain_starts = 0;
+        uint32_t corner = NO_CORNER;
+        size_t j = i;
+        for (; j < f->events_n; j++) {
+            const event *e = &f->events[f->order[j]];
+            if (j > i && compare_events(f, f->order[i], f->order[j]) != 0) break;
+            cover_ends += e->change.cover < 0;
+            domain_starts += e->change.domain > 0;
+            if (e->corner != NO_CORNER) corner = e->corner;
+            s.cover += e->change.cover;
+            s.left += e->change.left;
+            s.right += e->change.right;
+            s.domain += e->change.domain;
+        }
+        /* The place itself: intervals of cover are open, candidates closed. */
+        const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
+        if (point_free) {
+            const uint32_t place = add_place(f, line, &here->at, corner);
+            if (f->no_memory) return;
+            if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, place, banks(&before)});
+            last = place;
+        }
+        i = j;
+    }
+}
+
+static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)
+{
+    f->events_n = 0;
+    for (size_t i = 0; i < n && !f->no_memory; i++) {
+        if (!sunder_i_step()) f->no_memory = true;
+        if (i == 0 || pair[i] != pair[i - 1]) meet(f, &f->lines->line[number], (uint32_t)pair[i]);
+    }
+    if (!sunder_i_reserve(&f->order, &f->order_capacity, f->events_n, sizeof *f->order)) f->no_memory = true;
+    if (f->no_memory) return;
+    for (uint32_t i = 0; i < f->events_n; i++) f->order[i] = i;
+    if (!sunder_i_sort_indices(f->order, f->events_n, compare_events, f)) {
+        f->no_memory = true;
+        return;
+    }
+    sweep(f, number);
+}
+
+/* ---- Sides that are boundary as they stand ---- */
+
+/* The place of a corner of a subsum. Between two whole sides nothing else comes there. */
+static uint32_t corner_place(finder *f, uint32_t corner, bool between)
+{
+    const sunder_i_hpoint p = sunder_i_hpoint_of(f->subsums->lattice, f->subsums->corner[corner]);
+    const uint32_t place =
+        between ? sunder_i_places_append(&f->out->places, &p) : sunder_i_places_add(&f->out->places, &p);
+    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
+    return place;
+}
+
+static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
+{
+    const sunder_i_subsums *s = f->subsums;
+    bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* the side before k */
+    uint32_t first_place = SUNDER_I_NO_PLACE, to = SUNDER_I_NO_PLACE;
+    for (uint32_t k = first; k < end; k++) {
+        const bool whole = f->fate[k] == SUNDER_I_WHOLE;
+        if (whole) {
+            const uint32_t next = k + 1 < end ? k + 1 : first;
+            const uint32_t from = before && k > first ? to : corner_place(f, k, before);
+            if (k == first) first_place = from;
+            to = next == first && first_place != SUNDER_I_NO_PLACE
+                     ? first_place
+                     : corner_place(f, next, f->fate[next] == SUNDER_I_WHOLE);
+            if (f->no_memory) return;
+            const uint32_t line = f->lines->of[k];
+            add_piece(f, s->rank[k] < s->classes ? (sunder_i_piece){line, from, to, SUNDER_I_LEFT}
+                                                 : (sunder_i_piece){line, to, from, SUNDER_I_RIGHT});
+        }
+        before = whole;
+    }
+}
+
+/* Lines that no open leaf holds are covered throughout. */
+static void drop_dead_lines(sunder_i_cell_pairs *pairing)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < pairing->n; i++)
+        if (pairing->live_line[pairing->pair[i] >> 32]) pairing->pair[n++] = pairing->pair[i];
+    pairing->n = n;
+}
+
+/* Room for what most lines yield, a piece and one new place: growing step by step would touch several times the
+ * memory. */
+static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
+{
+    sunder_i_coverage *o = f->out;
+    size_t live = 0;
+    for (uint32_t i = 0; i < f->lines->n; i++) live += pairing->live_line[i];
+    const size_t usual = live + live / 8;
+    return sunder_i_places_init(&o->places, f->subsums->lattice, pairing->most, usual, pairing->whole) &&
+           sunder_i_reserve(&o->piece, &o->pieces_capacity, usual + pairing->whole + 1, sizeof *o->piece);
+}
+
+static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
+{
+    drop_dead_lines(pairing);
+    bool ok = reserve_usual(f, pairing) && sunder_i_sort_keys(pairing->pair, pairing->n);
+    for (size_t i = 0; ok && i < pairing->n;) {
+        const uint32_t number = (uint32_t)(pairing->pair[i] >> 32);
+        size_t j = i;
+        while (j < pairing->n && pairing->pair[j] >> 32 == number) j++;
+        sweep_line(f, number, pairing->pair + i, j - i);
+        ok = !f->no_memory && sunder_i_step();
+        i = j;
+    }
+    for (size_t i = 0; ok && pairing->whole && i < f->subsums->n; i++) {
+        take_whole_sides(f, sunder_i_subsum_first(f->subsums, i), f->subsums->end[i]);
+        ok = !f->no_memory;
+    }
+    return ok && !f->subsums->lattice->arena.failed;
+}
+
+sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+                                     sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    finder f = {.subsums = subsums, .lines = lines, .fate = pairing->fate, .out = out};
+    const bool ok = find_all(&f, pairing);
+    sunder_i_free(f.events);
+    sunder_i_free(f.order);
+    if (ok) return SUNDER_OK;
+    sunder_i_coverage_free(out);
+    return sunder_i_no_memory(err);
+}
+
+void sunder_i_coverage_free(sunder_i_coverage *coverage)
+{
+    sunder_i_places_free(&coverage->places);
+    sunder_i_free(coverage->piece);
+    memset(coverage, 0, sizeof *coverage);
+}

@@ -1,0 +1,132 @@
+#include "outline/lines.h"
+
+#include "base/watch.h"
+#include "predicate/kernel.h"
+#include "predicate/vector.h"
+
+#include <string.h>
+
+/* A line is its class and the cross product of the class's direction with any of its points: equal exactly for
+ * points of one line. */
+typedef struct key {
+    sunder_i_i128 offset; /* the number itself, or a handle */
+    bool pooled;
+    uint32_t class, hash;
+} key;
+
+typedef struct table {
+    const sunder_i_subsums *subsums;
+    uint32_t *slot; /* line number + 1, or 0 */
+    size_t mask;
+    key *keys; /* [lines] */
+} table;
+
+static uint64_t mix(uint64_t h, uint64_t v)
+{
+    h = (h ^ v) * 0x9e3779b97f4a7c15u;
+    return h ^ h >> 29;
+}
+
+static uint64_t mix_big(uint64_t h, sunder_i_big v)
+{
+    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) h = mix(h, v.limb[i]);
+    return h;
+}
+
+/* The offset of a corner with a denominator, in lowest terms; that of the direction is the same for all of a class. It
+ * is an integer where the line runs through lattice points, and then the same as theirs. */
+static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_point a, uint64_t hash, key *k)
+{
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    const sunder_i_vector u = sunder_i_vector_get(m, l, a);
+    sunder_i_big num = sunder_i_vector_cross(m, sunder_i_vector_get(m, l, d), u), den = u.w;
+    if (!sunder_i_is_one(den)) {
+        const sunder_i_big g = sunder_i_big_gcd(m, num, den);
+        num = sunder_i_big_div_floor(m, num, g);
+        den = sunder_i_big_div_floor(m, den, g);
+    }
+    k->pooled = !sunder_i_is_one(den) || sunder_i_big_bits(num) > 126;
+    if (k->pooled) {
+        k->offset = sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, num), sunder_i_big_copy(&l->arena, den), 0);
+        hash = mix_big(mix_big(hash, num), den);
+    } else {
+        const uint64_t low = num.size ? num.limb[0] : 0, high = num.size > 1 || num.size < -1 ? num.limb[1] : 0;
+        k->offset = (sunder_i_i128)((sunder_i_u128)high << 64 | low);
+        if (num.size < 0) k->offset = -k->offset;
+        hash = mix(mix(hash, (uint64_t)k->offset), (uint64_t)(k->offset >> 64));
+    }
+    sunder_i_lattice_end(l, mark);
+    return hash;
+}
+
+static key make_key(const sunder_i_subsums *s, uint32_t side)
+{
+    const uint32_t rank = s->rank[side];
+    key k = {0, false, rank < s->classes ? rank : rank - s->classes, 0};
+    const sunder_i_point d = s->direction[k.class], a = s->corner[side];
+    uint64_t hash = mix(0, k.class);
+    if (s->lattice->narrow || (sunder_i_point_is_plain(d) && sunder_i_point_is_plain(a))) {
+        k.offset = sunder_i_narrow_cross(d, a);
+        hash = mix(mix(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
+    } else {
+        hash = pooled_offset(s->lattice, d, a, hash, &k);
+    }
+    k.hash = (uint32_t)(hash >> 32);
+    return k;
+}
+
+static bool same_line(const sunder_i_subsums *s, const key *a, const key *b)
+{
+    if (a->hash != b->hash || a->class != b->class || a->pooled != b->pooled) return false;
+    if (!a->pooled) return a->offset == b->offset;
+    sunder_i_arena *m = &s->lattice->scratch; /* where nothing is made: these are no plain numbers */
+    const sunder_i_ratio p = sunder_i_lattice_read(m, s->lattice, (int64_t)a->offset);
+    const sunder_i_ratio q = sunder_i_lattice_read(m, s->lattice, (int64_t)b->offset);
+    return sunder_i_big_cmp(p.num, q.num) == 0 && sunder_i_big_cmp(p.den, q.den) == 0;
+}
+
+/* The number of the line of a side, made if it is new. */
+static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
+{
+    const sunder_i_subsums *s = t->subsums;
+    const key k = make_key(s, side);
+    size_t at = k.hash & t->mask;
+    for (; t->slot[at]; at = (at + 1) & t->mask)
+        if (same_line(s, &t->keys[t->slot[at] - 1], &k)) return t->slot[at] - 1;
+    const uint32_t n = out->n++;
+    t->slot[at] = n + 1;
+    t->keys[n] = k;
+    const sunder_i_point a = s->corner[side], d = s->direction[k.class];
+    out->line[n] = (sunder_i_line){
+        a, s->lattice->narrow ? (sunder_i_point){a.x + d.x, a.y + d.y} : sunder_i_point_add(s->lattice, a, d), k.class};
+    return n;
+}
+
+sunder_status sunder_i_lines_group(const sunder_i_subsums *subsums, sunder_i_lines *out, sunder_error *err)
+{
+    size_t n = 0, size = 16;
+    memset(out, 0, sizeof *out);
+    for (size_t k = 0; k < subsums->sides; k++) n += subsums->candidate[k];
+    while (size < 2 * n) size *= 2;
+    table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
+    out->line = sunder_i_alloc(n, sizeof *out->line);
+    out->of = sunder_i_alloc(subsums->sides, sizeof *out->of);
+    bool ok = t.slot && t.keys && out->line && out->of;
+    for (uint32_t k = 0; ok && k < subsums->sides; k++) {
+        ok = sunder_i_step();
+        out->of[k] = subsums->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
+    }
+    sunder_i_free(t.slot);
+    sunder_i_free(t.keys);
+    if (ok && !subsums->lattice->arena.failed) return SUNDER_OK;
+    sunder_i_lines_free(out);
+    return sunder_i_no_memory(err);
+}
+
+void sunder_i_lines_free(sunder_i_lines *lines)
+{
+    sunder_i_free(lines->line);
+    sunder_i_free(lines->of);
+    memset(lines, 0, sizeof *lines);
+}

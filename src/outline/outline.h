@@ -1,0 +1,16 @@
+/* From convex parts to the outline of their union: lines, cells, coverage, boundary, one after the other. */
+#ifndef SUNDER_I_STAGES_H
+#define SUNDER_I_STAGES_H
+
+#include "outline/coverage.h"
+
+/* Fills the outline of an empty sum, which owns the lattice that the parts stand on.
+ *
+ * keep     NULL, or is called with the coverage while there is one.
+ * Fails    SUNDER_ENOMEM, SUNDER_ECANCEL; the caller frees the sum. */
+sunder_status sunder_i_stages_run(const sunder_i_subsums *parts, const sunder_sum_options *options,
+                                  sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
+                                                        sunder_error *err),
+                                  void *user, sunder_sum *sum, sunder_error *err);
+
+#endif

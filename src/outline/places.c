@@ -1,0 +1,126 @@
+/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less
+ * than a grid step, so they fall in one grid square, or both close to the border between two: looking into every
+ * square that the error reaches finds the point. Equality itself is decided exactly.
+ *
+ * Where the approximations cannot tell places apart (small detail far from the origin, in a sum of which another member
+ * is farther still) one square would come to hold all of them. Then the table is made anew with hashes of the exact
+ * coordinates, which cost two divisions of big integers each. */
+#include "outline/places.h"
+
+#include <string.h>
+
+typedef struct square {
+    int64_t x, y;
+} square;
+
+static size_t hash(square q)
+{
+    uint64_t h = (uint64_t)q.x * 0x9e3779b97f4a7c15u ^ (uint64_t)q.y * 0xc2b2ae3d27d4eb4fu;
+    h ^= h >> 32;
+    h *= 0x9e3779b97f4a7c15u;
+    return (size_t)(h ^ h >> 29);
+}
+
+/* Squares are counted from far below the smallest coordinate, so that cutting off the fraction rounds down. */
+static square square_of(const sunder_i_places *g, double x, double y)
+{
+    return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
+}
+
+/* So many taken slots in a row do not come about by chance: in a table of n places, half full, the longest row is about
+ * 5 ln n long. */
+#define CROWD 128
+
+static uint32_t find(const sunder_i_places *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
+{
+    size_t at = start & g->mask;
+    for (; g->slot[at]; at = (at + 1) & g->mask)
+        if (sunder_i_hpoint_equal(g->lattice, &g->point[g->slot[at] - 1], p)) return g->slot[at] - 1;
+    if (((at - start) & g->mask) > CROWD) *crowded = true;
+    return SUNDER_I_NO_PLACE;
+}
+
+/* The place of p, if it is known; *crowded is set if that was hard to tell. */
+static uint32_t find_near(const sunder_i_places *g, const sunder_i_hpoint *p, bool *crowded)
+{
+    const square low = square_of(g, p->ax - g->error, p->ay - g->error);
+    const square high = square_of(g, p->ax + g->error, p->ay + g->error);
+    for (int64_t x = low.x; x <= high.x; x++)
+        for (int64_t y = low.y; y <= high.y; y++) {
+            const uint32_t v = find(g, hash((square){x, y}), p, crowded);
+            if (v != SUNDER_I_NO_PLACE) return v;
+        }
+    return SUNDER_I_NO_PLACE;
+}
+
+static void insert(sunder_i_places *g, uint32_t number)
+{
+    const sunder_i_hpoint *p = &g->point[number];
+    size_t at = (g->exact ? sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay))) & g->mask;
+    while (g->slot[at]) at = (at + 1) & g->mask;
+    g->slot[at] = number + 1;
+}
+
+/* A table at most half full with so many places; what is there is entered anew. */
+static bool make_table(sunder_i_places *g, size_t places)
+{
+    size_t size = 16;
+    while (size < 2 * places) size *= 2;
+    uint32_t *slot = sunder_i_calloc(size, sizeof *slot);
+    if (!slot) return false;
+    sunder_i_free(g->slot);
+    g->slot = slot;
+    g->mask = size - 1;
+    for (size_t i = 0; i < g->n; i++) insert(g, (uint32_t)i);
+    return true;
+}
+
+bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected,
+                          size_t appended)
+{
+    memset(places, 0, sizeof *places);
+    places->lattice = lattice;
+    /* Off the powers of two, where lattice points stand; 2^-40 of the whole keeps different places apart on maps. */
+    places->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
+    /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
+    places->error = most * 0x1p-48;
+    return sunder_i_reserve(&places->point, &places->capacity, expected + appended + 1, sizeof *places->point) &&
+           make_table(places, expected);
+}
+
+uint32_t sunder_i_places_append(sunder_i_places *places, const sunder_i_hpoint *p)
+{
+    if (!sunder_i_reserve(&places->point, &places->capacity, places->n + 1, sizeof *places->point))
+        return SUNDER_I_NO_PLACE;
+    places->point[places->n] = *p;
+    return (uint32_t)places->n++;
+}
+
+uint32_t sunder_i_places_add(sunder_i_places *places, const sunder_i_hpoint *p)
+{
+    bool crowded = false;
+    const uint32_t known = places->exact ? find(places, sunder_i_hpoint_hash(places->lattice, p), p, &crowded)
+                                         : find_near(places, p, &crowded);
+    if (known != SUNDER_I_NO_PLACE) return known;
+    if (crowded && !places->exact) {
+        places->exact = true;
+        if (!make_table(places, places->n)) return SUNDER_I_NO_PLACE;
+        places->entered = places->n;
+    }
+    if (2 * (places->entered + 1) > places->mask + 1) {
+        if (!make_table(places, 2 * places->n)) return SUNDER_I_NO_PLACE;
+        places->entered = places->n;
+    }
+    const uint32_t number = sunder_i_places_append(places, p);
+    if (number == SUNDER_I_NO_PLACE) return number;
+    insert(places, number);
+    places->entered++;
+    return number;
+}
+
+void sunder_i_places_free(sunder_i_places *places)
+{
+    sunder_i_free(places->point);
+    sunder_i_free(places->slot);
+    memset(places, 0, sizeof *places);
+}

@@ -1,0 +1,48 @@
+/* Order along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees over it
+ * have small boxes. Only speed depends on it; doubles are good enough. */
+#include "spatial/curve.h"
+
+#include "base/sort.h"
+
+#include <math.h>
+
+/* The bits of two 16-bit numbers in turn (Morton order). */
+static uint32_t interleave(uint32_t x, uint32_t y)
+{
+    const uint32_t mask[4] = {0x00ff00ff, 0x0f0f0f0f, 0x33333333, 0x55555555};
+    for (int i = 0; i < 4; i++) {
+        x = (x | x << (8 >> i)) & mask[i];
+        y = (y | y << (8 >> i)) & mask[i];
+    }
+    return x | y << 1;
+}
+
+static uint32_t cell(double v, double low, double high)
+{
+    const double t = (v - low) / (high - low) * 65535;
+    return t >= 0 && t <= 65535 ? (uint32_t)t : 0;
+}
+
+void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *list, size_t n, sunder_i_arena *arena)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    uint64_t *key = sunder_i_arena_alloc(arena, n, sizeof *key);
+    if (!key) return;
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < 2; k++) {
+            const double v = xy[2 * (size_t)vertex[list[i]] + k];
+            low[k] = fmin(low[k], v);
+            high[k] = fmax(high[k], v);
+        }
+    for (size_t i = 0; i < n; i++) {
+        const double *at = xy + 2 * (size_t)vertex[list[i]];
+        key[i] = (uint64_t)interleave(cell(at[0], low[0], high[0]), cell(at[1], low[1], high[1])) << 32 | list[i];
+    }
+    if (!sunder_i_sort_keys(key, n)) {
+        arena->failed = true;
+        return;
+    }
+    for (size_t i = 0; i < n; i++) list[i] = (uint32_t)key[i];
+    sunder_i_arena_release(arena, mark);
+}

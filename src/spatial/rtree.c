@@ -1,0 +1,209 @@
+/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [Kamel and Faloutsos, "On
+ * packing R-trees", CIKM 1993]. It answers with closed boxes and loses nothing: boxes above are the exact hulls of
+ * those below, also when a box moves, which then are made anew from the leaf to the root. Which leaf is in which node
+ * stays as it was, so that nodes sprawl as their members part; when they have become half as large again the tree is
+ * worn, and whoever moves boxes builds it anew. Where the curve's grid is too coarse to tell centres apart only speed
+ * suffers. */
+#include "spatial/rtree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FANOUT 16
+
+typedef struct place {
+    uint32_t hilbert, item;
+} place;
+
+/* The position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve; by halving the square. */
+static uint32_t hilbert(uint32_t x, uint32_t y)
+{
+    uint32_t d = 0;
+    for (uint32_t s = 1u << 15; s > 0; s >>= 1) {
+        const uint32_t rx = (x & s) != 0, ry = (y & s) != 0;
+        d += s * s * ((3 * rx) ^ ry);
+        if (ry == 0) {
+            if (rx == 1) {
+                x = 65535 - x;
+                y = 65535 - y;
+            }
+            const uint32_t swap = x;
+            x = y;
+            y = swap;
+        }
+    }
+    return d;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    if (p->hilbert != q->hilbert) return p->hilbert < q->hilbert ? -1 : 1;
+    return p->item < q->item ? -1 : p->item > q->item;
+}
+
+static void box_empty(double box[4])
+{
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+}
+
+static void box_add(double box[4], const double *other)
+{
+    box[0] = fmin(box[0], other[0]);
+    box[1] = fmin(box[1], other[1]);
+    box[2] = fmax(box[2], other[2]);
+    box[3] = fmax(box[3], other[3]);
+}
+
+/* Which of 65536 columns the middle of [low, high] is in; halves keep it finite. */
+static uint32_t cell(double low, double high, double all_low, double all_high)
+{
+    const double width = all_high / 2 - all_low / 2;
+    if (!(width > 0)) return 0;
+    const double v = ((low / 4 + high / 4) - all_low / 2) / width * 65535;
+    return v <= 0 ? 0 : v >= 65535 ? 65535 : (uint32_t)v;
+}
+
+static sunder_status sort_places(const double *box, const bool *present, size_t n, place **out, size_t *leaves)
+{
+    place *places = sunder_i_alloc(n, sizeof *places);
+    if (!places) return SUNDER_ENOMEM;
+    double all[4];
+    box_empty(all);
+    for (size_t i = 0; i < n; i++)
+        if (!present || present[i]) box_add(all, box + 4 * i);
+    size_t k = 0;
+    for (size_t i = 0; i < n; i++) {
+        if (present && !present[i]) continue;
+        const double *b = box + 4 * i;
+        places[k].item = (uint32_t)i;
+        places[k++].hilbert = hilbert(cell(b[0], b[2], all[0], all[2]), cell(b[1], b[3], all[1], all[3]));
+    }
+    qsort(places, k, sizeof *places, by_place);
+    *out = places;
+    *leaves = k;
+    return SUNDER_OK;
+}
+
+/* The first of a node's children on the level below, and the end of them. */
+static size_t children(const sunder_i_index *tree, unsigned level, size_t node, size_t *end)
+{
+    const size_t first = tree->level[level - 1] + (node - tree->level[level]) * FANOUT;
+    *end = first + FANOUT < tree->level[level] ? first + FANOUT : tree->level[level];
+    return first;
+}
+
+static void hull_of_children(const sunder_i_index *tree, unsigned level, size_t node, double box[4])
+{
+    size_t end;
+    box_empty(box);
+    for (size_t c = children(tree, level, node, &end); c < end; c++) box_add(box, tree->box + 4 * c);
+}
+
+static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
+
+sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
+                                   sunder_error *err)
+{
+    place *places = NULL;
+    size_t leaves = 0;
+    if (sort_places(box, present, n, &places, &leaves)) return sunder_i_no_memory(err);
+    sunder_i_index tree;
+    memset(&tree, 0, sizeof tree);
+    tree.leaves = leaves;
+    size_t nodes = leaves, width = leaves;
+    tree.level[1] = leaves;
+    tree.levels = 1;
+    while (width > 1) {
+        width = (width + FANOUT - 1) / FANOUT;
+        nodes += width;
+        tree.level[++tree.levels] = nodes;
+    }
+    tree.box = sunder_i_alloc(4 * nodes, sizeof *tree.box);
+    tree.item = sunder_i_alloc(leaves, sizeof *tree.item);
+    tree.leaf = sunder_i_alloc(n, sizeof *tree.leaf);
+    if (!tree.box || !tree.item || !tree.leaf) {
+        sunder_i_free(places);
+        sunder_i_index_free(&tree);
+        return sunder_i_no_memory(err);
+    }
+    for (size_t i = 0; i < leaves; i++) {
+        tree.item[i] = places[i].item;
+        tree.leaf[places[i].item] = (uint32_t)i;
+        memcpy(tree.box + 4 * i, box + 4 * (size_t)places[i].item, 4 * sizeof(double));
+    }
+    sunder_i_free(places);
+    for (unsigned l = 1; l < tree.levels; l++)
+        for (size_t node = tree.level[l]; node < tree.level[l + 1]; node++) {
+            hull_of_children(&tree, l, node, tree.box + 4 * node);
+            tree.packed += size_of(tree.box + 4 * node);
+        }
+    tree.sprawl = tree.packed;
+    *out = tree;
+    return SUNDER_OK;
+}
+
+void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4])
+{
+    size_t node = tree->leaf[item];
+    memcpy(tree->box + 4 * node, box, 4 * sizeof *box);
+    for (unsigned l = 1; l < tree->levels; l++) {
+        double hull[4];
+        node = tree->level[l] + (node - tree->level[l - 1]) / FANOUT;
+        hull_of_children(tree, l, node, hull);
+        if (memcmp(hull, tree->box + 4 * node, sizeof hull) == 0) return;
+        tree->sprawl += size_of(hull) - size_of(tree->box + 4 * node);
+        memcpy(tree->box + 4 * node, hull, sizeof hull);
+    }
+}
+
+bool sunder_i_index_is_worn(const sunder_i_index *tree) { return !(tree->sprawl <= 1.5 * tree->packed); }
+
+void sunder_i_index_free(sunder_i_index *tree)
+{
+    sunder_i_free(tree->box);
+    sunder_i_free(tree->item);
+    sunder_i_free(tree->leaf);
+    memset(tree, 0, sizeof *tree);
+}
+
+bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits)
+{
+    if (tree->leaves == 0) return true;
+    /* At most 15 siblings wait on each of at most 16 levels. */
+    struct {
+        size_t node;
+        unsigned level;
+    } stack[16 * FANOUT];
+    size_t depth = 0;
+    stack[depth].node = tree->level[tree->levels] - 1;
+    stack[depth++].level = tree->levels - 1;
+    while (depth) {
+        const size_t node = stack[--depth].node;
+        const unsigned l = stack[depth].level;
+        if (!sunder_i_box_meet(tree->box + 4 * node, box)) continue;
+        if (l == 0) {
+            if (!sunder_i_reserve(&hits->item, &hits->capacity, hits->n + 1, sizeof *hits->item)) return false;
+            hits->item[hits->n++] = tree->item[node];
+            continue;
+        }
+        size_t end;
+        const size_t first = children(tree, l, node, &end);
+        for (size_t c = end; c-- > first;) {
+            stack[depth].node = c;
+            stack[depth++].level = l - 1;
+        }
+    }
+    return true;
+}
+
+void sunder_i_box_grow(const double box[4], double reach, double out[4])
+{
+    /* One step outward covers the rounding of the sum. */
+    out[0] = nextafter(box[0] - reach, -INFINITY);
+    out[1] = nextafter(box[1] - reach, -INFINITY);
+    out[2] = nextafter(box[2] + reach, INFINITY);
+    out[3] = nextafter(box[3] + reach, INFINITY);
+}

@@ -1,0 +1,37 @@
+/* A packed R-tree over boxes, mended when some of them move. */
+#ifndef SUNDER_I_RTREE_H
+#define SUNDER_I_RTREE_H
+
+#include "base/list.h"
+#include "base/memory.h"
+
+/* A packed R-tree over boxes; it serves as well when some of them move. */
+typedef struct sunder_i_index {
+    double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
+    uint32_t *item;   /* [leaves] what each leaf holds */
+    uint32_t *leaf;   /* [items] where each is; of no meaning for those that were not present */
+    size_t level[16]; /* first node of each level; level[levels] is the end */
+    unsigned levels;
+    size_t leaves;
+    double sprawl, packed; /* sum of width and height of all nodes that are no leaves: now, and when it was built */
+} sunder_i_index;
+
+/* Boxes of the items for which present[i] (NULL: all). */
+sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
+                                   sunder_error *err);
+void sunder_i_index_free(sunder_i_index *tree);
+/* A present item has another box from now on. */
+void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4]);
+/* Have so many moved so far that it should be built again? */
+bool sunder_i_index_is_worn(const sunder_i_index *tree);
+
+/* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
+bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
+/* The box grown by reach, rounded outward. */
+void sunder_i_box_grow(const double box[4], double reach, double out[4]);
+static inline bool sunder_i_box_meet(const double *a, const double *b)
+{
+    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+}
+
+#endif

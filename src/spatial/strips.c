@@ -1,0 +1,66 @@
+#include "spatial/strips.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST_STRIPS (1u << 20)
+#define ENTRIES_EACH 8 /* of an item, on average */
+
+/* Monotone in the height, so what holds of heights holds of strips. */
+static uint32_t strip_of(const sunder_i_strips *s, double height)
+{
+    const double k = (height - s->low) * s->per_unit;
+    return !(k > 0) ? 0 : k < s->n ? (uint32_t)k : s->n - 1;
+}
+
+/* As many strips as items, or half of them, ...; how many entries that makes. */
+static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n, double high)
+{
+    size_t entries;
+    for (s->n = n < MOST_STRIPS ? (uint32_t)n + 1 : MOST_STRIPS;; s->n /= 2) {
+        const double height = high - s->low;
+        s->per_unit = height > 0 && isfinite(height) ? s->n / height : 0;
+        entries = 0;
+        for (size_t i = 0; i < n; i++) entries += strip_of(s, span[i][1]) - strip_of(s, span[i][0]) + 1;
+        if (s->n == 1 || entries <= ENTRIES_EACH * n) return entries;
+    }
+}
+
+bool sunder_i_strips_build(sunder_i_strips *s, const double (*span)[2], size_t n)
+{
+    double high = -INFINITY;
+    memset(s, 0, sizeof *s);
+    s->low = INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        s->low = fmin(s->low, span[i][0]);
+        high = fmax(high, span[i][1]);
+    }
+    const size_t entries = choose_count(s, span, n, high);
+    s->end = sunder_i_calloc((size_t)s->n + 1, sizeof *s->end);
+    s->item = sunder_i_alloc(entries, sizeof *s->item);
+    if (!s->end || !s->item) return false;
+    /* Counts, one place up; then where each strip starts, which filling turns into where it ends. */
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = strip_of(s, span[i][0]), last = strip_of(s, span[i][1]); k <= last; k++) s->end[k + 1]++;
+    for (uint32_t k = 0; k < s->n; k++) s->end[k + 1] += s->end[k];
+    for (size_t i = 0; i < n; i++)
+        for (uint32_t k = strip_of(s, span[i][0]), last = strip_of(s, span[i][1]); k <= last; k++)
+            s->item[s->end[k]++] = (uint32_t)i;
+    return true;
+}
+
+void sunder_i_strips_free(sunder_i_strips *s)
+{
+    sunder_i_free(s->end);
+    sunder_i_free(s->item);
+    memset(s, 0, sizeof *s);
+}
+
+void sunder_i_strips_at(const sunder_i_strips *s, double height, size_t *from, size_t *to)
+{
+    const uint32_t k = strip_of(s, height);
+    *from = k ? s->end[k - 1] : 0;
+    *to = s->end[k];
+}

@@ -1,0 +1,382 @@
+/* From a marked map to the canonical sum.
+ *
+ * The map may be a whole arrangement or a clean union; covered counts say all. An edge *bounds* the sum where one side
+ * is covered and the other is not. It is a *slit* where both sides are covered and it is not: a piece of a degenerate
+ * segment. All other edges are covered and count for nothing but this: like slits, they connect the faces on their two
+ * sides. So the components of the interior of the sum are the classes of covered faces under "an edge with both sides
+ * covered lies between".
+ *
+ * Rings. There is one for each component C of the interior and each component of the plane minus the closure of C. From
+ * the end of a bounding half-edge (C on its left), the next one of its ring is the first counter-clockwise that bounds
+ * the same C: between the two lies one wedge of the plane without C. Where the boundary touches itself this turns off
+ * early, so rings are simple; where it touches another component, that one's half-edges are passed over.
+ *
+ * Degenerate holes. Slits on one line that meet are one segment. A point is a vertex that no region covers, where no
+ * edge does without cover either.
+ *
+ * The same is done for other sets of faces than the covered ones (`sunder_i_inside`): what lies between regions, say.
+ *
+ * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas
+ * leave them. */
+#include "base/sort.h"
+#include "base/watch.h"
+#include "sum/from_map.h"
+
+#include <string.h>
+
+typedef struct ring {
+    uint32_t start, end; /* in outline.vertex */
+    uint32_t component;  /* a face that stands for it */
+    bool outer;
+} ring;
+
+typedef struct outline {
+    sunder_i_planar_map *map;
+    const sunder_i_inside *inside; /* NULL: what is covered */
+    uint32_t *component; /* [faces] a forest; roots stand for components */
+    bool *done;          /* [half-edges] */
+    uint32_t *vertex;    /* of all rings, then ends of segments, then points; as the map numbers them */
+    size_t vertices, vertex_capacity;
+    ring *ring;
+    size_t rings, ring_capacity;
+    uint32_t segment_end; /* in vertex */
+} outline;
+
+static int compare_vertices(const outline *o, uint32_t v, uint32_t w)
+{
+    return sunder_i_planar_map_vertex_cmp(o->map, v, w);
+}
+
+/* ---- Components ---- */
+
+static uint32_t find(uint32_t *parent, uint32_t f)
+{
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+}
+
+static bool left_inside(const outline *o, uint32_t h)
+{
+    return o->inside ? o->inside->face[sunder_i_planar_map_face(o->map, h)]
+                     : sunder_i_planar_map_left_covered(o->map, h) != 0;
+}
+
+static bool connect_faces(outline *o)
+{
+    const uint32_t faces = sunder_i_planar_map_face_end(o->map);
+    o->component = sunder_i_alloc(faces, sizeof *o->component);
+    if (!o->component) return false;
+    for (uint32_t f = 0; f < faces; f++) o->component[f] = f;
+    for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
+        if (!sunder_i_planar_map_edge_alive(o->map, e) || !left_inside(o, 2 * e) || !left_inside(o, 2 * e + 1)) continue;
+        const uint32_t f = find(o->component, sunder_i_planar_map_face(o->map, 2 * e));
+        const uint32_t g = find(o->component, sunder_i_planar_map_face(o->map, 2 * e + 1));
+        o->component[f < g ? g : f] = f < g ? f : g;
+    }
+    return true;
+}
+
+static uint32_t component_of(const outline *o, uint32_t h)
+{
+    return find(o->component, sunder_i_planar_map_face(o->map, h));
+}
+
+/* ---- Rings ---- */
+
+static bool bounds(const outline *o, uint32_t h)
+{
+    return left_inside(o, h) && !left_inside(o, sunder_i_planar_map_twin(h));
+}
+
+static uint32_t next_of_ring(const outline *o, uint32_t h, uint32_t component)
+{
+    uint32_t g = sunder_i_planar_map_twin(h);
+    do g = sunder_i_planar_map_ccw(o->map, g);
+    while (!bounds(o, g) || component_of(o, g) != component);
+    return g;
+}
+
+/* Do h and g have one direction? */
+static bool straight(sunder_i_planar_map *map, uint32_t h, uint32_t g)
+{
+    return ((h ^ g) & 1) == 0 && sunder_i_planar_map_turn(map, h >> 1, g >> 1) == 0;
+}
+
+static bool push(outline *o, uint32_t v)
+{
+    if (o->vertices == UINT32_MAX ||
+        !sunder_i_reserve(&o->vertex, &o->vertex_capacity, o->vertices + 1, sizeof *o->vertex))
+        return false;
+    o->vertex[o->vertices++] = v;
+    return true;
+}
+
+/* The half-edge of the ring that leaves its smallest vertex. There both sides lead to the right, and the ring is
+ * counter-clockwise if the one that leaves is the lower. */
+static uint32_t first_of_ring(outline *o, uint32_t start, uint32_t component, bool *outer)
+{
+    uint32_t least = start, before = start;
+    for (uint32_t h = start, g = SUNDER_I_NOWHERE; g != start; h = g) {
+        g = next_of_ring(o, h, component);
+        const bool smaller = g != start && compare_vertices(o, sunder_i_planar_map_origin(o->map, g),
+                                                            sunder_i_planar_map_origin(o->map, least)) < 0;
+        if (smaller) least = g;
+        if (smaller || (g == start && least == start)) before = h;
+    }
+    *outer = sunder_i_planar_map_turn(o->map, least >> 1, before >> 1) > 0;
+    return least;
+}
+
+static bool trace_ring(outline *o, uint32_t start)
+{
+    if (!sunder_i_reserve(&o->ring, &o->ring_capacity, o->rings + 1, sizeof *o->ring)) return false;
+    ring *r = &o->ring[o->rings++];
+    r->component = component_of(o, start);
+    r->start = (uint32_t)o->vertices;
+    const uint32_t first = first_of_ring(o, start, r->component, &r->outer);
+    if (!push(o, sunder_i_planar_map_origin(o->map, first))) return false;
+    for (uint32_t h = first;;) {
+        o->done[h] = true;
+        const uint32_t g = next_of_ring(o, h, r->component);
+        if (g == first) break;
+        if (!straight(o->map, h, g) && !push(o, sunder_i_planar_map_origin(o->map, g))) return false;
+        h = g;
+    }
+    r->end = (uint32_t)o->vertices;
+    return true;
+}
+
+static bool trace_rings(outline *o)
+{
+    const uint32_t halves = 2 * sunder_i_planar_map_edge_end(o->map);
+    o->done = sunder_i_calloc(halves, sizeof *o->done);
+    if (!o->done) return false;
+    for (uint32_t h = 0; h < halves; h++)
+        if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && bounds(o, h) && !o->done[h] && !trace_ring(o, h))
+            return false;
+    return true;
+}
+
+/* ---- Degenerate holes ---- */
+
+static bool is_slit(const outline *o, uint32_t e)
+{
+    return sunder_i_planar_map_edge_alive(o->map, e) && sunder_i_planar_map_edge_covered(o->map, e) == 0 &&
+           sunder_i_planar_map_left_covered(o->map, 2 * e) && sunder_i_planar_map_left_covered(o->map, 2 * e + 1) &&
+           (!o->inside || (o->inside->edge && o->inside->edge[e]));
+}
+
+/* The slit that goes on from the end of h in its direction; NOWHERE: the segment ends there. */
+static uint32_t slit_after(const outline *o, uint32_t h)
+{
+    sunder_i_planar_map *map = o->map;
+    const uint32_t back = sunder_i_planar_map_twin(h);
+    for (uint32_t g = sunder_i_planar_map_ccw(map, back); g != back; g = sunder_i_planar_map_ccw(map, g))
+        if (is_slit(o, g >> 1) && straight(map, h, g)) return g;
+    return SUNDER_I_NOWHERE;
+}
+
+static bool gather_segments(outline *o)
+{
+    for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
+        if (!is_slit(o, e) || slit_after(o, 2 * e + 1) != SUNDER_I_NOWHERE) continue;
+        uint32_t last = 2 * e;
+        for (uint32_t g = last; g != SUNDER_I_NOWHERE; g = slit_after(o, g)) last = g;
+        if (!push(o, sunder_i_planar_map_origin(o->map, 2 * e)) ||
+            !push(o, sunder_i_planar_map_origin(o->map, sunder_i_planar_map_twin(last))))
+            return false;
+    }
+    o->segment_end = (uint32_t)o->vertices;
+    return true;
+}
+
+static bool is_point(const outline *o, uint32_t v)
+{
+    const sunder_i_planar_map *map = o->map;
+    if (o->inside && !(o->inside->vertex && o->inside->vertex[v])) return false;
+    if (!sunder_i_planar_map_vertex_alive(map, v) || sunder_i_planar_map_vertex_covered(map, v)) return false;
+    const uint32_t first = sunder_i_planar_map_vertex_out(map, v);
+    uint32_t h = first;
+    if (h != SUNDER_I_NOWHERE)
+        do {
+            if (sunder_i_planar_map_edge_covered(map, h >> 1) == 0) return false;
+            h = sunder_i_planar_map_ccw(map, h);
+        } while (h != first);
+    return true;
+}
+
+static bool gather_points(outline *o)
+{
+    for (uint32_t v = 0; v < sunder_i_planar_map_vertex_end(o->map); v++)
+        if (!sunder_i_step() || (is_point(o, v) && !push(o, v))) return false;
+    return true;
+}
+
+/* ---- In order ---- */
+
+static int compare_rings(void *context, uint32_t a, uint32_t b)
+{
+    const outline *o = context;
+    const ring *r = &o->ring[a], *s = &o->ring[b];
+    const uint32_t m = r->end - r->start, n = s->end - s->start;
+    for (uint32_t i = 0; i < m && i < n; i++) {
+        const int c = compare_vertices(o, o->vertex[r->start + i], o->vertex[s->start + i]);
+        if (c) return c;
+    }
+    return (m > n) - (m < n);
+}
+
+/* By numbers into outline.vertex. */
+static int compare_points(void *context, uint32_t a, uint32_t b)
+{
+    const outline *o = context;
+    return compare_vertices(o, o->vertex[a], o->vertex[b]);
+}
+
+static int compare_segments(void *context, uint32_t a, uint32_t b)
+{
+    const int c = compare_points(context, a, b);
+    return c ? c : compare_points(context, a + 1, b + 1);
+}
+
+static uint32_t *sorted(outline *o, uint32_t first, size_t n, uint32_t step, int (*compare)(void *, uint32_t, uint32_t))
+{
+    uint32_t *index = sunder_i_alloc(n, sizeof *index);
+    for (size_t i = 0; index && i < n; i++) index[i] = first + (uint32_t)i * step;
+    if (index && sunder_i_sort_indices(index, n, compare, o)) return index;
+    sunder_i_free(index);
+    return NULL;
+}
+
+static void copy_ring(const outline *o, const ring *r, sunder_sum *sum)
+{
+    const size_t at = sum->rings ? sum->ring_end[sum->rings - 1] : 0, n = r->end - r->start;
+    memcpy(sum->ring_vertex + at, o->vertex + r->start, n * sizeof *o->vertex);
+    sum->ring_end[sum->rings++] = at + n;
+}
+
+/* Outer rings in order, each followed by its holes in order: holes are dealt to their polygons first. */
+static bool arrange_rings(outline *o, sunder_sum *sum)
+{
+    uint32_t *order = sorted(o, 0, o->rings, 1, compare_rings);
+    uint32_t *polygon = sunder_i_alloc(sunder_i_planar_map_face_end(o->map), sizeof *polygon);
+    uint32_t *hole = sunder_i_alloc(o->rings, sizeof *hole), *end = sunder_i_calloc(o->rings + 1, sizeof *end);
+    sum->ring_vertex = sunder_i_alloc(o->rings ? o->ring[o->rings - 1].end : 0, sizeof *sum->ring_vertex);
+    sum->ring_end = sunder_i_alloc(o->rings, sizeof *sum->ring_end);
+    sum->poly_end = sunder_i_alloc(o->rings, sizeof *sum->poly_end);
+    const bool ok = order && polygon && hole && end && sum->ring_vertex && sum->ring_end && sum->poly_end;
+    if (ok) {
+        uint32_t polygons = 0;
+        for (size_t i = 0; i < o->rings; i++)
+            if (o->ring[order[i]].outer) polygon[o->ring[order[i]].component] = polygons++;
+        for (size_t i = 0; i < o->rings; i++)
+            if (!o->ring[i].outer) end[polygon[o->ring[i].component] + 1]++;
+        for (uint32_t p = 0; p < polygons; p++) end[p + 1] += end[p]; /* where its holes start, until they are dealt */
+        for (size_t i = 0; i < o->rings; i++)
+            if (!o->ring[order[i]].outer) hole[end[polygon[o->ring[order[i]].component]]++] = order[i];
+        uint32_t next = 0;
+        for (size_t i = 0; i < o->rings; i++) {
+            if (!o->ring[order[i]].outer) continue;
+            copy_ring(o, &o->ring[order[i]], sum);
+            for (; next < end[sum->polygons]; next++) copy_ring(o, &o->ring[hole[next]], sum);
+            sum->poly_end[sum->polygons++] = sum->rings;
+        }
+    }
+    sunder_i_free(order);
+    sunder_i_free(polygon);
+    sunder_i_free(hole);
+    sunder_i_free(end);
+    return ok;
+}
+
+static bool arrange_degenerates(outline *o, sunder_sum *sum)
+{
+    const uint32_t first = o->rings ? o->ring[o->rings - 1].end : 0;
+    const size_t segments = (o->segment_end - first) / 2, points = o->vertices - o->segment_end;
+    uint32_t *segment = sorted(o, first, segments, 2, compare_segments);
+    uint32_t *point = sorted(o, o->segment_end, points, 1, compare_points);
+    sum->segment = sunder_i_alloc(2 * segments, sizeof *sum->segment);
+    sum->point = sunder_i_alloc(points, sizeof *sum->point);
+    const bool ok = segment && point && sum->segment && sum->point;
+    if (ok) {
+        for (size_t i = 0; i < segments; i++) memcpy(sum->segment + 2 * i, o->vertex + segment[i], 2 * sizeof *segment);
+        for (size_t i = 0; i < points; i++) sum->point[i] = o->vertex[point[i]];
+        sum->segments = segments;
+        sum->points = points;
+    }
+    sunder_i_free(segment);
+    sunder_i_free(point);
+    return ok;
+}
+
+/* ---- Vertices of the sum's own ---- */
+
+static void renumber(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *next, uint32_t *of)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (number[vertex[i]] == UINT32_MAX) {
+            of[*next] = vertex[i];
+            number[vertex[i]] = (*next)++;
+        }
+        vertex[i] = number[vertex[i]];
+    }
+}
+
+/* In lowest terms, as sums of the other roads have them. Every vertex of a sum is a corner of the convolution or a
+ * crossing of two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where
+ * crossings of such lines do, though here it may have come from Steiner points. */
+static bool reduced(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
+                    sunder_i_hpoint *out)
+{
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const sunder_i_big *at = sunder_i_planar_map_vertex_xyw(map, v);
+    sunder_i_big xyw[3] = {at[0], at[1], at[2]};
+    const sunder_i_big g = sunder_i_big_gcd(arena, sunder_i_big_gcd(arena, at[0], at[2]), at[1]);
+    if (!arena->failed && sunder_i_big_bits(g) > 1)
+        for (int i = 0; i < 3; i++) xyw[i] = sunder_i_big_div_floor(arena, xyw[i], g);
+    if (arena->failed) return false;
+    *out = sunder_i_hpoint_make(lattice, xyw[0], xyw[1], xyw[2]);
+    sunder_i_arena_release(arena, mark);
+    return !lattice->arena.failed;
+}
+
+static bool make_vertices(outline *o, sunder_sum *sum)
+{
+    const uint32_t end = sunder_i_planar_map_vertex_end(o->map);
+    uint32_t *number = sunder_i_alloc(end, sizeof *number), *of = sunder_i_alloc(o->vertices, sizeof *of), n = 0;
+    bool ok = number && of;
+    if (ok) {
+        memset(number, 0xff, end * sizeof *number);
+        renumber(sum->ring_vertex, sum->rings ? sum->ring_end[sum->rings - 1] : 0, number, &n, of);
+        renumber(sum->segment, 2 * sum->segments, number, &n, of);
+        renumber(sum->point, sum->points, number, &n, of);
+        sum->vertex = sunder_i_alloc(n, sizeof *sum->vertex);
+        ok = sum->vertex != NULL;
+    }
+    sunder_i_arena arena = {0};
+    for (uint32_t i = 0; ok && i < n; i++) ok = reduced(&sum->lattice, &arena, o->map, of[i], &sum->vertex[i]);
+    sum->vertices = ok ? n : 0;
+    sunder_i_arena_free(&arena);
+    sunder_i_free(number);
+    sunder_i_free(of);
+    return ok;
+}
+
+sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
+                                  sunder_error *err)
+{
+    outline o = {.map = map, .inside = inside};
+    const bool ok = connect_faces(&o) && trace_rings(&o) && gather_segments(&o) && gather_points(&o) &&
+                    arrange_rings(&o, sum) && arrange_degenerates(&o, sum) && make_vertices(&o, sum);
+    sunder_i_free(o.component);
+    sunder_i_free(o.done);
+    sunder_i_free(o.vertex);
+    sunder_i_free(o.ring);
+    return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)
+{
+    const sunder_status status = sunder_i_planar_map_faces(map, err);
+    return status == SUNDER_OK ? sunder_i_outline_of(map, NULL, sum, err) : status;
+}

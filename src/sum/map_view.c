@@ -1,0 +1,176 @@
+/* The map beneath a sum, for users: vertices and edges numbered without gaps. */
+#include "sum/map_view.h"
+
+struct sunder_map {
+    sunder_i_planar_map *map;
+    const sunder_sum *sum;
+    uint32_t *vertex, *edge;       /* ids in map */
+    uint32_t *vertex_of, *edge_of; /* and back; NOWHERE: dead */
+    uint32_t *inner;               /* half-edges, grouped by face as the map has them */
+    uint32_t *inner_end;           /* [faces] */
+    uint32_t vertices, edges, faces;
+};
+
+/* Numbers what is alive; of[] and back[] are new arrays. */
+static bool number(const sunder_i_planar_map *map, uint32_t end,
+                   bool (*alive)(const sunder_i_planar_map *, uint32_t), uint32_t **of, uint32_t **back, uint32_t *n)
+{
+    *of = sunder_i_alloc(end, sizeof **of);
+    *back = sunder_i_alloc(end, sizeof **back);
+    if (!*of || !*back) return false;
+    for (uint32_t id = 0; id < end; id++) {
+        (*back)[id] = alive(map, id) ? *n : SUNDER_NOWHERE;
+        if (alive(map, id)) (*of)[(*n)++] = id;
+    }
+    return true;
+}
+
+static uint32_t half_of(const sunder_map *m, uint32_t h)
+{
+    return h == SUNDER_NOWHERE ? h : 2 * m->edge_of[h >> 1] + (h & 1);
+}
+
+static bool list_inner(sunder_map *m)
+{
+    m->inner_end = sunder_i_alloc(m->faces, sizeof *m->inner_end);
+    if (!m->inner_end) return false;
+    size_t n, sum = 0;
+    for (uint32_t f = 0; f < m->faces; f++) {
+        sunder_i_planar_map_face_inner(m->map, f, &n);
+        m->inner_end[f] = (uint32_t)(sum += n);
+    }
+    m->inner = sunder_i_alloc(sum, sizeof *m->inner);
+    if (!m->inner) return false;
+    for (uint32_t f = 0, at = 0; f < m->faces; f++) {
+        const uint32_t *h = sunder_i_planar_map_face_inner(m->map, f, &n);
+        for (size_t i = 0; i < n; i++) m->inner[at++] = half_of(m, h[i]);
+    }
+    return true;
+}
+
+sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum *sum, sunder_map **out,
+                                     sunder_error *err)
+{
+    sunder_map *m = sunder_i_calloc(1, sizeof *m);
+    if (!m) {
+        sunder_i_planar_map_free(map);
+        return sunder_i_no_memory(err);
+    }
+    m->map = map;
+    m->sum = sum;
+    const sunder_status status = sunder_i_planar_map_faces(map, err);
+    if (status == SUNDER_OK) {
+        m->faces = sunder_i_planar_map_face_end(map);
+        if (number(map, sunder_i_planar_map_vertex_end(map), sunder_i_planar_map_vertex_alive, &m->vertex,
+                   &m->vertex_of, &m->vertices) &&
+            number(map, sunder_i_planar_map_edge_end(map), sunder_i_planar_map_edge_alive, &m->edge, &m->edge_of,
+                   &m->edges) &&
+            list_inner(m)) {
+            *out = m;
+            return SUNDER_OK;
+        }
+    }
+    sunder_i_map_view_free(m);
+    return status == SUNDER_OK ? sunder_i_no_memory(err) : status;
+}
+
+void sunder_i_map_view_free(sunder_map *m)
+{
+    if (!m) return;
+    sunder_i_planar_map_free(m->map);
+    sunder_i_free(m->vertex);
+    sunder_i_free(m->edge);
+    sunder_i_free(m->vertex_of);
+    sunder_i_free(m->edge_of);
+    sunder_i_free(m->inner);
+    sunder_i_free(m->inner_end);
+    sunder_i_free(m);
+}
+
+const sunder_map *sunder_sum_map(const sunder_sum *sum) { return sum->map; }
+
+size_t sunder_map_vertices(const sunder_map *map) { return map->vertices; }
+
+size_t sunder_map_edges(const sunder_map *map) { return map->edges; }
+
+size_t sunder_map_faces(const sunder_map *map) { return map->faces; }
+
+void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2])
+{
+    const sunder_i_big *xyw = sunder_i_planar_map_vertex_xyw(map->map, map->vertex[vertex]);
+    sunder_i_arena arena = {0};
+    for (int k = 0; k < 2; k++) xy[k] = sunder_i_sum_double(&arena, map->sum, k, xyw[k], xyw[2]);
+    sunder_i_arena_free(&arena);
+}
+
+sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y, sunder_error *err)
+{
+    sunder_i_arena arena = {0};
+    const sunder_i_big *xyw = sunder_i_planar_map_vertex_xyw(map->map, map->vertex[vertex]);
+    const sunder_status status = sunder_i_sum_texts(&arena, map->sum, xyw, x, y, err);
+    sunder_i_arena_free(&arena);
+    return status;
+}
+
+uint32_t sunder_map_out(const sunder_map *map, uint32_t vertex)
+{
+    return half_of(map, sunder_i_planar_map_vertex_out(map->map, map->vertex[vertex]));
+}
+
+uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex)
+{
+    const uint32_t v = map->vertex[vertex];
+    const bool isolated = sunder_i_planar_map_vertex_out(map->map, v) == SUNDER_I_NOWHERE;
+    return isolated ? sunder_i_planar_map_vertex_face(map->map, v) : SUNDER_NOWHERE;
+}
+
+static uint32_t inside(const sunder_map *map, uint32_t half) { return 2 * map->edge[half >> 1] + (half & 1); }
+
+uint32_t sunder_map_origin(const sunder_map *map, uint32_t half)
+{
+    return map->vertex_of[sunder_i_planar_map_origin(map->map, inside(map, half))];
+}
+
+uint32_t sunder_map_twin(uint32_t half) { return half ^ 1; }
+
+uint32_t sunder_map_next(const sunder_map *map, uint32_t half)
+{
+    return half_of(map, sunder_i_planar_map_next(map->map, inside(map, half)));
+}
+
+uint32_t sunder_map_turn(const sunder_map *map, uint32_t half)
+{
+    return half_of(map, sunder_i_planar_map_ccw(map->map, inside(map, half)));
+}
+
+uint32_t sunder_map_face(const sunder_map *map, uint32_t half)
+{
+    return sunder_i_planar_map_face(map->map, inside(map, half));
+}
+
+uint32_t sunder_map_outer(const sunder_map *map, uint32_t face)
+{
+    return half_of(map, sunder_i_planar_map_face_outer(map->map, face));
+}
+
+const uint32_t *sunder_map_inner(const sunder_map *map, uint32_t face, size_t *n)
+{
+    const uint32_t first = face ? map->inner_end[face - 1] : 0;
+    *n = map->inner_end[face] - first;
+    return map->inner + first;
+}
+
+uint32_t sunder_map_vertex_covered(const sunder_map *map, uint32_t vertex)
+{
+    return sunder_i_planar_map_vertex_covered(map->map, map->vertex[vertex]);
+}
+
+uint32_t sunder_map_edge_covered(const sunder_map *map, uint32_t edge)
+{
+    return sunder_i_planar_map_edge_covered(map->map, map->edge[edge]);
+}
+
+uint32_t sunder_map_face_covered(const sunder_map *map, uint32_t face)
+{
+    return sunder_i_planar_map_face_covered(map->map, face);
+}

@@ -1,0 +1,165 @@
+/* Vertices of a sum as the nearest doubles, and how far these are off, without text and without one allocation each.
+ *
+ * Nearly all vertices are lattice points: n 2^e + both origins. On a narrow lattice that is an integer of at most 126
+ * bits where the origins are not too far out, and its conversion rounds once. Crossings have a fraction besides, and
+ * one bit tells whether there is any: that is all that rounding has to know. Others take the big integers. The
+ * deviation is measured, and rounded up. */
+#include "sum/sum.h"
+
+#include <limits.h>
+#include <math.h>
+
+/* The origins as one multiple of the unit, below 2^120 of it; false if they are not. */
+static bool whole_origin(const sunder_sum *sum, int axis, sunder_i_i128 *out)
+{
+    *out = 0;
+    for (int operand = 0; operand < 2; operand++) {
+        const double o = sum->origin[operand][axis];
+        if (o == 0) continue;
+        int e;
+        const int64_t m = (int64_t)ldexp(frexp(o, &e), 53);
+        const long shift = e - 53 - sum->lattice.exponent;
+        if (shift > 66) return false;
+        if (shift < 0 && (shift < -62 || m % ((int64_t)1 << -shift))) return false;
+        *out += shift < 0 ? m / ((int64_t)1 << -shift) : m * ((sunder_i_i128)1 << shift);
+    }
+    return true;
+}
+
+/* n times the unit, a power of two with which nothing here is subnormal or infinite. The conversion to double rounds to
+ * nearest, ties to even, and what it leaves is less than 2^74: the difference in doubles is rounded up. */
+static void whole_double(sunder_i_i128 n, double unit, double *x, double *off)
+{
+    const double nearest = (double)n;
+    const sunder_i_i128 rest = n - (sunder_i_i128)nearest;
+    *x = nearest * unit;
+    *off = rest == 0 ? 0 : nextafter(fabs((double)rest), INFINITY) * unit;
+}
+
+/* floor(n / w) in *whole, and the rest, 0 <= rest < w; false if that is not below 2^63. */
+static bool divide(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t limbs, sunder_i_i128 *whole,
+                   mp_limb_t rest[2])
+{
+    mp_limb_t q[4] = {0};
+    mp_size_t size = 4;
+    while (size > 0 && !n->limb[size - 1]) size--;
+    rest[0] = size > 0 ? n->limb[0] : 0;
+    rest[1] = size > 1 ? n->limb[1] : 0;
+    if (size >= limbs) {
+        rest[1] = 0;
+        mpn_tdiv_qr(q, rest, 0, n->limb, size, w, limbs);
+    }
+    if (q[0] >> 63 || q[1] || q[2] || q[3]) return false;
+    *whole = q[0];
+    if (n->sign < 0) {
+        *whole = -*whole;
+        if (rest[0] || rest[1]) {
+            mpn_sub_n(rest, w, rest, 2);
+            --*whole;
+        }
+    }
+    return true;
+}
+
+/* (n / w + origin) times the unit, w > 0; false where that cannot be told here. With i units, i a whole number of 55
+ * bits or more, and a fraction, the double next to the sum is the one next to i + 1/2, if there is a fraction: no
+ * double and no middle of two lies strictly between whole numbers of that size. Smaller ones are taken 2^64 times as
+ * large. */
+static bool ratio_double(const sunder_i_i256 *n, sunder_i_i128 denominator, sunder_i_i128 origin, double unit,
+                         double *x, double *off)
+{
+    const sunder_i_i128 large = (sunder_i_i128)1 << 54;
+    const mp_limb_t w[2] = {(mp_limb_t)denominator, (mp_limb_t)((sunder_i_u128)denominator >> 64)};
+    const mp_size_t limbs = w[1] ? 2 : 1;
+    mp_limb_t rest[2];
+    sunder_i_i128 i;
+    if (!divide(n, w, limbs, &i, rest)) return false;
+    i += origin;
+    if (i > -large && i < large) {
+        const sunder_i_i256 finer = {{0, rest[0], rest[1], 0}, 1};
+        mp_limb_t q[3] = {0};
+        const mp_size_t size = rest[1] ? 3 : 2;
+        if (rest[0] || rest[1]) {
+            rest[1] = 0;
+            mpn_tdiv_qr(q, rest, 0, finer.limb, size, w, limbs);
+        }
+        i = i * ((sunder_i_i128)1 << 64) + q[0];
+        unit *= 0x1p-64;
+        if (i > -large && i < large) return false;
+    }
+    const bool more = rest[0] || rest[1];
+    const double nearest = (double)(2 * i + more) / 2;
+    const double left = (double)(i - (sunder_i_i128)nearest);
+    const double fraction = ((double)rest[1] * 0x1p64 + (double)rest[0]) / ((double)w[1] * 0x1p64 + (double)w[0]);
+    *x = nearest * unit;
+    /* The fraction is good to 2^-50 of one, what is left to 2^-53 of itself. */
+    *off = !more && left == 0 ? 0 : nextafter(fabs(left + fraction) + (fabs(left) + 1) * 0x1p-49, INFINITY) * unit;
+    return true;
+}
+
+/* By big integers; infinite where it leaves the range. */
+static void big_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big w,
+                       double *x, double *off)
+{
+    sunder_i_big num, den;
+    const long e = sunder_i_sum_coordinate(arena, sum, axis, n, w, &num, &den);
+    *off = INFINITY;
+    *x = arena->failed ? (double)NAN : sunder_i_big_ratio(arena, num, den, e);
+    if (!isfinite(*x)) return;
+    int f;
+    const sunder_i_big m = sunder_i_big_mul(arena, sunder_i_big_double(arena, *x, &f), den);
+    const long least = m.size && f < e ? f : e;
+    sunder_i_big rest = sunder_i_big_shl(arena, num, (unsigned long)(e - least));
+    if (m.size) rest = sunder_i_big_sub(arena, rest, sunder_i_big_shl(arena, m, (unsigned long)(f - least)));
+    if (sunder_i_big_sign(rest) < 0) rest = sunder_i_big_neg(rest);
+    *off = rest.size ? sunder_i_big_ratio_up(arena, rest, den, least) : 0;
+}
+
+static void big_vertex(sunder_i_arena *arena, const sunder_sum *sum, const sunder_i_hpoint *p, double xy[2],
+                       double off[2])
+{
+    const sunder_i_lattice *l = &sum->lattice;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    sunder_i_big xyw[3];
+    sunder_i_hpoint_read(arena, l, p, xyw);
+    for (int k = 0; k < 2; k++) big_double(arena, sum, k, xyw[k], xyw[2], &xy[k], &off[k]);
+    sunder_i_arena_release(arena, mark);
+}
+
+/* A vertex on a lattice with whole origins; false where that cannot be told here. */
+static bool plain_vertex(const sunder_i_hpoint *p, const sunder_i_i128 origin[2], double unit, double xy[2],
+                         double off[2])
+{
+    for (int k = 0; k < 2; k++) {
+        const sunder_i_i256 *n = k ? &p->y : &p->x;
+        if (p->w == 1 && !(n->limb[0] >> 63 || n->limb[1] || n->limb[2] || n->limb[3]))
+            whole_double(n->sign * (sunder_i_i128)n->limb[0] + origin[k], unit, &xy[k], &off[k]);
+        else if (!ratio_double(n, p->w, origin[k], unit, &xy[k], &off[k]))
+            return false;
+    }
+    return true;
+}
+
+sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy,
+                                  double *deviation, sunder_error *err)
+{
+    sunder_i_arena arena = {0};
+    sunder_i_i128 origin[2];
+    const sunder_i_lattice *l = &sum->lattice;
+    const bool plain = l->small && l->exponent >= -900 && l->exponent <= 800 && whole_origin(sum, 0, &origin[0]) &&
+                       whole_origin(sum, 1, &origin[1]);
+    const double unit = plain ? ldexp(1, (int)l->exponent) : 0;
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        const sunder_i_hpoint *p = &sum->vertex[vertex[i]];
+        double *at = xy + 2 * i, off[2];
+        if (!plain || p->w == 0 || !plain_vertex(p, origin, unit, at, off)) big_vertex(&arena, sum, p, at, off);
+        const double here = off[0] == 0 ? off[1] : off[1] == 0 ? off[0] : nextafter(hypot(off[0], off[1]), INFINITY);
+        if (!(here <= most)) most = here;
+    }
+    const bool failed = arena.failed;
+    sunder_i_arena_free(&arena);
+    if (failed) return sunder_i_no_memory(err);
+    if (most > *deviation) *deviation = most;
+    return SUNDER_OK;
+}
