@@ -2,7 +2,7 @@
 #ifndef GIS_BUFFER_H
 #define GIS_BUFFER_H
 
-#include "read/layer_input.h"
+#include "layer/input.h"
 #include "sum/layers.h"
 #include "write/sink.h"
 

@@ -4,7 +4,7 @@
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"
-#include "write/layer_output.h"
+#include "layer/output.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "commands/report.h"
 #include "write/deliver.h"
-#include "write/layer_output.h"
+#include "layer/output.h"
 
 #include <cpl_conv.h>
 #include <stdio.h>

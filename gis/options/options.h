@@ -4,7 +4,7 @@
 #define GIS_OPTIONS_H
 
 #include "base/error.h"
-#include "options/length.h"
+#include "base/length.h"
 
 /* Commands, as bits. */
 enum {

@@ -4,8 +4,8 @@
 
 #include "base/interrupt.h"
 #include "read/source_layer.h"
-#include "read/sqlite_calls.h"
-#include "read/sqlite_lock.h"
+#include "sqlite/calls.h"
+#include "sqlite/lock.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

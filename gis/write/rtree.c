@@ -8,7 +8,7 @@
 #include "write/rtree.h"
 
 #include "base/interrupt.h"
-#include "read/sql.h"
+#include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

@@ -1,7 +1,7 @@
 /* sink.c: the life of a sink. */
 #define _GNU_SOURCE
 #include "base/message.h"
-#include "read/sqlite_lock.h"
+#include "sqlite/lock.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>

@@ -2,8 +2,8 @@
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "read/source_files.h"
-#include "read/sqlite_calls.h"
-#include "read/sqlite_lock.h"
+#include "sqlite/calls.h"
+#include "sqlite/lock.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>

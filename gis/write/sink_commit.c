@@ -1,8 +1,8 @@
 /* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/interrupt.h"
-#include "read/sqlite_calls.h"
-#include "read/sqlite_lock.h"
+#include "sqlite/calls.h"
+#include "sqlite/lock.h"
 #include "write/sink_internal.h"
 #include "write/style.h"
 

@@ -7,9 +7,9 @@
  * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
  * opens the database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
-#include "read/sql.h"
-#include "read/sqlite_calls.h"
-#include "read/sqlite_lock.h"
+#include "write/sql.h"
+#include "sqlite/calls.h"
+#include "sqlite/lock.h"
 #include "write/sink_internal.h"
 #include "write/style.h"
 

@@ -1,6 +1,6 @@
 /* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
-#include "read/sqlite_calls.h"
+#include "sqlite/calls.h"
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>

@@ -4,7 +4,7 @@
  * the style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
 #include "write/style.h"
 
-#include "read/sql.h"
+#include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

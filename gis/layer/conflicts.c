@@ -1,5 +1,5 @@
-/* layer_conflicts.c: one conflict as a row, and the layer of conflicts. */
-#include "write/layer_output.h"
+/* conflicts.c: one conflict as a row, and the layer of conflicts. */
+#include "layer/output.h"
 
 #include <cpl_conv.h>
 #include <stdio.h>

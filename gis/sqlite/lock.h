@@ -1,4 +1,4 @@
-/* sqlite_lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of
+/* lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of
  * the file, locked by fcntl() ("File Locking And Concurrency In SQLite Version 3", and os.h of its source).
  *
  * Closing any handle of a file gives up the locks that this very process has on it through others: so none of this may

@@ -1,5 +1,5 @@
-/* layer_output.c: the layers of separate but the conflicts. */
-#include "write/layer_output.h"
+/* output.c: the layers of separate but the conflicts. */
+#include "layer/output.h"
 
 #include "base/interrupt.h"
 

@@ -1,10 +1,9 @@
-/* sqlite_calls.c: see sqlite_calls.h. Types and numbers are those of SQLite's application interface, which does not
- * change. */
+/* calls.c: see calls.h. Types and numbers are those of SQLite's application interface, which does not change. */
 #define _GNU_SOURCE
-#include "read/sqlite_calls.h"
+#include "sqlite/calls.h"
 
 #include "base/interrupt.h"
-#include "read/sqlite_lock.h"
+#include "sqlite/lock.h"
 
 #include <dlfcn.h>
 #include <string.h>

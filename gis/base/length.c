@@ -1,6 +1,6 @@
 /* length.c: see length.h. Conversions are done so that equal units cancel: 10us-ft on a layer in US survey feet is the
  * double 10, not 10 * (1200 / 3937) / 0.304800609601219. */
-#include "options/length.h"
+#include "base/length.h"
 
 #include <math.h>
 #include <stdio.h>

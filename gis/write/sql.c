@@ -1,4 +1,6 @@
-#include "read/sql.h"
+/* sql.c: see sql.h. GDAL returns no result both for a statement that has none and for one that failed: what it
+ * reported meanwhile tells them apart. */
+#include "write/sql.h"
 
 #include <cpl_conv.h>
 #include <ogr_api.h>

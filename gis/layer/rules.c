@@ -1,6 +1,6 @@
-/* layer_rules.c: what the options say of each feature: lengths, who is fixed or ignored, blocks by a field, weights. */
+/* rules.c: what the options say of each feature: lengths, who is fixed or ignored, blocks by a field, weights. */
 #include "base/nearest.h"
-#include "read/layer_input.h"
+#include "layer/input.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

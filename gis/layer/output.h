@@ -1,8 +1,8 @@
-/* layer_output.h: the layers that separate and check write. */
+/* output.h: the layers that separate and check write. */
 #ifndef GIS_LAYER_OUTPUT_H
 #define GIS_LAYER_OUTPUT_H
 
-#include "read/layer_input.h"
+#include "layer/input.h"
 #include "write/sink.h"
 
 /* Bits of --layers. */

@@ -1,6 +1,6 @@
-/* sqlite_lock.c: see sqlite_lock.h. */
+/* lock.c: see lock.h. */
 #define _GNU_SOURCE
-#include "read/sqlite_lock.h"
+#include "sqlite/lock.h"
 
 #include "base/interrupt.h"
 

@@ -1,4 +1,4 @@
-/* sqlite_calls.h: what is asked of SQLite itself, past GDAL.
+/* calls.h: what is asked of SQLite itself, past GDAL.
  *
  * It must be the very copy that GDAL uses: another one in the same process would not know of its locks. So nothing is
  * linked; the functions are looked up in the running program, and where GDAL keeps its SQLite to itself none of this

@@ -1,4 +1,4 @@
-/* Statements on a dataset whose failures GDAL only reports. */
+/* sql.h: statements on a dataset whose failures GDAL only reports. */
 #ifndef GIS_SQL_H
 #define GIS_SQL_H
 

@@ -1,4 +1,4 @@
-/* layer_input.h: a source's features as the core's layer, after the options of separate and check. */
+/* input.h: a source's features as the core's layer, after the options of separate and check. */
 #ifndef GIS_LAYER_INPUT_H
 #define GIS_LAYER_INPUT_H
 
@@ -45,7 +45,7 @@ char *gis_field_key(OGRFeatureH feature, int field);
  * which one was probably meant. */
 bool gis_layer_field(const gis_layer_input *input, gis_option_id option, int *field, gis_error *error);
 
-/* The stages, in this order: shapes (layer_input.c) and rules (layer_rules.c). */
+/* The stages, in this order: shapes (shapes.c) and rules (rules.c). */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error);
 bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-where, --fixed-where */
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);  /* --block-field */
