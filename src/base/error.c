@@ -39,9 +39,16 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
     return status;
 }
 
+/* A status that says all there is to say. */
+static sunder_status fail_plainly(sunder_error *err, sunder_status status)
+{
+    return sunder_i_fail(err, status, "%s", sunder_status_string(status));
+}
+
+sunder_status sunder_i_cancelled(sunder_error *err) { return fail_plainly(err, SUNDER_ECANCEL); }
+
 sunder_status sunder_i_no_memory(sunder_error *err)
 {
     const bool too_many = sunder_i_was_too_many();
-    const sunder_status why = sunder_i_stopped() ? SUNDER_ECANCEL : too_many ? SUNDER_ESIZE : SUNDER_ENOMEM;
-    return sunder_i_fail(err, why, "%s", sunder_status_string(why));
+    return fail_plainly(err, sunder_i_stopped() ? SUNDER_ECANCEL : too_many ? SUNDER_ESIZE : SUNDER_ENOMEM);
 }

@@ -1,46 +1,42 @@
-/* The fixed words of the public enumerations. */
+/* The fixed words of the public enumerations, and the version. Each list is as long as its enumeration, which the
+ * compiler checks; a number that is none of the values has no word. */
 #include "sunder.h"
+
+#define WORDS(function, type, last, none, ...)                                                                         \
+    const char *function(type value)                                                                                   \
+    {                                                                                                                  \
+        static const char *const word[] = {__VA_ARGS__};                                                               \
+        _Static_assert(sizeof word / sizeof *word == (last) + 1, "one word for each value");                           \
+        return (unsigned)value <= (last) ? word[value] : (none);                                                       \
+    }
 
 const char *sunder_version(void) { return SUNDER_VERSION; }
 
-const char *sunder_status_string(sunder_status status)
-{
-    switch (status) {
-    case SUNDER_OK: return "no error";
-    case SUNDER_EINVALID: return "invalid geometry";
-    case SUNDER_EARG: return "argument out of range";
-    case SUNDER_ERANGE: return "result beyond the range of doubles";
-    case SUNDER_ENOMEM: return "out of memory";
-    case SUNDER_ECANCEL: return "stopped on request";
-    case SUNDER_ESIZE: return "more parts than can be numbered";
-    case SUNDER_EFAULT: return "internal fault";
-    }
-    return "unknown status";
-}
+WORDS(sunder_status_string, sunder_status, SUNDER_EFAULT, "unknown status", "no error", "invalid geometry",
+      "argument out of range", "result beyond the range of doubles", "out of memory", "stopped on request",
+      "more parts than can be numbered", "internal fault")
 
-/* Of a number that is none of the values: no word. */
-#define WORD_OF(words, value) ((size_t)(value) < sizeof(words) / sizeof *(words) ? (words)[value] : "")
+WORDS(sunder_algorithm_string, sunder_algorithm, SUNDER_ALGORITHM_DIVIDE, "", "auto", "convolution", "arrangement",
+      "incremental", "divide")
 
-const char *sunder_contact_string(sunder_contact contact)
-{
-    static const char *const word[] = {"none", "edge", "vertex", "arc", "degenerate_segment", "degenerate_point"};
-    return WORD_OF(word, contact);
-}
+WORDS(sunder_decomposition_string, sunder_decomposition, SUNDER_DECOMPOSITION_MIXED, "", "auto", "angle-bisector",
+      "vertical", "triangulation", "hertel-mehlhorn", "optimal", "mixed")
 
-const char *sunder_feature_status_string(sunder_feature_status status)
-{
-    static const char *const word[] = {"unmoved", "moved", "fixed", "blocked", "skipped"};
-    return WORD_OF(word, status);
-}
+WORDS(sunder_order_string, sunder_order, SUNDER_ORDER_GIVEN, "", "random", "fat", "given")
 
-const char *sunder_conflict_kind_string(sunder_conflict_kind kind)
-{
-    static const char *const word[] = {"overlap", "too_close", "barrier", "contained", "duplicate"};
-    return WORD_OF(word, kind);
-}
+WORDS(sunder_operation_string, sunder_operation, SUNDER_OPERATION_CLOSE, "", "dilate", "erode", "open", "close")
 
-const char *sunder_reason_string(sunder_reason reason)
-{
-    static const char *const word[] = {"", "max_shift", "fixed", "side", "no_room", "same_block", "kept", "unresolved"};
-    return WORD_OF(word, reason);
-}
+WORDS(sunder_contact_string, sunder_contact, SUNDER_CONTACT_DEGENERATE_POINT, "", "none", "edge", "vertex", "arc",
+      "degenerate_segment", "degenerate_point")
+
+WORDS(sunder_feature_status_string, sunder_feature_status, SUNDER_FEATURE_SKIPPED, "", "unmoved", "moved", "fixed",
+      "blocked", "skipped")
+
+WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_DUPLICATE, "", "overlap", "too_close",
+      "barrier", "contained", "duplicate")
+
+WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_UNRESOLVED, "", "", "max_shift", "fixed", "side", "no_room",
+      "same_block", "kept", "unresolved")
+
+WORDS(sunder_route_status_string, sunder_route_status, SUNDER_ROUTE_DISCONNECTED, "", "found", "start_in_collision",
+      "goal_in_collision", "disconnected")

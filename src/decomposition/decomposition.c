@@ -1,25 +1,7 @@
+/* The six ways to decompose: member by member, or, for the mixed one, both operands together. */
 #include "decomposition/maker.h"
 
 #include <string.h>
-
-const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind)
-{
-    switch (kind) {
-    case SUNDER_I_HERTEL_MEHLHORN:
-        return "hertel-mehlhorn";
-    case SUNDER_I_TRIANGULATION:
-        return "triangulation";
-    case SUNDER_I_ANGLE_BISECTOR:
-        return "angle-bisector";
-    case SUNDER_I_VERTICAL:
-        return "vertical";
-    case SUNDER_I_OPTIMAL:
-        return "optimal";
-    case SUNDER_I_MIXED:
-        return "mixed";
-    }
-    return "";
-}
 
 static void make_optimal(sunder_i_maker *m, const sunder_i_member *member)
 {
@@ -39,22 +21,22 @@ static void make_optimal(sunder_i_maker *m, const sunder_i_member *member)
     sunder_i_program_free(program);
 }
 
-static void make(sunder_i_maker *m, sunder_i_decomposition_kind kind)
+static void make(sunder_i_maker *m, sunder_decomposition kind)
 {
-    if (kind == SUNDER_I_HERTEL_MEHLHORN) {
+    if (kind == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN) {
         sunder_i_make_shape_pieces(m);
         return;
     }
     for (; m->polygon < m->rings.polygons && !sunder_i_maker_failed(m); m->polygon++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&m->scratch);
         const sunder_i_member member = sunder_i_maker_member(m, m->polygon);
-        if (kind == SUNDER_I_TRIANGULATION && member.n > 3)
+        if (kind == SUNDER_DECOMPOSITION_TRIANGULATION && member.n > 3)
             sunder_i_make_triangles(m, &member);
         else if (member.reflex == 0)
             sunder_i_maker_add_whole(m, &member);
-        else if (kind == SUNDER_I_VERTICAL)
+        else if (kind == SUNDER_DECOMPOSITION_VERTICAL)
             sunder_i_make_vertical(m, &member);
-        else if (kind == SUNDER_I_ANGLE_BISECTOR)
+        else if (kind == SUNDER_DECOMPOSITION_ANGLE_BISECTOR)
             sunder_i_make_bisector(m, &member);
         else
             make_optimal(m, &member);
@@ -69,17 +51,18 @@ static sunder_counts difference(const sunder_counts *after, const sunder_counts 
         after->segment_intersections - before->segment_intersections, after->exact_fallbacks - before->exact_fallbacks};
 }
 
-static void sign(const sunder_i_maker *m, sunder_i_decomposition_kind kind, const sunder_counts *before,
+static void sign(const sunder_i_maker *m, sunder_decomposition kind, const sunder_counts *before,
                  sunder_i_decomposition *out)
 {
-    out->used = m->fallbacks ? SUNDER_I_HERTEL_MEHLHORN : kind;
+    out->used = m->fallbacks ? SUNDER_DECOMPOSITION_HERTEL_MEHLHORN : kind;
     out->counts = difference(&m->lattice->counts, before);
 }
 
 sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                                 sunder_i_decomposition_kind kind, sunder_i_decomposition *out, sunder_error *err)
+                                 sunder_decomposition kind, sunder_i_decomposition *out, sunder_error *err)
 {
-    if (kind == SUNDER_I_MIXED) kind = SUNDER_I_OPTIMAL;
+    if (kind == SUNDER_DECOMPOSITION_AUTO) kind = SUNDER_DECOMPOSITION_ANGLE_BISECTOR;
+    if (kind == SUNDER_DECOMPOSITION_MIXED) kind = SUNDER_DECOMPOSITION_OPTIMAL;
     const sunder_counts before = lattice->counts;
     sunder_i_maker m;
     sunder_i_decomposition made;
@@ -113,7 +96,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
     }
     for (int i = 0; i < 2 && ok; i++) {
         sunder_counts now = lattice->counts;
-        sign(&m[i], SUNDER_I_MIXED, i ? &now : &before, &made[i]);
+        sign(&m[i], SUNDER_DECOMPOSITION_MIXED, i ? &now : &before, &made[i]);
         *out[i] = made[i];
     }
     sunder_i_maker_free(&m[0]);
@@ -122,11 +105,10 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
 }
 
 sunder_status sunder_i_decompose_pair(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *at_p,
-                                      const sunder_shape *q, const sunder_i_point *at_q,
-                                      sunder_i_decomposition_kind kind, sunder_i_decomposition *out_p,
-                                      sunder_i_decomposition *out_q, sunder_error *err)
+                                      const sunder_shape *q, const sunder_i_point *at_q, sunder_decomposition kind,
+                                      sunder_i_decomposition *out_p, sunder_i_decomposition *out_q, sunder_error *err)
 {
-    if (kind == SUNDER_I_MIXED) {
+    if (kind == SUNDER_DECOMPOSITION_MIXED) {
         const sunder_shape *const shape[2] = {p, q};
         const sunder_i_point *const at[2] = {at_p, at_q};
         sunder_i_decomposition *const out[2] = {out_p, out_q};

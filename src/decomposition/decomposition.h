@@ -14,19 +14,7 @@
 
 #include "shape/shape.h"
 
-typedef enum sunder_i_decomposition_kind {
-    SUNDER_I_HERTEL_MEHLHORN, /* the shape's own pieces: a triangulation without its needless diagonals [HM83] */
-    SUNDER_I_TRIANGULATION,
-    SUNDER_I_ANGLE_BISECTOR, /* a cut from each reflex vertex, pairs of reflex vertices first [CD85, AFH02] */
-    SUNDER_I_VERTICAL,       /* vertical cuts from the reflex vertices */
-    SUNDER_I_OPTIMAL,        /* fewest pieces without Steiner points; members without holes, up to 500 vertices */
-    SUNDER_I_MIXED /* least length of all subsums' boundaries, both operands together [AFH02]; so for pairs only */
-} sunder_i_decomposition_kind;
-
 #define SUNDER_I_OPTIMAL_MOST 500 /* vertices of a member that OPTIMAL and MIXED solve; else Hertel-Mehlhorn */
-
-/* "hertel-mehlhorn", "triangulation", "angle-bisector", "vertical", "optimal", "mixed"; never NULL. */
-const char *sunder_i_decomposition_string(sunder_i_decomposition_kind kind);
 
 /* The point (x / w, y / w) on the lattice that the shape was placed on, w > 0, in lowest terms (w is 1 for vertices
  * of the shape that are no crossings, and for points that happen to be lattice points). */
@@ -37,7 +25,7 @@ typedef struct sunder_i_corner {
 
 typedef struct sunder_i_decomposition {
     sunder_i_arena arena;             /* all that follows, the big integers too; independent of the lattice's arena */
-    sunder_i_decomposition_kind used; /* as asked, or HERTEL_MEHLHORN where some member could not be decomposed so */
+    sunder_decomposition used;        /* as asked, or HERTEL_MEHLHORN where some member could not be decomposed so */
     uint32_t fallbacks;               /* members with reflex vertices that were decomposed by Hertel-Mehlhorn instead */
     uint32_t corners;
     sunder_i_corner *corner; /* [corners] first the vertices of the shape by number, then the Steiner points, each
@@ -55,7 +43,7 @@ typedef struct sunder_i_decomposition {
  *
  * at      its vertices on the lattice (placed.p, or placed.q, reflected or not). The lattice must live as long as
  *         `along` is used.
- * kind    any but MIXED, which is taken for OPTIMAL.
+ * kind    AUTO is taken for ANGLE_BISECTOR, and MIXED for OPTIMAL.
  * out     on success cleared with sunder_i_decomposition_clear(); untouched on failure. The empty shape has no
  *         pieces.
  * Fails   SUNDER_ENOMEM
@@ -63,13 +51,12 @@ typedef struct sunder_i_decomposition {
  *         triangles crossed by the cuts; ANGLE_BISECTOR the vertices visible from reflex ones and r^2; OPTIMAL
  *         O(r n^2) at worst. */
 sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                                 sunder_i_decomposition_kind kind, sunder_i_decomposition *out, sunder_error *err);
+                                 sunder_decomposition kind, sunder_i_decomposition *out, sunder_error *err);
 
 /* Both operands of a sum, on one lattice. For MIXED they are decomposed together, else each by itself. */
 sunder_status sunder_i_decompose_pair(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *at_p,
-                                      const sunder_shape *q, const sunder_i_point *at_q,
-                                      sunder_i_decomposition_kind kind, sunder_i_decomposition *out_p,
-                                      sunder_i_decomposition *out_q, sunder_error *err);
+                                      const sunder_shape *q, const sunder_i_point *at_q, sunder_decomposition kind,
+                                      sunder_i_decomposition *out_p, sunder_i_decomposition *out_q, sunder_error *err);
 
 void sunder_i_decomposition_clear(sunder_i_decomposition *decomposition);
 

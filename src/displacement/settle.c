@@ -222,7 +222,7 @@ sunder_status sunder_i_job_settle(sunder_i_job *w, double from, double to, sunde
     sunder_status status = find_work(w, &any, err);
     for (size_t round = 0; !status && any; round++) {
         if (!sunder_i_progress(&w->town.rules, from + (to - from) * (1 - 1 / (1 + 0.25 * (double)round))))
-            return sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+            return sunder_i_cancelled(err);
         status = sunder_i_job_gather(w, err);
         if (!status) status = sunder_i_job_unite_blocks(w, err);
         if (!status) status = sunder_i_parallel(w->town.rules.threads, w->clusters, 1, solve_clusters, w, err);

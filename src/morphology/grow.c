@@ -40,11 +40,6 @@ typedef struct growth {
     bool shrink;
 } growth;
 
-static sunder_status canceled(sunder_error *err)
-{
-    return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
-}
-
 /* Of a stage's work so much is the part that is being done: from and to are fractions of the stage. */
 typedef struct share {
     double from, to;
@@ -105,7 +100,7 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
     for (size_t i = 0; i < f->sides && status == SUNDER_OK; i++) {
         uint32_t ends[2];
         if (!go_on(options, part, i, f->sides)) {
-            status = canceled(err);
+            status = sunder_i_cancelled(err);
             break;
         }
         ends_of_side(f, next, order[i], ends);
@@ -204,7 +199,7 @@ static sunder_status unite_bands(growth *g, sunder_error *err)
     uint64_t *order = random_order(&g->random, all);
     sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
-        status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : canceled(err);
+        status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : sunder_i_cancelled(err);
     sunder_i_free(next);
     sunder_i_free(order);
     return status;

@@ -89,9 +89,3 @@ sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, su
     sunder_i_watch_end(&watch);
     return status;
 }
-
-const char *sunder_operation_string(sunder_operation operation)
-{
-    static const char *const name[] = {"dilate", "erode", "open", "close"};
-    return (unsigned)operation <= SUNDER_OPERATION_CLOSE ? name[operation] : "";
-}

@@ -21,16 +21,6 @@ struct sunder_route {
     bool rounded_is_free;
 };
 
-const char *sunder_route_status_string(sunder_route_status reason)
-{
-    switch (reason) {
-    case SUNDER_ROUTE_FOUND: return "found";
-    case SUNDER_ROUTE_START_COLLIDES: return "start_in_collision";
-    case SUNDER_ROUTE_GOAL_COLLIDES: return "goal_in_collision";
-    default: return "disconnected";
-    }
-}
-
 /* ---- Arguments ---- */
 
 /* A place named by the caller; raises the error bound of the ground to what its doubles may be off by. */

@@ -366,7 +366,7 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     if (s.no_memory || space->ground.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
         status = sunder_i_no_memory(err);
     else if (s.cancelled)
-        status = sunder_i_fail(err, SUNDER_ECANCEL, "stopped");
+        status = sunder_i_cancelled(err);
     if (status == SUNDER_OK) {
         *n = straighten(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
         for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];

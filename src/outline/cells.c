@@ -384,7 +384,7 @@ static sunder_status descend(builder *b, sunder_error *err)
         b->runs_n = c.run_to;
         if (b->options && b->options->progress && (++tick & 63) == 0 &&
             !b->options->progress(b->done, b->options->progress_user))
-            return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+            return sunder_i_cancelled(err);
         if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, b->out->n, b->done, 0};
         split(b, &c);
         if (b->trial.on) sunder_i_cells_end_trial(b);

@@ -42,7 +42,7 @@ sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_
 {
     sunder_status status = SUNDER_OK;
     for (uint32_t i = 0; i < n && status == SUNDER_OK; i++, u->fed++) {
-        if (!go_on(u)) return sunder_i_fail(err, SUNDER_ECANCEL, "%s", sunder_status_string(SUNDER_ECANCEL));
+        if (!go_on(u)) return sunder_i_cancelled(err);
         const sunder_i_mark mark = sunder_i_arena_mark(&u->arena);
         sunder_i_convex_sum s;
         if (!sunder_i_make_subsum(u, subsum[i], &s)) return sunder_i_no_memory(err);

@@ -22,39 +22,13 @@ static sunder_counts less(const sunder_counts *a, const sunder_counts *b)
                                a->exact_fallbacks - b->exact_fallbacks};
 }
 
-static sunder_i_decomposition_kind kind_of(sunder_decomposition asked)
-{
-    switch (asked) {
-    case SUNDER_DECOMPOSITION_VERTICAL:
-        return SUNDER_I_VERTICAL;
-    case SUNDER_DECOMPOSITION_TRIANGULATION:
-        return SUNDER_I_TRIANGULATION;
-    case SUNDER_DECOMPOSITION_OPTIMAL:
-        return SUNDER_I_OPTIMAL;
-    case SUNDER_DECOMPOSITION_MIXED:
-        return SUNDER_I_MIXED;
-    case SUNDER_DECOMPOSITION_HERTEL_MEHLHORN:
-        return SUNDER_I_HERTEL_MEHLHORN;
-    case SUNDER_DECOMPOSITION_ANGLE_BISECTOR:
-    case SUNDER_DECOMPOSITION_AUTO:
-        break;
-    }
-    return SUNDER_I_ANGLE_BISECTOR;
-}
-
-/* What was used for both, or Hertel and Mehlhorn's if some member had to fall back on it. */
-static sunder_decomposition used_by(const sunder_i_uniting *u, sunder_decomposition asked)
-{
-    if (u->p.fallbacks || u->q.fallbacks) return SUNDER_DECOMPOSITION_HERTEL_MEHLHORN;
-    return asked == SUNDER_DECOMPOSITION_AUTO ? SUNDER_DECOMPOSITION_ANGLE_BISECTOR : asked;
-}
-
 static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
                            sunder_error *err)
 {
     const uint64_t subsums = (uint64_t)u->p.pieces * u->q.pieces;
     if (subsums >= UINT32_MAX)
-        return sunder_i_fail(err, SUNDER_ESIZE, "%" PRIu64 " pairs of convex pieces are more than can be numbered", subsums);
+        return sunder_i_fail(err, SUNDER_ESIZE, "%" PRIu64 " pairs of convex pieces are more than can be numbered",
+                             subsums);
     u->subsums = (uint32_t)subsums;
     switch (algorithm) {
     case SUNDER_ALGORITHM_INCREMENTAL:
@@ -116,13 +90,12 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     sunder_i_uniting u = {
         .lattice = &sum->lattice, .options = options, .fatness = SUNDER_I_FATNESS, .random = options->seed};
     const sunder_counts before = sum->lattice.counts;
-    status = sunder_i_decompose_pair(&sum->lattice, p, placed.p, q, placed.q, kind_of(options->decomposition), &u.p,
-                                     &u.q, err);
+    status = sunder_i_decompose_pair(&sum->lattice, p, placed.p, q, placed.q, options->decomposition, &u.p, &u.q, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
     sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.counts, &before);
     sum->seconds[SUNDER_PHASE_DECOMPOSE] = now() - start;
-    sum->method.decomposition = used_by(&u, options->decomposition);
+    sum->method.decomposition = u.p.fallbacks ? u.p.used : u.q.used; /* whichever fell back, if one did */
     sum->method.order = options->order;
     sum->method.pieces_p = u.p.pieces;
     sum->method.pieces_q = u.q.pieces;
@@ -131,25 +104,4 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     sunder_i_decomposition_clear(&u.q);
     sunder_i_arena_free(&u.arena);
     return status;
-}
-
-/* ---- Names ---- */
-
-const char *sunder_algorithm_string(sunder_algorithm algorithm)
-{
-    static const char *const name[] = {"auto", "convolution", "arrangement", "incremental", "divide"};
-    return (unsigned)algorithm <= SUNDER_ALGORITHM_DIVIDE ? name[algorithm] : "";
-}
-
-const char *sunder_decomposition_string(sunder_decomposition decomposition)
-{
-    static const char *const name[] = {"auto",    "angle-bisector", "vertical", "triangulation", "hertel-mehlhorn",
-                                       "optimal", "mixed"};
-    return (unsigned)decomposition <= SUNDER_DECOMPOSITION_MIXED ? name[decomposition] : "";
-}
-
-const char *sunder_order_string(sunder_order order)
-{
-    static const char *const name[] = {"random", "fat", "given"};
-    return (unsigned)order <= SUNDER_ORDER_GIVEN ? name[order] : "";
 }

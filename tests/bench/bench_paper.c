@@ -13,7 +13,7 @@
 typedef struct pieces {
     uint32_t p, q;
     size_t sides;
-    sunder_i_decomposition_kind used;
+    sunder_decomposition used;
     double decompose, subsums;
 } pieces;
 
@@ -34,7 +34,7 @@ static sunder_status add_pieces(sunder_i_lattice *lattice, const sunder_i_decomp
     return ok ? SUNDER_OK : SUNDER_ENOMEM;
 }
 
-static sunder_status once(const sunder_shape *p, const sunder_shape *q, sunder_i_decomposition_kind kind, pieces *out)
+static sunder_status once(const sunder_shape *p, const sunder_shape *q, sunder_decomposition kind, pieces *out)
 {
     sunder_i_placed placed;
     sunder_i_decomposition a, b;
@@ -58,7 +58,7 @@ static sunder_status once(const sunder_shape *p, const sunder_shape *q, sunder_i
     return status;
 }
 
-static sunder_status measure(const sunder_shape *p, const sunder_shape *q, sunder_i_decomposition_kind kind)
+static sunder_status measure(const sunder_shape *p, const sunder_shape *q, sunder_decomposition kind)
 {
     double decompose[100], subsums[100], spent = 0;
     size_t n = 0;
@@ -71,9 +71,9 @@ static sunder_status measure(const sunder_shape *p, const sunder_shape *q, sunde
         spent += decompose[n] + subsums[n];
         n++;
     }
-    printf("%s,%s,%u,%u,%zu,%zu,%.9f,%.9f\n", sunder_i_decomposition_string(kind), sunder_i_decomposition_string(found.used),
-           (unsigned)found.p, (unsigned)found.q, (size_t)found.p * found.q, found.sides, bench_median(decompose, n),
-           bench_median(subsums, n));
+    printf("%s,%s,%u,%u,%zu,%zu,%.9f,%.9f\n", sunder_decomposition_string(kind),
+           sunder_decomposition_string(found.used), (unsigned)found.p, (unsigned)found.q, (size_t)found.p * found.q,
+           found.sides, bench_median(decompose, n), bench_median(subsums, n));
     fflush(stdout);
     return SUNDER_OK;
 }
@@ -109,7 +109,8 @@ static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, cons
     sunder_status status = sunder_i_place(p, q, &how, &placed, NULL);
     if (status) return status;
     sunder_i_uniting u = {.lattice = &placed.lattice, .options = &options, .fatness = by->fatness, .random = 1};
-    status = sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q, SUNDER_I_ANGLE_BISECTOR, &u.p, &u.q, NULL);
+    status = sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q, SUNDER_DECOMPOSITION_ANGLE_BISECTOR,
+                                     &u.p, &u.q, NULL);
     if (!status) {
         size_t edges = 0;
         sunder_counts done = {0};
@@ -131,8 +132,8 @@ static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, cons
 static sunder_status all_pieces(const sunder_shape *p, const sunder_shape *q)
 {
     sunder_status status = SUNDER_OK;
-    for (int kind = SUNDER_I_HERTEL_MEHLHORN; !status && kind <= SUNDER_I_MIXED; kind++)
-        status = measure(p, q, (sunder_i_decomposition_kind)kind);
+    for (int kind = SUNDER_DECOMPOSITION_ANGLE_BISECTOR; !status && kind <= SUNDER_DECOMPOSITION_MIXED; kind++)
+        status = measure(p, q, (sunder_decomposition)kind);
     return status;
 }
 

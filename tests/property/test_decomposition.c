@@ -15,9 +15,9 @@
 
 #include <cmocka.h>
 
-static const sunder_i_decomposition_kind kinds[] = {SUNDER_I_HERTEL_MEHLHORN, SUNDER_I_TRIANGULATION,
-                                                    SUNDER_I_ANGLE_BISECTOR,  SUNDER_I_VERTICAL,
-                                                    SUNDER_I_OPTIMAL,         SUNDER_I_MIXED};
+static const sunder_decomposition kinds[] = {SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, SUNDER_DECOMPOSITION_TRIANGULATION,
+                                             SUNDER_DECOMPOSITION_ANGLE_BISECTOR,  SUNDER_DECOMPOSITION_VERTICAL,
+                                             SUNDER_DECOMPOSITION_OPTIMAL,         SUNDER_DECOMPOSITION_MIXED};
 #define KINDS 6
 
 typedef struct qpoint {
@@ -307,25 +307,28 @@ static void tally_member(subject *s, uint32_t member, tally *t)
     for (uint32_t i = 0; i < s->d.pieces; i++) t->pieces += s->d.member[i] == member;
 }
 
-static bool counts_hold(subject *s, sunder_i_decomposition_kind kind, uint32_t *pieces_of_best)
+static bool counts_hold(subject *s, sunder_decomposition kind, uint32_t *pieces_of_best)
 {
     bool ok = true;
     for (uint32_t member = 0; member < s->shape->polygons; member++) {
         tally t;
         tally_member(s, member, &t);
         uint32_t most = t.vertices - 2 + 2 * t.holes;
-        if (kind == SUNDER_I_ANGLE_BISECTOR) most = t.reflex + 1 - t.holes;
-        if (kind == SUNDER_I_VERTICAL) most = 2 * t.reflex + 1 - t.holes;
-        if (kind == SUNDER_I_TRIANGULATION) ok &= t.pieces == most;
-        ok &= t.pieces <= most && t.pieces >= 1 && (kind == SUNDER_I_TRIANGULATION || (t.reflex > 0) == (t.pieces > 1));
+        if (kind == SUNDER_DECOMPOSITION_ANGLE_BISECTOR) most = t.reflex + 1 - t.holes;
+        if (kind == SUNDER_DECOMPOSITION_VERTICAL) most = 2 * t.reflex + 1 - t.holes;
+        if (kind == SUNDER_DECOMPOSITION_TRIANGULATION) ok &= t.pieces == most;
+        ok &= t.pieces <= most && t.pieces >= 1 &&
+              (kind == SUNDER_DECOMPOSITION_TRIANGULATION || (t.reflex > 0) == (t.pieces > 1));
         /* Each piece more takes away at most two reflex vertices, and a hole costs one. */
         ok &= 2 * (t.pieces + t.holes) >= t.reflex + 2;
-        const bool solved = kind == SUNDER_I_OPTIMAL && t.holes == 0 && t.vertices <= SUNDER_I_OPTIMAL_MOST;
+        const bool solved = kind == SUNDER_DECOMPOSITION_OPTIMAL && t.holes == 0 && t.vertices <= SUNDER_I_OPTIMAL_MOST;
         if (solved) pieces_of_best[member] = t.pieces;
-        if (pieces_of_best[member] && (kind == SUNDER_I_HERTEL_MEHLHORN || kind == SUNDER_I_TRIANGULATION))
+        if (pieces_of_best[member] &&
+            (kind == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN || kind == SUNDER_DECOMPOSITION_TRIANGULATION))
             ok &= t.pieces >= pieces_of_best[member];
-        if (pieces_of_best[member] && kind == SUNDER_I_HERTEL_MEHLHORN) ok &= t.pieces <= 4 * pieces_of_best[member];
-        if (pieces_of_best[member] && kind == SUNDER_I_ANGLE_BISECTOR && s->d.corners == s->shape->vertices)
+        if (pieces_of_best[member] && kind == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN)
+            ok &= t.pieces <= 4 * pieces_of_best[member];
+        if (pieces_of_best[member] && kind == SUNDER_DECOMPOSITION_ANGLE_BISECTOR && s->d.corners == s->shape->vertices)
             ok &= t.pieces >= pieces_of_best[member];
     }
     return ok;
@@ -343,7 +346,7 @@ static void load_corners(subject *s)
     }
 }
 
-static const char *examine(subject *s, sunder_i_decomposition_kind kind, rng *r, bool prove, uint32_t *best)
+static const char *examine(subject *s, sunder_decomposition kind, rng *r, bool prove, uint32_t *best)
 {
     const char *wrong = sunder_i_decomposition_check(&s->placed.lattice, s->shape, s->placed.p, &s->d);
     load_corners(s);
@@ -392,7 +395,7 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
     char *message = NULL;
     static const int order[KINDS] = {4, 0, 1, 2, 3, 5}; /* the optimal one first: others are compared with it */
     for (int i = 0; i < KINDS && !message; i++) {
-        const sunder_i_decomposition_kind kind = kinds[order[i]];
+        const sunder_decomposition kind = kinds[order[i]];
         sunder_i_decomposition other;
         assert_int_equal(
             sunder_i_decompose_pair(&s.placed.lattice, shape, s.placed.p, shape, s.placed.q, kind, &s.d, &other, NULL),
@@ -400,7 +403,7 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
         const char *wrong = examine(&s, kind, r, prove, best);
         if (!wrong && s.d.used != kind && !s.d.fallbacks) wrong = "another way was taken without a reason";
         if (!wrong) wrong = sunder_i_decomposition_check(&s.placed.lattice, shape, s.placed.q, &other);
-        if (wrong) message = test_format("%s%s: %s", sunder_i_decomposition_string(kind), wide ? ", wide" : "", wrong);
+        if (wrong) message = test_format("%s%s: %s", sunder_decomposition_string(kind), wide ? ", wide" : "", wrong);
         sunder_i_decomposition_clear(&s.d);
         sunder_i_decomposition_clear(&other);
     }

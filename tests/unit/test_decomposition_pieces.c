@@ -27,10 +27,10 @@ static sunder_shape *shape_of(const char *wkt)
 
 typedef struct outcome {
     uint32_t pieces, steiner, fallbacks;
-    sunder_i_decomposition_kind used;
+    sunder_decomposition used;
 } outcome;
 
-static outcome decompose(const char *wkt, sunder_i_decomposition_kind kind, bool wide)
+static outcome decompose(const char *wkt, sunder_decomposition kind, bool wide)
 {
     sunder_shape *shape = shape_of(wkt);
     sunder_i_placed placed;
@@ -39,7 +39,7 @@ static outcome decompose(const char *wkt, sunder_i_decomposition_kind kind, bool
     sunder_i_decomposition d;
     assert_int_equal(sunder_i_decompose(&placed.lattice, shape, placed.p, kind, &d, NULL), SUNDER_OK);
     const char *wrong = sunder_i_decomposition_check(&placed.lattice, shape, placed.p, &d);
-    if (wrong) fail_msg("%s, %s: %s", wkt, sunder_i_decomposition_string(kind), wrong);
+    if (wrong) fail_msg("%s, %s: %s", wkt, sunder_decomposition_string(kind), wrong);
     const outcome result = {d.pieces, d.corners - shape->vertices, d.fallbacks, d.used};
     sunder_i_decomposition_clear(&d);
     sunder_i_placed_free(&placed);
@@ -47,12 +47,12 @@ static outcome decompose(const char *wkt, sunder_i_decomposition_kind kind, bool
     return result;
 }
 
-static void expect(const char *wkt, sunder_i_decomposition_kind kind, uint32_t pieces, uint32_t steiner)
+static void expect(const char *wkt, sunder_decomposition kind, uint32_t pieces, uint32_t steiner)
 {
     for (int wide = 0; wide < 2; wide++) {
         const outcome got = decompose(wkt, kind, wide);
         if (got.pieces != pieces || got.steiner != steiner)
-            fail_msg("%s, %s: %u pieces, %u Steiner points; not %u, %u", wkt, sunder_i_decomposition_string(kind),
+            fail_msg("%s, %s: %u pieces, %u Steiner points; not %u, %u", wkt, sunder_decomposition_string(kind),
                      got.pieces, got.steiner, pieces, steiner);
         assert_int_equal(got.used, kind);
         assert_int_equal(got.fallbacks, 0);
@@ -69,38 +69,38 @@ static void expect(const char *wkt, sunder_i_decomposition_kind kind, uint32_t p
 static void test_convex(void **state)
 {
     static const char square[] = "POLYGON((0 0,1 0,1 1,0 1,0 0))";
-    expect(square, SUNDER_I_HERTEL_MEHLHORN, 1, 0);
-    expect(square, SUNDER_I_TRIANGULATION, 2, 0);
-    expect(square, SUNDER_I_ANGLE_BISECTOR, 1, 0);
-    expect(square, SUNDER_I_VERTICAL, 1, 0);
-    expect(square, SUNDER_I_OPTIMAL, 1, 0);
+    expect(square, SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, 1, 0);
+    expect(square, SUNDER_DECOMPOSITION_TRIANGULATION, 2, 0);
+    expect(square, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 1, 0);
+    expect(square, SUNDER_DECOMPOSITION_VERTICAL, 1, 0);
+    expect(square, SUNDER_DECOMPOSITION_OPTIMAL, 1, 0);
 }
 
 static void test_one_reflex(void **state)
 {
-    expect(L_SHAPE, SUNDER_I_TRIANGULATION, 4, 0);
-    expect(L_SHAPE, SUNDER_I_HERTEL_MEHLHORN, 2, 0);
-    expect(L_SHAPE, SUNDER_I_ANGLE_BISECTOR, 2, 0); /* a vertex stands in the cone */
-    expect(L_SHAPE, SUNDER_I_VERTICAL, 2, 1);
-    expect(L_SHAPE, SUNDER_I_OPTIMAL, 2, 0);
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_TRIANGULATION, 4, 0);
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, 2, 0);
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 2, 0); /* a vertex stands in the cone */
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_VERTICAL, 2, 1);
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_OPTIMAL, 2, 0);
 }
 
 static void test_pairs_of_reflex(void **state)
 {
-    expect(PLUS, SUNDER_I_ANGLE_BISECTOR, 3, 0);
-    expect(PLUS, SUNDER_I_OPTIMAL, 3, 0);
-    expect(PLUS, SUNDER_I_VERTICAL, 3, 0);        /* verticals that join two vertices are drawn once */
-    expect(TEETH, SUNDER_I_ANGLE_BISECTOR, 3, 0); /* to the corners of the base */
-    expect(TEETH, SUNDER_I_VERTICAL, 3, 2);
+    expect(PLUS, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 0);
+    expect(PLUS, SUNDER_DECOMPOSITION_OPTIMAL, 3, 0);
+    expect(PLUS, SUNDER_DECOMPOSITION_VERTICAL, 3, 0);        /* verticals that join two vertices are drawn once */
+    expect(TEETH, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 0); /* to the corners of the base */
+    expect(TEETH, SUNDER_DECOMPOSITION_VERTICAL, 3, 2);
 }
 
 static void test_hole(void **state)
 {
-    expect(FRAME, SUNDER_I_TRIANGULATION, 8, 0);
-    expect(FRAME, SUNDER_I_ANGLE_BISECTOR, 4, 0);
-    expect(FRAME, SUNDER_I_VERTICAL, 4, 4);
-    const outcome got = decompose(FRAME, SUNDER_I_OPTIMAL, false);
-    assert_int_equal(got.used, SUNDER_I_HERTEL_MEHLHORN);
+    expect(FRAME, SUNDER_DECOMPOSITION_TRIANGULATION, 8, 0);
+    expect(FRAME, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 4, 0);
+    expect(FRAME, SUNDER_DECOMPOSITION_VERTICAL, 4, 4);
+    const outcome got = decompose(FRAME, SUNDER_DECOMPOSITION_OPTIMAL, false);
+    assert_int_equal(got.used, SUNDER_DECOMPOSITION_HERTEL_MEHLHORN);
     assert_int_equal(got.fallbacks, 1);
 }
 
@@ -108,9 +108,9 @@ static void test_hole(void **state)
  * into a long roof. */
 static void test_steiner(void **state)
 {
-    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_I_ANGLE_BISECTOR, 2, 1);
-    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_I_VERTICAL, 2, 1);
-    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_I_OPTIMAL, 3, 0);
+    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 2, 1);
+    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_DECOMPOSITION_VERTICAL, 2, 1);
+    expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_DECOMPOSITION_OPTIMAL, 3, 0);
 }
 
 /* Cuts from three spikes in a room. From the one below a cut runs straight up to the roof; those from the left and from
@@ -120,7 +120,7 @@ static void test_cuts_meet_on_a_cut(void **state)
     static const char wkt[] =
         "POLYGON((-20 -20,-1 -20,0 -10,1 -20,20 -20,20 20,15.5 20,10 15,14.5 20,-20 20,-20 6,-10 5,"
         "-20 4,-20 -20))";
-    expect(wkt, SUNDER_I_ANGLE_BISECTOR, 4, 2);
+    expect(wkt, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 4, 2);
 }
 
 /* Two cuts that end at one place of the roof, (0, 20). */
@@ -128,7 +128,7 @@ static void test_cuts_meet_on_an_edge(void **state)
 {
     static const char wkt[] =
         "POLYGON((-20 -20,-1 -20,0 -10,1 -20,20 -20,20 20,-20 20,-20 0.5,-10 10,-20 -0.5,-20 -20))";
-    expect(wkt, SUNDER_I_ANGLE_BISECTOR, 3, 1);
+    expect(wkt, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 1);
 }
 
 /* A vertex that touches the line between two others: the best takes both halves of that line, and the piece above
@@ -136,8 +136,8 @@ static void test_cuts_meet_on_an_edge(void **state)
 static void test_straight_corner(void **state)
 {
     static const char wkt[] = "POLYGON((0 0,5 0,6 3,7 0,12 0,12 2,10 3,12 4,12 6,0 6,0 4,2 3,0 2,0 0))";
-    expect(wkt, SUNDER_I_OPTIMAL, 3, 0);
-    const outcome merged = decompose(wkt, SUNDER_I_HERTEL_MEHLHORN, false);
+    expect(wkt, SUNDER_DECOMPOSITION_OPTIMAL, 3, 0);
+    const outcome merged = decompose(wkt, SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, false);
     assert_true(merged.pieces > 3);
 }
 
@@ -148,7 +148,7 @@ static void test_thin_cone(void **state)
     static const char wkt[] = "POLYGON((-1073741824 0,-4 0,1073741824 1,-3 0,1073741827 0,2147483648 1000,2147483648 "
                               "1073741824,-1073741824 1073741824,-1073741824 0))";
     for (int wide = 0; wide < 2; wide++) {
-        const outcome got = decompose(wkt, SUNDER_I_ANGLE_BISECTOR, wide);
+        const outcome got = decompose(wkt, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, wide);
         assert_true(got.pieces >= 2);
     }
 }
@@ -157,19 +157,19 @@ static void test_members_and_empty(void **state)
 {
     static const char wkt[] = "MULTIPOLYGON(((0 0,4 0,4 2,2 2,2 4,0 4,0 0)),((1 1,9 1,9 9,1 9,1 1)),((20 0,26 0,26 "
                               "6,20 6,20 0),(22 2,22 4,24 4,24 2,22 2)))";
-    const outcome got = decompose(wkt, SUNDER_I_ANGLE_BISECTOR, false);
+    const outcome got = decompose(wkt, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, false);
     assert_int_equal(got.pieces, 2 + 1 + 4);
     sunder_shape *none = NULL;
     const size_t zero = 0;
     const double xy = 0;
     assert_int_equal(sunder_shape_from_rings(&xy, &zero, &zero, 0, SUNDER_VALIDITY_STRICT, &none, NULL), SUNDER_OK);
     sunder_shape *l = shape_of(L_SHAPE);
-    for (int kind = SUNDER_I_HERTEL_MEHLHORN; kind <= SUNDER_I_MIXED; kind++) {
+    for (int kind = SUNDER_DECOMPOSITION_ANGLE_BISECTOR; kind <= SUNDER_DECOMPOSITION_MIXED; kind++) {
         sunder_i_placed placed;
         sunder_i_decomposition p, q;
         assert_int_equal(sunder_i_place(none, l, NULL, &placed, NULL), SUNDER_OK);
         assert_int_equal(sunder_i_decompose_pair(&placed.lattice, none, placed.p, l, placed.q,
-                                                 (sunder_i_decomposition_kind)kind, &p, &q, NULL),
+                                                 (sunder_decomposition)kind, &p, &q, NULL),
                          SUNDER_OK);
         assert_int_equal(p.pieces, 0);
         assert_true(q.pieces >= 2);
@@ -199,7 +199,7 @@ static double perimeters(sunder_i_lattice *l, const sunder_i_decomposition *d)
 }
 
 /* The length of all boundaries of subsums, from the pieces themselves. */
-static double objective(const sunder_shape *p, const sunder_shape *q, sunder_i_decomposition_kind kind)
+static double objective(const sunder_shape *p, const sunder_shape *q, sunder_decomposition kind)
 {
     sunder_i_placed placed;
     sunder_i_decomposition a, b;
@@ -226,7 +226,8 @@ static void test_mixed(void **state)
                 random_simple(&set[k], &r, (int)rng_int(&r, 5, 8), 50);
         }
         sunder_shape *p = polyset_shape(&set[0]), *q = polyset_shape(&set[1]);
-        const double mixed = objective(p, q, SUNDER_I_MIXED), optimal = objective(p, q, SUNDER_I_OPTIMAL);
+        const double mixed = objective(p, q, SUNDER_DECOMPOSITION_MIXED),
+                     optimal = objective(p, q, SUNDER_DECOMPOSITION_OPTIMAL);
         /* Sums of doubles in different orders: a part in 10^9 is far more than they lose. */
         assert_true(mixed <= optimal * (1 + 1e-9));
         better += mixed < optimal * (1 - 1e-9);
@@ -343,7 +344,7 @@ static void test_convex_sum(void **state)
             const sunder_i_place_options options = {.force_wide = i % 2, .reflect_q = i % 3 == 0};
             assert_int_equal(sunder_i_place(p, q, &options, &placed, NULL), SUNDER_OK);
             assert_int_equal(sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q,
-                                                     (sunder_i_decomposition_kind)(i % 6), &a, &b, NULL),
+                                                     (sunder_decomposition)(1 + i % 6), &a, &b, NULL),
                              SUNDER_OK);
             sunder_i_arena arena;
             sunder_i_arena_init(&arena);
@@ -374,9 +375,9 @@ static void test_parallel_sides(void **state)
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
     assert_int_equal(sunder_i_place(p, q, NULL, &placed, NULL), SUNDER_OK);
-    assert_int_equal(
-        sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q, SUNDER_I_HERTEL_MEHLHORN, &a, &b, NULL),
-        SUNDER_OK);
+    assert_int_equal(sunder_i_decompose_pair(&placed.lattice, p, placed.p, q, placed.q,
+                                             SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, &a, &b, NULL),
+                     SUNDER_OK);
     assert_true(sunder_i_convex_sum_of(&placed.lattice, &a, 0, &b, 0, &arena, &s));
     assert_int_equal(s.corners, 4);
     for (uint32_t k = 0; k < 4; k++) assert_true(s.side_p[k] && s.side_q[k]);
@@ -393,7 +394,7 @@ static void test_parallel_sides(void **state)
 
 typedef struct attempt {
     const sunder_shape *p, *q;
-    sunder_i_decomposition_kind kind;
+    sunder_decomposition kind;
     bool wide;
 } attempt;
 
@@ -419,9 +420,9 @@ static void test_memory(void **state)
     failing_begin();
     sunder_shape *p = shape_of(FRAME);
     sunder_shape *q = shape_of("POLYGON((0 0,40 0,40 30,35 7,30 31,26 5,22 29,17 6,11 30,9 8,5 31,0 30,0 0))");
-    for (int kind = SUNDER_I_HERTEL_MEHLHORN; kind <= SUNDER_I_MIXED; kind++)
+    for (int kind = SUNDER_DECOMPOSITION_ANGLE_BISECTOR; kind <= SUNDER_DECOMPOSITION_MIXED; kind++)
         for (int wide = 0; wide < 2; wide++) {
-            attempt t = {p, q, (sunder_i_decomposition_kind)kind, wide};
+            attempt t = {p, q, (sunder_decomposition)kind, wide};
             assert_true(failing_loop(try_once, &t, false));
         }
     sunder_shape_free(p);

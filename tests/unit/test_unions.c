@@ -223,7 +223,7 @@ static void fixture_start(fixture *f, const char *arguments, sunder_order order,
     assert_int_equal(sunder_i_place(f->p, f->q, &place, &f->placed, NULL), SUNDER_OK);
     f->u = (sunder_i_uniting){.lattice = &f->placed.lattice, .options = &f->options, .fatness = fatness, .random = 5};
     const sunder_status status = sunder_i_decompose_pair(f->u.lattice, f->p, f->placed.p, f->q, f->placed.q,
-                                                         SUNDER_I_HERTEL_MEHLHORN, &f->u.p, &f->u.q, NULL);
+                                                         SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, &f->u.p, &f->u.q, NULL);
     assert_int_equal(status, SUNDER_OK);
     f->u.subsums = f->u.p.pieces * f->u.q.pieces;
 }
