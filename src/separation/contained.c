@@ -5,7 +5,9 @@
  * has no boundary without length. So: the interior of C must overlap a piece of Q, and along every boundary edge of a
  * member of Q, as far as it runs inside C, the side that is not the member's own must be covered by other pieces
  * (members may overlap and touch): almost everywhere, which is decided by closed intervals on the edge. */
-#include "separation/pairing.h"
+#include "separation/separation.h"
+
+#include "separation/operands/operands.h"
 
 typedef struct interval {
     sunder_i_fraction low, high;

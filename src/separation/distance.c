@@ -1,5 +1,7 @@
 /* The distance of two sets, to about an ulp, and a shortest link. */
-#include "separation/pairing.h"
+#include "separation/separation.h"
+
+#include "separation/operands/operands.h"
 
 #include <math.h>
 

@@ -5,6 +5,7 @@
  * save for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
 #include "generate.h"
 #include "separation/least.h"
+#include "separation/separation.h"
 #include "slabs.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
 #include "random.h"
 
 #include "separation/least.h"
+#include "separation/separation.h"
 
 #include <math.h>
 #include <setjmp.h>

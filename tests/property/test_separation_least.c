@@ -6,6 +6,7 @@
  * smallest. Free is decided by cutting both sets into vertical slabs. */
 #include "generate.h"
 #include "separation/least.h"
+#include "separation/separation.h"
 #include "slabs.h"
 
 #include <gmp.h>

@@ -6,7 +6,8 @@
 #include "failing.h"
 #include "generate.h"
 #include "separation/least.h"
-#include "separation/nearest.h"
+#include "separation/separation.h"
+#include "separation/penetration/search.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -4,6 +4,7 @@
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "separation/least.h"
+#include "separation/separation.h"
 #include "sum_text.h"
 
 #include <math.h>

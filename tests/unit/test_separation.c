@@ -2,6 +2,7 @@
 #include "polyset.h"
 
 #include "separation/least.h"
+#include "separation/separation.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* The board of held squares: what it says of points and of segments is what the subsums say one by one. */
 #include "failing.h"
 #include "generate.h"
-#include "separation/held.h"
+#include "separation/obstacle/board.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,0 +1,49 @@
+/* What is asked of a least translation, and from an exact vector on the lattice to what the caller gets: nearest
+ * doubles, texts, and whether the doubles would do. */
+#ifndef SUNDER_I_ANSWER_H
+#define SUNDER_I_ANSWER_H
+
+#include "separation/operands/operands.h"
+
+typedef struct sunder_i_least_options {
+    const double *tp, *tq; /* exact translations, or NULL */
+    double gap;            /* >= 0, finite */
+    double upper;          /* a length past which the answer no longer matters; INFINITY for none */
+    bool texts;            /* make the three texts */
+    bool force_wide, force_squares; /* for tests */
+} sunder_i_least_options;
+
+/* Nothing has to move; the answer lies beyond the upper limit. */
+sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *err);
+void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
+
+/* (x / w, y / w) lattice units, w > 0: as 128-bit integers where they fit (`small`: |x|, |y|, w < 2^63), else as big
+ * ones. */
+typedef struct sunder_i_vector_exact {
+    bool small;
+    sunder_i_i128 x, y, w;
+    sunder_i_big bx, by, bw;
+} sunder_i_vector_exact;
+
+sunder_i_vector_exact sunder_i_vector_of(sunder_i_pairing *pairing, const sunder_i_hpoint *point);
+sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder_i_big w);
+
+/* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
+void sunder_i_answer_numbers(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, sunder_separation *out);
+
+/* The three texts; on failure none is left. */
+sunder_status sunder_i_answer_texts(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, sunder_separation *out,
+                                    sunder_error *err);
+
+/* (dx, dy) in lattice units exactly: x / w, y / w. */
+void sunder_i_vector_doubles(sunder_i_pairing *pairing, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
+                             sunder_i_big *w);
+
+/* Are out->dx and out->dy exactly the vector? */
+bool sunder_i_answer_exact(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, double dx, double dy);
+
+/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far.
+ */
+bool sunder_i_doubles_free(sunder_i_pairing *pairing, double dx, double dy);
+
+#endif

@@ -1,0 +1,133 @@
+/* Are two sets the gap apart: are their interiors disjoint, and is no point of one nearer than the gap to the other?
+ *
+ * Once the interiors are known to be disjoint the least distance is one of two boundary edges, and as no two of them
+ * cross properly it is that of an end of one from the other. Doubles settle all pairs of edges but those whose distance
+ * is the gap to within the error; these are compared exactly, on a lattice that holds the gap, too. */
+#include "separation/separation.h"
+
+#include "separation/operands/operands.h"
+
+#include <math.h>
+
+/* The boundary edges of one operand near the other, by their tails. */
+static uint32_t *edges_near(sunder_i_pairing *g, int side, double reach, uint32_t *n)
+{
+    const sunder_shape *s = g->shape[side];
+    uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, s->vertices, sizeof *list);
+    *n = 0;
+    if (!list) return NULL;
+    const double *o = g->box[!side], *xy = g->xy[side];
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const double *a = xy + 2 * v, *b = xy + 2 * s->next[v];
+        if (fmin(a[0], b[0]) <= o[2] + reach && o[0] <= fmax(a[0], b[0]) + reach && fmin(a[1], b[1]) <= o[3] + reach &&
+            o[1] <= fmax(a[1], b[1]) + reach)
+            list[(*n)++] = v;
+    }
+    return list;
+}
+
+/* Squared distance of a point and a segment, in doubles. Coordinates are off by at most `error`, so the distance by
+ * less than 8 times that. */
+static double end_square(const double p[2], const double a[2], const double b[2])
+{
+    const double ux = b[0] - a[0], uy = b[1] - a[1], square = ux * ux + uy * uy;
+    double t = square > 0 ? ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / square : 0;
+    t = t > 0 ? t < 1 ? t : 1 : 0;
+    const double x = a[0] + t * ux - p[0], y = a[1] + t * uy - p[1];
+    return x * x + y * y;
+}
+
+typedef enum nearness { FAR, NEAR, IN_DOUBT } nearness;
+
+/* Is a point of edge i of P nearer than `units` to one of edge j of Q? The interiors are disjoint. In doubles. */
+static nearness edges_near_each_other(const sunder_i_pairing *g, uint32_t i, uint32_t j, double units)
+{
+    const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
+    const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * in, *c = g->xy[1] + 2 * j, *d = g->xy[1] + 2 * jn;
+    const double doubt = 16 * g->error + 0x1p-50 * units, reach = units + doubt;
+    if (fmin(a[0], b[0]) > fmax(c[0], d[0]) + reach || fmin(c[0], d[0]) > fmax(a[0], b[0]) + reach ||
+        fmin(a[1], b[1]) > fmax(c[1], d[1]) + reach || fmin(c[1], d[1]) > fmax(a[1], b[1]) + reach)
+        return FAR;
+    /* With disjoint interiors no two edges cross properly, so the least distance is at an end. */
+    const double square =
+        fmin(fmin(end_square(a, c, d), end_square(b, c, d)), fmin(end_square(c, a, b), end_square(d, a, b)));
+    const double distance = sqrt(square);
+    return distance + doubt < units ? NEAR : distance - doubt > units ? FAR : IN_DOUBT;
+}
+
+static bool exactly_near(sunder_i_pairing *g, uint32_t i, uint32_t j, int64_t gap)
+{
+    const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
+    return sunder_i_segment_distance_cmp(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn],
+                                         gap) < 0;
+}
+
+/* Is any edge of P nearer than the gap to one of Q? Without `gap` (on the lattice) in doubles, and perhaps in doubt. */
+static nearness any_near(sunder_i_pairing *g, double units, const int64_t *gap)
+{
+    uint32_t m, n;
+    const double reach = units + 16 * g->error + 0x1p-50 * units;
+    const uint32_t *p = edges_near(g, 0, reach, &m), *q = edges_near(g, 1, reach, &n);
+    if (!p || !q) return IN_DOUBT;
+    nearness worst = FAR;
+    for (uint32_t i = 0; i < m; i++)
+        for (uint32_t j = 0; j < n; j++) {
+            const nearness now = edges_near_each_other(g, p[i], q[j], units);
+            if (now == NEAR) return NEAR;
+            if (now == FAR) continue;
+            if (gap && exactly_near(g, p[i], q[j], *gap)) return NEAR;
+            if (!gap) worst = IN_DOUBT;
+        }
+    return worst;
+}
+
+/* With the gap on the lattice, which may have to be a finer one for it. */
+static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
+                                   const sunder_i_pairing_options *options, double gap, bool *apart, sunder_error *err)
+{
+    sunder_i_pairing_options with_gap = *options;
+    with_gap.extra = &gap;
+    with_gap.extra_n = 1;
+    sunder_i_pairing g;
+    sunder_status status = sunder_i_pairing_init(&g, p, q, &with_gap, err);
+    if (status) return status;
+    sunder_i_lattice *l = &g.placed.lattice;
+    const int64_t n = sunder_i_lattice_int(l, gap, 0);
+    const nearness answer = any_near(&g, sunder_i_approx(l, n), &n);
+    if (l->arena.failed)
+        status = sunder_i_no_memory(err);
+    else
+        *apart = answer == FAR;
+    sunder_i_pairing_free(&g);
+    return status;
+}
+
+sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                             double gap, bool *apart, sunder_error *err)
+{
+    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, gap)) {
+        *apart = true;
+        return SUNDER_OK;
+    }
+    sunder_i_pairing g;
+    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    if (status) return status;
+    nearness answer = sunder_i_operands_overlap(&g) ? NEAR : FAR;
+    const double units = gap / g.unit;
+    if (answer == FAR && gap > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
+    const bool failed = g.placed.lattice.arena.failed;
+    sunder_i_pairing_free(&g);
+    if (failed) return sunder_i_no_memory(err);
+    if (answer == IN_DOUBT) return exactly_apart(p, q, &options, gap, apart, err);
+    *apart = answer == FAR;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart,
+                                sunder_error *err)
+{
+    if (!(gap >= 0) || !isfinite(gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative");
+    return sunder_i_apart(p, NULL, q, NULL, gap, apart, err);
+}

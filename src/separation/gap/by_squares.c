@@ -1,0 +1,251 @@
+/* With a gap and many pairs of pieces: which of them matter. The plane is searched in squares, nearest to the origin
+ * first, as without a gap (squares.h), with subsums grown by the gap. A square that a grown subsum holds whole keeps
+ * that one, a square that few come near keeps those. So the subsums kept cover within the limit what all of them cover,
+ * and of a point it is enough to ask those of its square; boundary runs through open squares only, so segments are
+ * taken from these. The limit comes down to the first square that nothing comes near, or that has a middle that is free
+ * for certain.
+ *
+ * Squares are held by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
+ * counts as near: a point may be asked in either of two squares where it cannot be told in which it is, and so may one
+ * beside it (rational.c). */
+#include "separation/gap/gap.h"
+#include "separation/squares/squares_inner.h"
+
+#include "base/sort.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct gathering {
+    sunder_i_gap_problem *p;
+    sunder_i_squares *q;
+    sunder_i_gap_places *to;
+    size_t places_capacity;
+    uint64_t *pair; /* of all lists, one after the other: bodies of P and of -Q */
+    size_t pairs, pairs_capacity;
+    sunder_i_candidate *segment;
+    size_t segments, segments_capacity;
+} gathering;
+
+static bool make_places(gathering *c)
+{
+    const size_t need = 1 + 4 * (size_t)c->q->cuts, before = c->places_capacity;
+    if (!sunder_i_reserve(&c->to->place, &c->places_capacity, need, sizeof *c->to->place)) return false;
+    if (c->places_capacity > before)
+        memset(c->to->place + before, 0, (c->places_capacity - before) * sizeof *c->to->place);
+    return true;
+}
+
+static bool keep_pair(gathering *c, uint32_t i, uint32_t j)
+{
+    if (c->pairs == UINT32_MAX) return sunder_i_too_many();
+    if (!sunder_i_reserve(&c->pair, &c->pairs_capacity, c->pairs + 1, sizeof *c->pair)) return false;
+    c->pair[c->pairs++] = (uint64_t)i << 32 | j;
+    return true;
+}
+
+static bool keep_segments(gathering *c, const sunder_i_square *s)
+{
+    sunder_i_lattice *l = &c->p->pairing->placed.lattice;
+    const double by = c->p->gap_units * (1 + 0x1p-20);
+    const double box[4] = {s->box[0] - by, s->box[1] - by, s->box[2] + by, s->box[3] + by};
+    const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
+    sunder_i_candidates near;
+    if (!sunder_i_squares_take_candidates(c->q, box, c->p->limit + by, &near) ||
+        !sunder_i_reserve(&c->segment, &c->segments_capacity, c->segments + near.n, sizeof *c->segment))
+        return false;
+    if (near.n) memcpy(c->segment + c->segments, near.item, near.n * sizeof *near.item);
+    c->segments += near.n;
+    sunder_i_arena_release(&l->arena, mark);
+    return true;
+}
+
+/* Is the middle of an open square farther than the gap from all subsums near, for certain? */
+static bool middle_is_free(const gathering *c, const sunder_i_square *s)
+{
+    const double x = s->box[0] / 2 + s->box[2] / 2, y = s->box[1] / 2 + s->box[3] / 2;
+    const sunder_i_pairing *g = c->p->pairing;
+    const sunder_i_bodies *b = c->q->bodies;
+    const sunder_i_aim aim = sunder_i_bodies_aim(g, (double[4]){x, y, x, y});
+    const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (1 + 0x1p-20f) + 2 * SUNDER_I_BODIES_ERROR;
+    for (size_t k = 0; k < c->q->pairs; k++) {
+        const uint32_t i = c->q->pair[k][0], j = c->q->pair[k][1];
+        if (!(sunder_i_bodies_depth(b, i, j, &aim).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
+    }
+    return true;
+}
+
+static void lower_limit(gathering *c, double x, double y)
+{
+    const double d = sqrt(x * x + y * y) * (1 + 0x1p-40) + 64 * c->p->pairing->error;
+    if (d < c->p->limit) c->p->limit = d;
+}
+
+static bool settle(gathering *c, const sunder_i_square *s, sunder_i_finding what)
+{
+    sunder_i_squares *q = c->q;
+    sunder_i_gap_square *at = c->to->place + s->place;
+    if (what == SUNDER_I_SQUARE_IN_PARTS) {
+        at->child = 1 + 4 * q->cuts;
+        return sunder_i_squares_cut(q, s) && make_places(c);
+    }
+    at->from = (uint32_t)c->pairs;
+    bool ok = !q->held || keep_pair(c, q->holder[0], q->holder[1]);
+    if (what == SUNDER_I_SQUARE_OPEN) {
+        for (size_t k = 0; ok && k < q->pairs; k++) ok = keep_pair(c, q->pair[k][0], q->pair[k][1]);
+        ok = ok && keep_segments(c, s);
+        if (ok && middle_is_free(c, s)) lower_limit(c, s->box[0] / 2 + s->box[2] / 2, s->box[1] / 2 + s->box[3] / 2);
+    } else if (!q->held)
+        lower_limit(c, fmax(fabs(s->box[0]), fabs(s->box[2])), fmax(fabs(s->box[1]), fabs(s->box[3])));
+    at->to = (uint32_t)c->pairs;
+    return ok;
+}
+
+/* *done: the limit was reached. */
+static bool look_at_all(gathering *c, bool *done)
+{
+    sunder_i_squares *q = c->q;
+    *done = false;
+    if (!make_places(c)) return false;
+    while (q->n && q->heap[0].distance <= c->p->limit * (1 + 0x1p-20) + 64 * q->g->error) {
+        const sunder_i_square s = sunder_i_squares_first(q);
+        if (sunder_i_squares_too_many(q, &s)) return true;
+        const sunder_i_finding what = sunder_i_squares_look(q, &s);
+        if (what == SUNDER_I_SQUARE_NO_MEMORY || !settle(c, &s, what)) return false;
+    }
+    *done = true;
+    return true;
+}
+
+/* ---- What they keep becomes what is searched ---- */
+
+/* Boxes of -Q, and of P, are pieces too. */
+static bool add_rings(sunder_i_pairing *g, const sunder_i_bodies *b, int side)
+{
+    const uint32_t pieces = g->shape[side]->pieces;
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    sunder_i_ring *ring = sunder_i_arena_alloc(arena, b->n, sizeof *ring);
+    sunder_i_point *point = sunder_i_arena_alloc(arena, b->boxes, 9 * sizeof *point);
+    if (!ring || !point) return false;
+    memcpy(ring, g->ring[side], pieces * sizeof *ring);
+    for (uint32_t k = 0; k < b->boxes; k++, point += 9) {
+        const double *v = b->box + 4 * (size_t)k;
+        const int64_t x0 = (int64_t)v[0], y0 = (int64_t)v[1], x1 = (int64_t)v[2], y1 = (int64_t)v[3];
+        const sunder_i_point corner[5] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}};
+        memcpy(point, corner, sizeof corner);
+        for (int m = 0; m < 4; m++) point[5 + m] = sunder_i_narrow_sub(corner[m + 1], corner[m]);
+        ring[pieces + k] = (sunder_i_ring){4, point, point + 5};
+    }
+    g->ring[side] = ring;
+    return true;
+}
+
+static const double *box_of(const sunder_i_pairing *g, const sunder_i_bodies *b, int side, uint32_t body)
+{
+    const uint32_t pieces = g->shape[side]->pieces;
+    return body < pieces ? g->piece_box[side] + 4 * (size_t)body : b->box + 4 * (size_t)(body - pieces);
+}
+
+static bool number_pairs(gathering *c)
+{
+    sunder_i_pairing *g = c->p->pairing;
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    uint64_t *key = sunder_i_arena_alloc(arena, c->pairs + 1, sizeof *key);
+    c->to->list = sunder_i_arena_alloc(arena, c->pairs + 1, sizeof *c->to->list);
+    if (!c->to->list) return false;
+    if (c->pairs) memcpy(key, c->pair, c->pairs * sizeof *key);
+    if (!sunder_i_sort_keys(key, c->pairs)) return false;
+    size_t n = 0;
+    for (size_t k = 0; k < c->pairs; k++)
+        if (k == 0 || key[k] != key[n - 1]) key[n++] = key[k];
+    g->subsum = sunder_i_arena_alloc(arena, n + 1, sizeof *g->subsum);
+    if (!g->subsum) return false;
+    g->subsums = n;
+    for (size_t k = 0; k < n; k++) {
+        sunder_i_subsum *s = g->subsum + k;
+        *s = (sunder_i_subsum){.i = (uint32_t)(key[k] >> 32), .j = (uint32_t)key[k]};
+        const double *u = box_of(g, c->q->bodies, 0, s->i), *v = box_of(g, c->q->bodies + 1, 1, s->j);
+        for (int m = 0; m < 4; m++) s->box[m] = u[m] + v[m];
+    }
+    for (size_t k = 0; k < c->pairs; k++) {
+        size_t low = 0, high = n - 1;
+        while (low < high) {
+            const size_t m = low + (high - low) / 2;
+            if (key[m] < c->pair[k])
+                low = m + 1;
+            else
+                high = m;
+        }
+        c->to->list[k] = (uint32_t)low;
+    }
+    return sunder_i_steps(c->pairs);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const sunder_i_candidate *c = a, *d = b;
+    if (c->side != d->side) return c->side - d->side;
+    if (c->edge != d->edge) return c->edge < d->edge ? -1 : 1;
+    return (c->vertex > d->vertex) - (c->vertex < d->vertex);
+}
+
+static bool take_segments(gathering *c)
+{
+    sunder_i_candidate *out = sunder_i_arena_alloc(&c->p->pairing->placed.lattice.arena, c->segments + 1, sizeof *out);
+    if (!out) return false;
+    if (c->segments) qsort(c->segment, c->segments, sizeof *c->segment, by_place);
+    size_t n = 0;
+    for (size_t k = 0; k < c->segments; k++)
+        if (k == 0 || by_place(c->segment + k, out + n - 1) != 0) out[n++] = c->segment[k];
+    c->p->segment = out;
+    c->p->segments = n;
+    return sunder_i_steps(n);
+}
+
+static bool take_all(gathering *c)
+{
+    sunder_i_pairing *g = c->p->pairing;
+    return add_rings(g, &c->q->bodies[0], 0) && add_rings(g, &c->q->bodies[1], 1) && number_pairs(c) &&
+           take_segments(c);
+}
+
+bool sunder_i_gap_take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places, bool *done)
+{
+    const double limit = p->limit, reach = p->limit;
+    *places = (sunder_i_gap_places){.reach = reach + 64 * p->pairing->error};
+    *done = false;
+    gathering c = {.p = p, .q = sunder_i_squares_new(p->pairing, reach, p->gap_units), .to = places};
+    const bool ok = c.q && look_at_all(&c, done) && (!*done || take_all(&c));
+    sunder_i_squares_free(c.q);
+    sunder_i_free(c.pair);
+    sunder_i_free(c.segment);
+    if (ok && *done)
+        p->places = places;
+    else
+        p->limit = limit;
+    return ok && !p->pairing->placed.lattice.arena.failed;
+}
+
+void sunder_i_gap_places_free(sunder_i_gap_places *places)
+{
+    sunder_i_free(places->place);
+    *places = (sunder_i_gap_places){.place = NULL};
+}
+
+const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *q, double x, double y, size_t *n)
+{
+    double box[4] = {-q->reach, -q->reach, q->reach, q->reach};
+    const sunder_i_gap_square *at = q->place;
+    while (at->child) {
+        const double mx = box[0] / 2 + box[2] / 2, my = box[1] / 2 + box[3] / 2;
+        const int k = (x > mx) + 2 * (y > my);
+        double part[4];
+        sunder_i_inner_quarter(box, k, part);
+        memcpy(box, part, sizeof box);
+        at = q->place + at->child + k;
+    }
+    *n = at->to - at->from;
+    return q->list + at->from;
+}

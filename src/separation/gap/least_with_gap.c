@@ -1,0 +1,211 @@
+#include "separation/gap/search.h"
+
+#include "base/sort.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The corners that arcs may go round: sums of two convex vertices (the other kinds never stand out of the obstacle). */
+static bool find_centers(sunder_i_gap_problem *p)
+{
+    sunder_i_pairing *g = p->pairing;
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    uint64_t *key = sunder_i_arena_alloc(arena, 2 * p->segments + 1, sizeof *key);
+    if (!key) return false;
+    size_t n = 0;
+    for (size_t i = 0; i < p->segments; i++) {
+        const sunder_i_candidate *c = p->segment + i;
+        const uint32_t end[2] = {c->edge, g->shape[c->side]->next[c->edge]};
+        for (int k = 0; k < 2; k++) {
+            const uint32_t u = c->side ? c->vertex : end[k], v = c->side ? end[k] : c->vertex;
+            key[n++] = (uint64_t)u << 32 | v;
+        }
+    }
+    if (n <= 64) {
+        for (size_t i = 1; i < n; i++) {
+            const uint64_t v = key[i];
+            size_t k = i;
+            for (; k > 0 && key[k - 1] > v; k--) key[k] = key[k - 1];
+            key[k] = v;
+        }
+    } else if (!sunder_i_sort_keys(key, n))
+        return false;
+    sunder_i_point *center = sunder_i_arena_alloc(arena, n + 1, sizeof *center);
+    if (!center) return false;
+    for (size_t i = 0; i < n; i++) {
+        if (i && key[i] == key[i - 1]) continue;
+        center[p->centers++] = sunder_i_pairing_add(g, g->at[0][key[i] >> 32], g->at[1][key[i] & UINT32_MAX]);
+    }
+    p->center = center;
+    return true;
+}
+
+/* The way out along each axis, and the gap. */
+static double way_out(const sunder_i_pairing *g, double gap)
+{
+    double d = INFINITY;
+    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
+    return (d + gap) * (1 + 0x1p-40) + 64 * g->error;
+}
+
+/* Does every subsum keep the gap from the origin? */
+static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
+{
+    sunder_i_pairing *g = p->pairing;
+    sunder_i_arena *a = &g->placed.lattice.arena;
+    const sunder_i_big zero = {NULL, 0};
+    const sunder_i_spot origin = sunder_i_spot_rational(g, zero, zero, sunder_i_big_i64(a, 1));
+    for (size_t k = 0; k < g->subsums; k++) {
+        sunder_i_subsum *s = g->subsum + k;
+        const double r = p->gap_units + 2 * g->error;
+        if (s->box[0] > r || s->box[2] < -r || s->box[1] > r || s->box[3] < -r) continue;
+        if (!s->sides && !sunder_i_subsum_make(g, s)) {
+            *memory = false;
+            return false;
+        }
+        /* In doubles first: inside; or on the far side of a side's line by more than the gap. */
+        bool far = false, inside = true;
+        for (uint32_t i = 0; i < s->sides && !far; i++) {
+            const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
+            const double length = sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
+            far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * (1 + 0x1p-40) * length;
+            inside = inside && turn > s->bound[i];
+        }
+        if (inside || (!far && sunder_i_gap_cmp(p, s, &origin) < 0)) return false;
+    }
+    return true;
+}
+
+static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
+{
+    sunder_i_candidates heap;
+    if (!p->places) {
+        if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
+        p->segment = heap.item;
+        p->segments = heap.n;
+    }
+    return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_no_memory(err);
+}
+
+/* Do the doubles keep the gap as well? Exact. */
+static bool doubles_free(const sunder_i_gap_problem *p, double dx, double dy)
+{
+    sunder_i_pairing *g = p->pairing;
+    if (!isfinite(dx) || !isfinite(dy)) return false;
+    const sunder_i_spot at = sunder_i_spot_doubles(g, dx, dy);
+    return !g->placed.lattice.arena.failed && sunder_i_gap_verify(p, &at);
+}
+
+static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts, sunder_separation *out,
+                          sunder_error *err)
+{
+    sunder_i_pairing *g = p->pairing;
+    const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x.part[0], a->at.y.part[0], a->at.w);
+    sunder_i_answer_numbers(g, &v, out);
+    const double bound = a->bound * g->unit * (1 - 0x1p-50);
+    if (bound < out->lower_bound) out->lower_bound = bound;
+    out->overlap = out->attained = true;
+    out->contact = a->contact;
+    out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || doubles_free(p, out->dx, out->dy);
+    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    if (!sunder_i_gap_verify(p, &a->at) && !g->placed.lattice.arena.failed)
+        return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
+    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
+}
+
+/* So many pairs of pieces are searched by squares: those with many corners cut up, and whole ones. */
+#define SQUARES_FROM 4096
+#define SQUARES_WHOLE 64
+
+/* By squares, with pieces of few corners; where that leads nowhere the pairing is as it was. */
+static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
+{
+    sunder_i_pairing *g = p->pairing;
+    const sunder_i_pairing whole = *g;
+    bool done;
+    if (!sunder_i_pairing_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
+    for (int k = 0; k < 2 && !done; k++) {
+        g->shape[k] = whole.shape[k];
+        g->piece_box[k] = whole.piece_box[k];
+        g->ring[k] = whole.ring[k];
+    }
+    return true;
+}
+
+static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options *o)
+{
+    const sunder_i_pairing *g = p->pairing;
+    if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false; /* boxes are on a narrow one only */
+    return o->force_squares || ((uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SQUARES_WHOLE &&
+                                sunder_i_pairing_parts(g) >= SQUARES_FROM);
+}
+
+static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_places *places,
+                           sunder_separation *out, bool *beyond, sunder_error *err)
+{
+    sunder_i_pairing *g = p->pairing;
+    const double upper = o->upper / g->unit;
+    p->limit = way_out(g, p->gap_units);
+    if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
+    if (are_many(p, o) && !take_squares(p, places)) return sunder_i_no_memory(err);
+    if (!p->places && !sunder_i_pairing_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    bool memory = true;
+    if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
+    if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    sunder_i_gap_answer answer;
+    const sunder_status status = run(p, &answer, err);
+    if (status) return status;
+    if (answer.found && !(answer.bound * g->unit > o->upper)) return fill(p, &answer, o->texts, out, err);
+    if (!(o->upper < INFINITY)) /* two sets can always be parted */
+        return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no free translation was found");
+    sunder_i_too_far(o->upper, out, beyond);
+    return SUNDER_OK;
+}
+
+/* The operands and the gap beside them. A gap that dwarfs them goes on the lattice too, whose units are then chosen to
+ * suit. */
+static sunder_status set_up(sunder_i_pairing *g, sunder_i_gap_problem *problem, const sunder_shape *p,
+                            const sunder_shape *q, const sunder_i_least_options *o, bool gap_on_lattice,
+                            sunder_error *err)
+{
+    const sunder_i_pairing_options options = {.tp = o->tp,
+                                              .tq = o->tq,
+                                              .reflect_q = true,
+                                              .force_wide = o->force_wide,
+                                              .extra = &o->gap,
+                                              .extra_n = gap_on_lattice};
+    const sunder_status status = sunder_i_pairing_init(g, p, q, &options, err);
+    if (status) return status;
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_big zero, unit;
+    *problem = (sunder_i_gap_problem){.pairing = g, .over = sunder_i_big_i64(&l->arena, 1)};
+    sunder_i_vector_doubles(g, o->gap, 0, &problem->gap, &zero, &unit);
+    problem->gap_bits = sunder_i_big_bits(unit) - (l->arena.failed ? 0 : 1);
+    problem->gap_units = sunder_i_big_ratio(&l->arena, problem->gap, unit, -l->approx_shift);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
+                                      sunder_separation *out, bool *beyond, sunder_error *err)
+{
+    sunder_i_pairing g;
+    sunder_i_gap_problem problem;
+    sunder_status status = set_up(&g, &problem, p, q, o, false, err);
+    if (status) return status;
+    if (!(problem.gap_units <= 0x1p400) && !g.placed.lattice.arena.failed) {
+        sunder_i_pairing_free(&g);
+        status = set_up(&g, &problem, p, q, o, true, err);
+        if (status) return status;
+    }
+    if (problem.gap_units > g.magnitude) {
+        g.magnitude = problem.gap_units;
+        g.error = fmax(g.error, 0x1p-45 * g.magnitude);
+    }
+    sunder_i_gap_places places = {.place = NULL};
+    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
+    sunder_i_gap_places_free(&places);
+    out->counts = g.placed.lattice.counts;
+    sunder_i_pairing_free(&g);
+    return status;
+}

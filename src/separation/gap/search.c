@@ -1,0 +1,174 @@
+/* The search with a gap.
+ *
+ * As without one, the stretches of boundary are taken best first and moved past what covers them. What is different is
+ * that places are irrational. In numbers with a known error (gap/search.h) most of them are seen to be covered: a point
+ * by a grown subsum whose distance is less than the gap by more than all rounding, a stretch from point to point so
+ * covered. What that leaves open is asked exactly, of points that are fractions of integers and square roots
+ * (exact_point.c): nothing is discarded, and nothing is found, that is not so. So the first free point is the nearest one,
+ * and its length the bound; equal ones are told apart exactly as well.
+ *
+ * Where the nearest point is irrational, a rational one beside it is given (rational.c). */
+#include "separation/gap/search.h"
+
+#include <float.h>
+#include <math.h>
+
+/* ---- The heap ---- */
+
+static void push_item(sunder_i_gap_state *s, sunder_i_gap_item v)
+{
+    if (v.key > s->best) return;
+    if (s->heap_n == s->heap_capacity) {
+        const size_t capacity = s->heap_capacity ? 2 * s->heap_capacity : 64;
+        sunder_i_gap_item *grown = sunder_i_arena_alloc(&s->g->placed.lattice.arena, capacity, sizeof *grown);
+        if (!grown) {
+            s->failed = true;
+            return;
+        }
+        for (size_t i = 0; i < s->heap_n; i++) grown[i] = s->heap[i];
+        s->heap = grown;
+        s->heap_capacity = capacity;
+    }
+    size_t i = s->heap_n++;
+    while (i > 0 && s->heap[(i - 1) / 2].key > v.key) {
+        s->heap[i] = s->heap[(i - 1) / 2];
+        i = (i - 1) / 2;
+    }
+    s->heap[i] = v;
+}
+
+static sunder_i_gap_item pop_item(sunder_i_gap_state *s)
+{
+    const sunder_i_gap_item top = s->heap[0], last = s->heap[--s->heap_n];
+    size_t i = 0;
+    for (;;) {
+        size_t k = 2 * i + 1;
+        if (k >= s->heap_n) break;
+        if (k + 1 < s->heap_n && s->heap[k + 1].key < s->heap[k].key) k++;
+        if (last.key <= s->heap[k].key) break;
+        s->heap[i] = s->heap[k];
+        i = k;
+    }
+    s->heap[i] = last;
+    return top;
+}
+
+void sunder_i_gap_push(sunder_i_gap_state *s, double key, const sunder_i_gap_point *p)
+{
+    if (key > s->best) return;
+    if (s->points_n == s->points_capacity) {
+        const size_t capacity = s->points_capacity ? 2 * s->points_capacity : 16;
+        sunder_i_gap_point *grown = sunder_i_arena_alloc(&s->g->placed.lattice.arena, capacity, sizeof *grown);
+        if (!grown) {
+            s->failed = true;
+            return;
+        }
+        for (size_t i = 0; i < s->points_n; i++) grown[i] = s->points[i];
+        s->points = grown;
+        s->points_capacity = capacity;
+    }
+    s->points[s->points_n] = *p;
+    push_item(s, (sunder_i_gap_item){key > 0 ? key : 0, SUNDER_I_GAP_POINT, s->points_n++});
+}
+
+/* ---- All together ---- */
+
+/* The distance of a moved side from the origin: a lower bound in doubles. */
+static double side_key(const sunder_i_gap_state *s, size_t segment)
+{
+    const sunder_i_candidate *c = s->p->segment + segment;
+    const double *xy = s->g->xy[c->side], *q = s->g->xy[!c->side] + 2 * c->vertex;
+    const double *a = xy + 2 * c->edge, *b = xy + 2 * s->g->shape[c->side]->next[c->edge];
+    const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy, f = s->p->gap_units / sqrt(square);
+    const double x = a[0] + q[0] + f * dy, y = a[1] + q[1] - f * dx;
+    double t = -(x * dx + y * dy) / square;
+    t = t > 0 ? t < 1 ? t : 1 : 0;
+    /* Where the direction is not known well enough, or lost below all doubles: the unmoved side, less the gap. */
+    if (s->g->coarse > 0 || !(square > SUNDER_I_GAP_TINY * SUNDER_I_GAP_TINY))
+        return sqrt(c->square) - s->p->gap_units - 8 * s->g->error;
+    return hypot(x + t * dx, y + t * dy) - 8 * s->g->error;
+}
+
+static void fill_heap(sunder_i_gap_state *s)
+{
+    const double far = s->best;
+    for (size_t i = 0; i < s->p->segments && !s->failed; i++) {
+        const double key = side_key(s, i);
+        s->failed = s->failed || !sunder_i_step();
+        if (!(key > far)) push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_SEGMENT, i});
+    }
+    for (size_t i = 0; i < s->p->centers && !s->failed; i++) {
+        const sunder_i_lattice *l = &s->g->placed.lattice;
+        const double x = sunder_i_approx(l, s->p->center[i].x), y = sunder_i_approx(l, s->p->center[i].y);
+        const double key = fabs(hypot(x, y) - s->p->gap_units) - 8 * s->g->error;
+        s->failed = s->failed || !sunder_i_step();
+        push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_ARC, i});
+    }
+}
+
+static bool set_up(sunder_i_gap_state *s)
+{
+    sunder_i_lattice *l = &s->g->placed.lattice;
+    s->gap = sunder_i_gap_big(s->p->gap, -(long)s->p->gap_bits - l->approx_shift);
+    s->error = 64 * DBL_EPSILON * (s->g->magnitude + s->gap); /* DBL_EPSILON = 2 u */
+    s->margin = 2 * s->error;
+    s->best = s->p->limit;
+    s->pieces = sunder_i_arena_alloc(&l->arena, s->g->subsums + 1, sizeof *s->pieces);
+    s->arcs = sunder_i_arena_alloc(&l->arena, s->p->centers + 1, sizeof *s->arcs);
+    if (!s->pieces || !s->arcs) return false;
+    for (size_t k = 0; k < s->g->subsums; k++) s->pieces[k].n = 0;
+    return true;
+}
+
+static sunder_contact kind_of(const sunder_i_gap_find *f, sunder_i_gap_room room)
+{
+    bool flat = true, any_flat = false;
+    for (size_t i = 0; i < f->contacts; i++) {
+        flat = flat && f->contact[i].flat;
+        any_flat = any_flat || f->contact[i].flat;
+    }
+    switch (room) {
+    case SUNDER_I_ROOM_HALF: return any_flat ? SUNDER_CONTACT_EDGE : SUNDER_CONTACT_ARC;
+    case SUNDER_I_ROOM_NONE: return SUNDER_CONTACT_DEGENERATE_POINT;
+    case SUNDER_I_ROOM_LINE: return flat ? SUNDER_CONTACT_DEGENERATE_SEGMENT : SUNDER_CONTACT_VERTEX;
+    default: return SUNDER_CONTACT_VERTEX;
+    }
+}
+
+/* What is given of what was found, and what is said of it. */
+static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
+{
+    const sunder_i_gap_find *f = &s->found;
+    *out = (sunder_i_gap_answer){.found = f->any};
+    if (!f->any) return SUNDER_OK;
+    const sunder_i_gap_way way = sunder_i_gap_way_off(s, f);
+    out->contact = kind_of(f, way.room);
+    sunder_i_big xy[2];
+    const unsigned long bits = sunder_i_spot_digits(s->g, &f->spot, sunder_i_gap_length(f->x, f->y), xy);
+    out->bound = sunder_i_spot_length_down(s->g, xy, bits);
+    if (sunder_i_spot_is_rational(&f->spot))
+        out->at = f->spot;
+    else if (!sunder_i_gap_clear(s, f, &way, xy, bits, &out->at))
+        return s->failed ? sunder_i_no_memory(err)
+                         : sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no way off a free point");
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_gap_search(const sunder_i_gap_problem *p, sunder_i_gap_answer *out, sunder_error *err)
+{
+    sunder_i_lattice *l = &p->pairing->placed.lattice;
+    sunder_i_gap_state s = {.p = p, .g = p->pairing};
+    if (!set_up(&s)) return sunder_i_no_memory(err);
+    fill_heap(&s);
+    while (s.heap_n && s.heap[0].key <= s.best && !s.failed && !l->arena.failed) {
+        const sunder_i_gap_item i = pop_item(&s);
+        if (i.kind == SUNDER_I_GAP_SEGMENT)
+            sunder_i_gap_take_segment(&s, i.index);
+        else if (i.kind == SUNDER_I_GAP_ARC)
+            sunder_i_gap_take_arc(&s, i.index);
+        else
+            sunder_i_gap_take_point(&s, i.index);
+    }
+    const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude(&s, out, err);
+    return s.failed || l->arena.failed ? sunder_i_no_memory(err) : status;
+}

@@ -1,0 +1,217 @@
+/* The exact check of a result with a gap: asked of the pieces themselves, sides against corners; it shares only the
+ * arithmetic with the search. Doubles say which sides and corners are near (errors as in gap/search.h). */
+#include "separation/gap/gap.h"
+
+#include "predicate/vector.h"
+
+#include <float.h>
+#include <math.h>
+
+typedef struct checking {
+    const sunder_i_gap_problem *p;
+    sunder_i_pairing *g;
+    sunder_i_big x, y, w; /* the translation: (x / w, y / w) */
+    double at[2], gap, doubt;
+} checking;
+
+typedef struct convex {
+    int side; /* whose: 0 P's, 1 Q's */
+    const uint32_t *corner;
+    uint32_t n;
+} convex;
+
+static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
+{
+    const sunder_shape *s = g->shape[side];
+    const uint32_t first = i ? s->piece_end[i - 1] : 0;
+    return (convex){side, s->piece_vertex + first, s->piece_end[i] - first};
+}
+
+/* A side of one piece, from which corners of the other are seen: q + t - p = t - (p + (-q)), for the pairing has Q
+ * reflected; seen from Q all is reflected in t / 2. */
+typedef struct side {
+    sunder_i_point a, d;
+    double x, y, dx, dy, length; /* t - a, d, |d| */
+} side;
+
+static side side_of(const checking *c, const convex *p, uint32_t k)
+{
+    const sunder_i_lattice *l = &c->g->placed.lattice;
+    const sunder_i_point *at = c->g->at[p->side];
+    const double *a = c->g->xy[p->side] + 2 * p->corner[k];
+    side s = {.a = at[p->corner[k]], .x = c->at[0] - a[0], .y = c->at[1] - a[1]};
+    s.d = sunder_i_pairing_diff(c->g, at[p->corner[k + 1 < p->n ? k + 1 : 0]], s.a);
+    s.dx = sunder_i_approx(l, s.d.x);
+    s.dy = sunder_i_approx(l, s.d.y);
+    s.length = sqrt(s.dx * s.dx + s.dy * s.dy);
+    return s;
+}
+
+/* How far the corner stands out over the side's line. */
+static double height(const checking *c, const side *s, const convex *q, uint32_t m)
+{
+    const double *b = c->g->xy[q->side] + 2 * q->corner[m];
+    return (s->dy * (s->x - b[0]) - s->dx * (s->y - b[1])) / s->length;
+}
+
+/* Is its distance from the side above the gap for certain? */
+static bool certainly_off(const checking *c, const side *s, const convex *q, uint32_t m)
+{
+    const double h = height(c, s, q, m), reach = c->gap + c->doubt;
+    if (fabs(h) > reach) return true;
+    const double *b = c->g->xy[q->side] + 2 * q->corner[m], x = s->x - b[0], y = s->y - b[1];
+    const double along = (s->dx * x + s->dy * y) / s->length, past = along < 0 ? -along : along - s->length;
+    return past > 0 && h * h + past * past > reach * reach;
+}
+
+typedef struct exact {
+    sunder_i_big turn, along, norm, square; /* of the way from the side's first corner, times w; |side|^2 */
+    sunder_i_big over;                      /* all that in units that divide the lattice's by this */
+} exact;
+
+static exact exactly(const checking *c, const side *s, const convex *q, uint32_t m)
+{
+    sunder_i_lattice *l = &c->g->placed.lattice;
+    sunder_i_arena *a = &l->arena;
+    const sunder_i_point sum = sunder_i_pairing_add(c->g, s->a, c->g->at[q->side][q->corner[m]]);
+    const sunder_i_vector at = sunder_i_vector_get(a, l, sum), d = sunder_i_vector_get(a, l, s->d);
+    const sunder_i_big over = sunder_i_times(a, at.w, d.w);
+    const sunder_i_big x =
+        sunder_i_big_sub(a, sunder_i_times(a, c->x, over), sunder_i_times(a, sunder_i_big_mul(a, at.x, c->w), d.w));
+    const sunder_i_big y =
+        sunder_i_big_sub(a, sunder_i_times(a, c->y, over), sunder_i_times(a, sunder_i_big_mul(a, at.y, c->w), d.w));
+    const sunder_i_big dx = sunder_i_times(a, d.x, at.w), dy = sunder_i_times(a, d.y, at.w);
+    return (exact){sunder_i_big_sub(a, sunder_i_big_mul(a, dx, y), sunder_i_big_mul(a, dy, x)),
+                   sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y)),
+                   sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y)),
+                   sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy)), over};
+}
+
+/* Is the corner no nearer than the gap to the side, its second end aside (that is the next side's first)? */
+static bool keeps_off(const checking *c, const side *s, const convex *q, uint32_t m)
+{
+    if (certainly_off(c, s, q, m)) return true;
+    sunder_i_arena *a = &c->g->placed.lattice.arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(a);
+    const exact e = exactly(c, s, q, m);
+    const sunder_i_big gw = sunder_i_times(a, sunder_i_big_mul(a, c->p->gap, c->w), e.over);
+    const sunder_i_big limit = sunder_i_big_mul(a, gw, gw);
+    bool off = true;
+    if (sunder_i_big_sign(e.along) <= 0)
+        off = sunder_i_big_cmp(sunder_i_big_shl(a, e.norm, 2 * c->p->gap_bits), limit) >= 0;
+    else if (sunder_i_big_cmp(e.along, sunder_i_big_mul(a, e.square, c->w)) < 0)
+        off = sunder_i_big_cmp(sunder_i_big_shl(a, sunder_i_big_mul(a, e.turn, e.turn), 2 * c->p->gap_bits),
+                               sunder_i_big_mul(a, limit, e.square)) >= 0;
+    sunder_i_arena_release(a, mark);
+    return off;
+}
+
+/* Is the corner on the right of the side's line, or on it? */
+static bool is_outside(const checking *c, const side *s, const convex *q, uint32_t m)
+{
+    const double h = height(c, s, q, m);
+    if (h > c->doubt) return true;
+    if (h < -c->doubt) return false;
+    sunder_i_arena *a = &c->g->placed.lattice.arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(a);
+    const bool outside = sunder_i_big_sign(exactly(c, s, q, m).turn) <= 0;
+    sunder_i_arena_release(a, mark);
+    return outside;
+}
+
+typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
+
+/* Does a side of p have all of q on its right? *by: one that has; of those that have them by more than the gap for
+ * certain, so that there is no more to ask, if there are any. */
+static parting side_parts(const checking *c, const convex *p, const convex *q, side *by)
+{
+    bool parts = false;
+    for (uint32_t k = 0; k < p->n; k++) {
+        const side s = side_of(c, p, k);
+        uint32_t m = 0;
+        while (m < q->n && height(c, &s, q, m) > c->gap + c->doubt) m++;
+        if (m == q->n) return PARTED_FAR;
+        while (!parts && m < q->n && is_outside(c, &s, q, m)) m++;
+        if (parts || m < q->n) continue;
+        parts = true;
+        *by = s;
+    }
+    return parts ? PARTED : PARTED_NOT;
+}
+
+/* The corners of p and of q that may be within the gap of the other one: side `by`, of p, has all of q on its right, so
+ * whoever is farther from its line than that, is. */
+typedef struct close_by {
+    uint32_t *p, *q, pn, qn;
+} close_by;
+
+static close_by find_close(const checking *c, const convex *p, const convex *q, const side *by)
+{
+    close_by b = {sunder_i_arena_alloc(&c->g->placed.lattice.arena, (size_t)p->n + q->n, sizeof *b.p), NULL, 0, 0};
+    if (!b.p) return b;
+    b.q = b.p + p->n;
+    const double most = c->gap + c->doubt;
+    for (uint32_t m = 0; m < q->n; m++)
+        if (!(height(c, by, q, m) > most)) b.q[b.qn++] = m;
+    for (uint32_t m = 0; m < p->n; m++) {
+        const double *at = c->g->xy[p->side] + 2 * p->corner[m];
+        /* From the corner to the side's first. */
+        const double x = c->at[0] - at[0] - by->x, y = c->at[1] - at[1] - by->y;
+        if (!((by->dy * x - by->dx * y) / by->length > most)) b.p[b.pn++] = m;
+    }
+    return b;
+}
+
+static bool corners_keep_off(const checking *c, const convex *p, const convex *q, const uint32_t *corner, uint32_t n)
+{
+    for (uint32_t k = 0; k < p->n; k++) {
+        const side s = side_of(c, p, k);
+        for (uint32_t m = 0; m < n; m++)
+            if (!keeps_off(c, &s, q, corner[m])) return false;
+    }
+    return true;
+}
+
+static bool pieces_apart(const checking *c, const convex *p, const convex *q)
+{
+    side by;
+    parting how = side_parts(c, p, q, &by);
+    if (how == PARTED_NOT) {
+        const convex *other = p;
+        p = q;
+        q = other;
+        how = side_parts(c, p, q, &by);
+    }
+    if (how != PARTED) return how == PARTED_FAR;
+    sunder_i_arena *arena = &c->g->placed.lattice.arena;
+    const sunder_i_mark mark = sunder_i_arena_mark(arena);
+    const close_by b = find_close(c, p, q, &by);
+    const bool off = b.p && corners_keep_off(c, p, q, b.q, b.qn) && corners_keep_off(c, q, p, b.p, b.pn);
+    if (!arena->failed) sunder_i_arena_release(arena, mark);
+    return off;
+}
+
+bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_spot *t)
+{
+    sunder_i_pairing *g = p->pairing;
+    sunder_i_lattice *l = &g->placed.lattice;
+    checking c = {.p = p, .g = g, .x = t->x.part[0], .y = t->y.part[0], .w = t->w};
+    c.gap = p->gap_units;
+    c.at[0] = sunder_i_big_ratio(&l->arena, c.x, t->w, -l->approx_shift);
+    c.at[1] = sunder_i_big_ratio(&l->arena, c.y, t->w, -l->approx_shift);
+    c.doubt = 256 * DBL_EPSILON * (g->magnitude + c.gap);
+    const double reach = p->gap_units * (1 + 0x1p-50) + 4 * g->error;
+    for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
+        const double *a = g->piece_box[0] + 4 * (size_t)i;
+        const convex u = piece_of(g, 0, i);
+        for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
+            const double *b = g->piece_box[1] + 4 * (size_t)j, x = c.at[0], y = c.at[1];
+            if (x < a[0] + b[0] - reach || x > a[2] + b[2] + reach || y < a[1] + b[1] - reach ||
+                y > a[3] + b[3] + reach)
+                continue;
+            const convex v = piece_of(g, 1, j);
+            if (!pieces_apart(&c, &u, &v)) return false;
+        }
+    }
+    return true;
+}

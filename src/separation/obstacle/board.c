@@ -1,0 +1,211 @@
+/* The board is halved again and again, as in minkowski/cells.c: a part that one subsum holds is closed whole, and only
+ * subsums that come near a part are passed on to its halves. Squares that are never held keep their lists.
+ *
+ * All in doubles and one-sided: `held` is certain, with room for the error of a point that is looked up; the lists are
+ * of all subsums that come within that error. */
+#include "separation/obstacle/board.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TRIES 24 /* of the fattest subsums whose boxes hold a part; what they do not hold is rarely held */
+
+/* columns x0 .. x1 - 1, rows y0 .. y1 - 1; its list is the end of the common one */
+typedef struct part {
+    uint32_t x0, y0, x1, y1;
+    size_t from, to;
+} part;
+
+typedef struct board {
+    sunder_i_pairing *g;
+    sunder_i_held *h;
+    uint32_t *near; /* lists of the parts on the stack, one after the other */
+    size_t near_n, near_capacity;
+    part stack[64]; /* two for each halving: at most 2 * 2 * 9 */
+    uint32_t stack_n;
+} board;
+
+static void part_box(const sunder_i_held *h, const part *p, double box[4])
+{
+    const double step = 2 * h->reach / h->n;
+    box[0] = p->x0 * step - h->reach;
+    box[1] = p->y0 * step - h->reach;
+    box[2] = p->x1 * step - h->reach;
+    box[3] = p->y1 * step - h->reach;
+}
+
+/* Does the subsum hold the box, widened by the error, in its interior? */
+static bool holds(sunder_i_pairing *g, sunder_i_subsum *s, const double box[4])
+{
+    const double e = 4 * g->error;
+    for (int k = 0; k < 2; k++)
+        if (box[k] - e <= s->box[k] || box[k + 2] + e >= s->box[k + 2]) return false;
+    if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
+    const double cx = box[0] / 2 + box[2] / 2, cy = box[1] / 2 + box[3] / 2;
+    const double hx = box[2] / 2 - box[0] / 2 + e, hy = box[3] / 2 - box[1] / 2 + e;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (cy - s->cy[k]) - s->sy[k] * (cx - s->cx[k]);
+        if (!(v - (fabs(s->sx[k]) * hy + fabs(s->sy[k]) * hx) > 2 * s->bound[k])) return false;
+    }
+    return true;
+}
+
+static bool comes_near(const sunder_i_pairing *g, const sunder_i_subsum *s, const double box[4])
+{
+    const double e = 4 * g->error;
+    for (int k = 0; k < 2; k++)
+        if (box[k] - e > s->box[k + 2] || box[k + 2] + e < s->box[k]) return false;
+    return true;
+}
+
+static void close_part(sunder_i_held *h, const part *p, uint32_t holder)
+{
+    for (uint32_t y = p->y0; y < p->y1; y++)
+        for (uint32_t x = p->x0; x < p->x1; x++) h->holder[(size_t)y * h->n + x] = holder + 1;
+}
+
+/* The list of an open square; they are kept in the order in which squares come, and sorted by square at the end. */
+static bool keep_list(board *b, const part *p, uint32_t *start)
+{
+    sunder_i_held *h = b->h;
+    const size_t n = p->to - p->from, square = (size_t)p->y0 * h->n + p->x0;
+    if (h->list_n + n > UINT32_MAX) return sunder_i_too_many();
+    if (!sunder_i_reserve(&h->list, &h->list_capacity, h->list_n + n, sizeof *h->list)) return false;
+    if (n) memcpy(h->list + h->list_n, b->near + p->from, n * sizeof *h->list);
+    start[square] = (uint32_t)h->list_n;
+    h->list_n += n;
+    h->list_end[square] = (uint32_t)h->list_n;
+    return true;
+}
+
+/* Looks at one part with the list of its parent: closes it, keeps it, or puts it on the stack. */
+static bool settle(board *b, const part *parent, part p, uint32_t *start)
+{
+    double box[4];
+    part_box(b->h, &p, box);
+    const size_t most = b->near_n + (parent->to - parent->from);
+    if (!sunder_i_reserve(&b->near, &b->near_capacity, most, sizeof *b->near)) return false;
+    if (!sunder_i_steps((parent->to - parent->from) / 8 + 1)) return false;
+    p.from = b->near_n;
+    uint32_t tries = 0;
+    for (size_t i = parent->from; i < parent->to; i++) {
+        const uint32_t number = b->near[i];
+        sunder_i_subsum *s = b->g->subsum + number;
+        if (!comes_near(b->g, s, box)) continue;
+        if (tries < TRIES && s->box[0] < box[0] && s->box[1] < box[1] && s->box[2] > box[2] && s->box[3] > box[3]) {
+            tries++;
+            if (holds(b->g, s, box)) {
+                close_part(b->h, &p, number);
+                b->near_n = p.from;
+                return true;
+            }
+        }
+        b->near[b->near_n++] = number;
+    }
+    p.to = b->near_n;
+    if (p.x1 - p.x0 > 1 || p.y1 - p.y0 > 1) {
+        b->stack[b->stack_n++] = p;
+        return true;
+    }
+    const bool ok = keep_list(b, &p, start);
+    b->near_n = p.from;
+    return ok;
+}
+
+static bool descend(board *b, uint32_t *start)
+{
+    const uint32_t n = b->h->n;
+    const size_t subsums = b->g->subsums;
+    if (!sunder_i_reserve(&b->near, &b->near_capacity, subsums, sizeof *b->near)) return false;
+    for (size_t k = 0; k < subsums; k++) b->near[k] = (uint32_t)k;
+    b->near_n = subsums;
+    b->stack[b->stack_n++] = (part){0, 0, n, n, 0, subsums};
+    while (b->stack_n) {
+        const part p = b->stack[--b->stack_n];
+        part low = p, high = p;
+        if (p.x1 - p.x0 > p.y1 - p.y0)
+            low.x1 = high.x0 = p.x0 + (p.x1 - p.x0) / 2;
+        else
+            low.y1 = high.y0 = p.y0 + (p.y1 - p.y0) / 2;
+        b->near_n = p.to; /* lists above belong to parts already done */
+        if (!settle(b, &p, low, start) || !settle(b, &p, high, start)) return false;
+    }
+    return !b->g->placed.lattice.arena.failed;
+}
+
+/* Lists in the order of the squares, so that one array of ends will do; and the sums of open squares. */
+static bool arrange(sunder_i_held *h, const uint32_t *start)
+{
+    const size_t n = h->n;
+    uint32_t *list = sunder_i_alloc(h->list_n, sizeof *list);
+    if (!list) return false;
+    size_t at = 0;
+    for (size_t q = 0; q < n * n; q++) {
+        const size_t length = h->holder[q] ? 0 : h->list_end[q] - start[q];
+        if (length) memcpy(list + at, h->list + start[q], length * sizeof *list);
+        at += length;
+        h->list_end[q] = (uint32_t)at;
+    }
+    sunder_i_free(h->list);
+    h->list = list;
+    for (size_t y = 0; y <= n; y++)
+        for (size_t x = 0; x <= n; x++) {
+            uint32_t *sum = h->open_below + y * (n + 1) + x;
+            *sum = x == 0 || y == 0 ? 0
+                                    : sum[-1] + sum[-(ptrdiff_t)n - 1] - sum[-(ptrdiff_t)n - 2] +
+                                          (h->holder[(y - 1) * n + x - 1] == 0);
+        }
+    return true;
+}
+
+bool sunder_i_held_build(sunder_i_pairing *g, double reach)
+{
+    uint32_t n = 16;
+    while (n < 256 && (size_t)n * n * 16 < g->subsums) n *= 2;
+    sunder_i_held *h = sunder_i_calloc(1, sizeof *h);
+    if (!h) return false;
+    g->held = h;
+    *h = (sunder_i_held){.reach = reach, .per_unit = n / (2 * reach), .n = n};
+    const size_t squares = (size_t)n * n;
+    h->holder = sunder_i_calloc(squares, sizeof *h->holder);
+    h->open_below = sunder_i_alloc((size_t)(n + 1) * (n + 1), sizeof *h->open_below);
+    h->list_end = sunder_i_calloc(squares, sizeof *h->list_end);
+    uint32_t *start = sunder_i_calloc(squares, sizeof *start);
+    board b = {.g = g, .h = h};
+    const bool ok = h->holder && h->open_below && h->list_end && start && descend(&b, start) && arrange(h, start);
+    sunder_i_free(b.near);
+    sunder_i_free(start);
+    if (!ok) sunder_i_held_free(g);
+    return ok;
+}
+
+void sunder_i_held_free(sunder_i_pairing *g)
+{
+    sunder_i_held *h = g->held;
+    if (!h) return;
+    sunder_i_free(h->holder);
+    sunder_i_free(h->open_below);
+    sunder_i_free(h->list_end);
+    sunder_i_free(h->list);
+    sunder_i_free(h);
+    g->held = NULL;
+}
+
+/* The column or row of a coordinate, those beyond the board clamped to its border. */
+static uint32_t clamped(const sunder_i_held *h, double v)
+{
+    const double at = (v + h->reach) * h->per_unit;
+    return at > 0 ? at < h->n ? (uint32_t)at : h->n - 1 : 0;
+}
+
+bool sunder_i_held_segment(const sunder_i_held *h, double error, double ax, double ay, double dx, double dy)
+{
+    const double e = 2 * error, bx = ax + dx, by = ay + dy;
+    const uint32_t x0 = clamped(h, (ax < bx ? ax : bx) - e), x1 = clamped(h, (ax < bx ? bx : ax) + e) + 1;
+    const uint32_t y0 = clamped(h, (ay < by ? ay : by) - e), y1 = clamped(h, (ay < by ? by : ay) + e) + 1;
+    const size_t row = (size_t)h->n + 1;
+    const uint32_t *s = h->open_below;
+    return s[y1 * row + x1] - s[y0 * row + x1] - s[y1 * row + x0] + s[y0 * row + x0] == 0;
+}

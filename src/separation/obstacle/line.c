@@ -1,0 +1,281 @@
+#include "separation/obstacle/line.h"
+#include "separation/obstacle/board.h"
+
+#include <math.h>
+
+/* v to within 2^-52: (double) of a 128-bit integer is a call, and rarely needed. */
+static inline double fast_double(sunder_i_i128 v)
+{
+    const int64_t low = (int64_t)v;
+    if (v == low) return (double)low;
+    return (double)v;
+}
+
+static inline sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128 den)
+{
+    return (sunder_i_fraction){num, den, fast_double(num) / fast_double(den)};
+}
+
+sunder_i_line sunder_i_line_make(sunder_i_pairing *g, sunder_i_point a, sunder_i_point d)
+{
+    const sunder_i_lattice *l = &g->placed.lattice;
+    return (sunder_i_line){a,
+                           sunder_i_pairing_add(g, a, d),
+                           d,
+                           sunder_i_approx(l, a.x),
+                           sunder_i_approx(l, a.y),
+                           sunder_i_approx(l, d.x),
+                           sunder_i_approx(l, d.y),
+                           sunder_i_point_is_plain(a) && sunder_i_point_is_plain(d)};
+}
+
+sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *line)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    if (line->plain) {
+        const sunder_i_i128 num = -sunder_i_narrow_dot(line->a, line->d), den = sunder_i_narrow_dot(line->d, line->d);
+        if (num <= 0) return (sunder_i_fraction){0, 1, 0};
+        if (num >= den) return (sunder_i_fraction){1, 1, 1};
+        return narrow_fraction(num, den);
+    }
+    const sunder_i_point origin = {0, 0};
+    const sunder_i_fraction zero = sunder_i_fraction_int(l, 0), one = sunder_i_fraction_int(l, 1);
+    const sunder_i_fraction foot = sunder_i_foot(l, line->a, line->b, origin);
+    if (sunder_i_fraction_cmp(l, &foot, &zero) <= 0) return zero;
+    return sunder_i_fraction_cmp(l, &foot, &one) >= 0 ? one : foot;
+}
+
+int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    if (s->den == 0 || t->den == 0) return sunder_i_fraction_cmp(l, s, t);
+    l->counts.comparisons++;
+    const double d = s->value - t->value, bound = 0x1p-49 * (fabs(s->value) + fabs(t->value));
+    if (d > bound) return 1;
+    if (d < -bound) return -1;
+    l->counts.exact_fallbacks++;
+    return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
+}
+
+/* Of plain numbers, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
+static inline void narrow_linear(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
+                                 sunder_i_i128 *b)
+{
+    *a = sunder_i_narrow_cross(s->side[k], sunder_i_narrow_sub(line->a, s->corner[k]));
+    *b = sunder_i_narrow_cross(s->side[k], line->d);
+}
+
+int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t,
+                       const sunder_i_subsum *s, uint32_t k)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    l->counts.orientation_tests++;
+    l->counts.exact_fallbacks++;
+    if (line->plain && s->plain && t->den != 0) {
+        sunder_i_i128 a, b;
+        narrow_linear(line, s, k, &a, &b);
+        if (b == 0) return sunder_i_i128_sign(a);
+        return sunder_i_cmp_products(a, t->den, -b, t->num);
+    }
+    const sunder_i_hpoint x = sunder_i_hpoint_at(l, line->a, line->b, t);
+    return sunder_i_orient_hpoint(l, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0], &x);
+}
+
+/* What side k says of the point in doubles: 1 left of it, -1 right, both for certain. */
+static int side_says(const sunder_i_subsum *s, uint32_t k, double x, double y)
+{
+    const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+    return v > s->bound[k] ? 1 : v < -s->bound[k] ? -1 : 0;
+}
+
+/* The same of the diagonal from the lowest corner to corner k. Coordinates are within e, and so both differences u, w
+ * within 2 e and an ulp, which e exceeds by far: their cross product is within 2 e (|u| + |w|) + 8 e^2, in sums of
+ * absolute coordinates, and its own rounding, which is below e |u|. */
+static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double y, double e)
+{
+    const double u[2] = {s->cx[k] - s->cx[0], s->cy[k] - s->cy[0]}, w[2] = {x - s->cx[0], y - s->cy[0]};
+    const double v = u[0] * w[1] - u[1] * w[0];
+    const double bound = 4 * e * (fabs(u[0]) + fabs(u[1]) + fabs(w[0]) + fabs(w[1]) + 4 * e);
+    return v > bound ? 1 : v < -bound ? -1 : 0;
+}
+
+/* Is the point inside, 1, or not, -1? 0 where doubles do not say. Whoever is for certain in a triangle of corners is
+ * inside, and whoever is for certain on the right of a side is not. */
+static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
+{
+    const uint32_t low = sunder_i_subsum_fan(s->sides, s->cx, s->cy, x, y), high = low + 1;
+    const int across = side_says(s, low, x, y);
+    const int left = low == 1 ? side_says(s, 0, x, y) : diagonal_says(s, low, x, y, e);
+    const int right = high == s->sides - 1 ? side_says(s, high, x, y) : -diagonal_says(s, high, x, y, e);
+    if (across < 0 || (low == 1 && left < 0) || (high == s->sides - 1 && right < 0)) return -1;
+    return across > 0 && left > 0 && right > 0;
+}
+
+/* Is the point in the interior of the subsum? Doubles where they suffice. */
+static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                   const sunder_i_subsum *s)
+{
+    if (s->sides >= SUNDER_I_SIDES_MANY) {
+        const int where = inside_fan(s, x, y, g->error);
+        if (where != 0) return where > 0;
+    }
+    g->placed.lattice.counts.orientation_tests += s->sides;
+    bool certain = true;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+        if (v < -s->bound[k]) return false;
+        certain &= v > s->bound[k];
+    }
+    if (certain) return true;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
+        if (v <= s->bound[k] && sunder_i_line_side(g, line, t, s, k) <= 0) return false;
+    }
+    return true;
+}
+
+/* Does subsum k cover the point? False too if memory is out. */
+static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                   size_t k)
+{
+    const double e = g->error;
+    sunder_i_subsum *s = g->subsum + k;
+    if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) return false;
+    if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
+    g->placed.lattice.counts.orientation_tests++;
+    return inside(g, line, t, x, y, s);
+}
+
+/* With a board of squares: the last subsum first, then those near the square. */
+static long cover_on_board(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x,
+                           double y, uint32_t square, size_t first)
+{
+    const sunder_i_held *h = g->held;
+    if (h->holder[square]) return (long)h->holder[square] - 1;
+    if (first < g->subsums && covers(g, line, t, x, y, first)) return (long)first;
+    for (uint32_t i = square ? h->list_end[square - 1] : 0; i < h->list_end[square]; i++) {
+        if (covers(g, line, t, x, y, h->list[i])) return (long)h->list[i];
+        if (g->placed.lattice.arena.failed) return -1;
+    }
+    return -1;
+}
+
+long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+                         size_t *first)
+{
+    if (g->held) {
+        const uint32_t square = sunder_i_held_square(g->held, x, y);
+        if (square < g->held->n * g->held->n) {
+            const long k = cover_on_board(g, line, t, x, y, square, first ? *first : g->subsums);
+            if (first && k >= 0) *first = (size_t)k;
+            return k;
+        }
+    }
+    size_t k = first && *first < g->subsums ? *first : 0;
+    for (size_t n = 0; n < g->subsums; n++, k = k + 1 < g->subsums ? k + 1 : 0) {
+        if (covers(g, line, t, x, y, k)) {
+            if (first) *first = k;
+            return (long)k;
+        }
+        if (g->placed.lattice.arena.failed) return -1;
+    }
+    return -1;
+}
+
+/* ---- Exits ---- */
+
+/* Sides first .. first + n - 1, cyclically. */
+typedef struct stretch {
+    uint32_t first, n;
+} stretch;
+
+uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *s, double dx, double dy)
+{
+    const bool half = dy < 0 || (dy == 0 && dx < 0);
+    uint32_t low = 0, high = s->sides;
+    while (low < high) {
+        const uint32_t k = low + (high - low) / 2;
+        const bool own = s->sy[k] < 0 || (s->sy[k] == 0 && s->sx[k] < 0);
+        if (own != half ? own : dx * s->sy[k] - dy * s->sx[k] > 0)
+            high = k;
+        else
+            low = k + 1;
+    }
+    return low % s->sides;
+}
+
+/* How far the corner is to the left of the line, times its length. */
+static double height(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k)
+{
+    if (k >= s->sides) k -= s->sides;
+    return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
+}
+
+/* Counter-clockwise round a convex polygon whose interior a line meets, corners are to its right, then to its left, and
+ * never again. So between any corner that is certainly to its right and one that is certainly to its left there is one
+ * side through which it leaves, found by halving; only corners that doubles cannot place are left between, and the
+ * sides at them. Backwards it is the other way round. */
+static stretch leaving(const sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s, bool forwards)
+{
+    const stretch all = {0, s->sides};
+    if (s->sides < SUNDER_I_SIDES_MANY) return all;
+    /* The corners farthest to the right and to the left, about; the bound is derived as that of a side. */
+    const uint32_t lowest = sunder_i_subsum_lowest(s, line->dx, line->dy);
+    const uint32_t highest = sunder_i_subsum_lowest(s, -line->dx, -line->dy);
+    const double sign = forwards ? 1 : -1;
+    const double bound = (fabs(line->dx) + fabs(line->dy)) * 2 * g->error + 16 * g->magnitude * g->rough;
+    const uint32_t from = forwards ? lowest : highest, to = forwards ? highest : lowest;
+    uint32_t low = from, high = to > from ? to : to + s->sides;
+    if (sign * height(line, s, from) >= -bound || sign * height(line, s, to) <= bound) return all;
+    for (uint32_t end = high; end - low > 1;) { /* the last one that is certainly before */
+        const uint32_t k = low + (end - low) / 2;
+        if (sign * height(line, s, k) < -bound)
+            low = k;
+        else
+            end = k;
+    }
+    for (uint32_t start = low; high - start > 1;) { /* the first one that is certainly past */
+        const uint32_t k = start + (high - start) / 2;
+        if (sign * height(line, s, k) > bound)
+            high = k;
+        else
+            start = k;
+    }
+    return (stretch){low, high - low};
+}
+
+static void take_first(sunder_i_pairing *g, const sunder_i_fraction *t, bool forwards, sunder_i_fraction *best,
+                       bool *any)
+{
+    const int c = *any ? sunder_i_line_cmp(g, t, best) : 0;
+    if (!*any || (forwards ? c < 0 : c > 0)) *best = *t;
+    *any = true;
+}
+
+sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s,
+                                     bool forwards)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_fraction best = {0, 1, 0};
+    bool any = false;
+    const stretch near = leaving(g, line, s, forwards);
+    const bool plain = line->plain && s->plain;
+    for (uint32_t i = 0; i < near.n; i++) {
+        const uint32_t k = (near.first + i) % s->sides;
+        if (plain) {
+            sunder_i_i128 a, b;
+            narrow_linear(line, s, k, &a, &b);
+            if (forwards ? b >= 0 : b <= 0) continue;
+            const sunder_i_fraction t = b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
+            take_first(g, &t, forwards, &best, &any);
+            continue;
+        }
+        const int turn = sunder_i_cross_sign(l, s->side[k], line->d);
+        if (forwards ? turn >= 0 : turn <= 0) continue;
+        const sunder_i_fraction t =
+            sunder_i_crossing(l, line->a, line->b, s->corner[k], s->corner[k + 1 < s->sides ? k + 1 : 0]);
+        take_first(g, &t, forwards, &best, &any);
+    }
+    l->counts.segment_intersections++;
+    return best;
+}

@@ -1,0 +1,117 @@
+/* Which edges meet which vertices [BL11]. An edge e of one operand at a vertex v of the other can carry boundary only
+ * if v is convex and the directions of its two edges enclose that of e: otherwise, near v, the interior at v reaches
+ * across e and covers the whole segment. The range is taken closed; with it the ends of the segments are all vertices
+ * that can be free: two disjoint cones at a pair of vertices are parted by the line of an edge of one of them.
+ *
+ * Where several vertices stand at one place each has a sector of the interior of its own (shape.h), and what one of
+ * them covers is covered: each is asked for itself. Diagonals of the decomposition lie inside an operand, so what they
+ * would carry is covered. */
+#include "separation/obstacle/reduced_convolution.h"
+#include "base/watch.h"
+#include "separation/obstacle/cones.h"
+#include "separation/obstacle/board.h"
+
+#include <math.h>
+
+bool sunder_i_candidates_push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate c)
+{
+    if (h->n == h->capacity) {
+        const size_t capacity = h->capacity ? 2 * h->capacity : 64;
+        sunder_i_candidate *item = sunder_i_arena_alloc(&g->placed.lattice.arena, capacity, sizeof *item);
+        if (!item) return false;
+        for (size_t i = 0; i < h->n; i++) item[i] = h->item[i];
+        h->item = item;
+        h->capacity = capacity;
+    }
+    h->item[h->n++] = c;
+    return true;
+}
+
+/* Is the edge a..b, moved over the box of the other operand, out of reach of the origin? */
+static bool out_of_reach(const double *a, const double *b, const double box[4], double limit)
+{
+    for (int k = 0; k < 2; k++) {
+        const double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
+        if (low + box[k] > limit || high + box[k + 2] < -limit) return true;
+    }
+    return false;
+}
+
+/* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is
+ * let in, since a superset of the boundary serves as well. */
+static bool pair_edges(sunder_i_pairing *g, int side, const sunder_i_cones *c, double limit, sunder_i_candidates *h)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side], reach = limit + 8 * g->error;
+    const bool many = c->n > 16; /* else the test costs more than it saves */
+    uint32_t *met = sunder_i_arena_alloc(&g->placed.lattice.arena, (size_t)c->n + 1, sizeof *met);
+    if (!met) return false;
+    uint64_t asked = 0;
+    for (uint32_t e = 0; e < s->vertices; e++) {
+        const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
+        if (!sunder_i_step()) return false;
+        if (many && out_of_reach(a, b, g->box[!side], reach)) continue;
+        const double dx = b[0] - a[0], dy = b[1] - a[1];
+        uint32_t looked_at;
+        const uint32_t n = sunder_i_cones_met(g, c, dx, dy, met, &looked_at);
+        asked += looked_at;
+        if (!sunder_i_steps(looked_at / 32 + n)) return false;
+        if (n == 0) continue;
+        const double inverse = 1 / (dx * dx + dy * dy);
+        for (uint32_t m = 0; m < n; m++) {
+            const uint32_t k = met[m];
+            const double square = sunder_i_segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
+            if (square > reach * reach ||
+                (g->held && sunder_i_held_segment(g->held, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
+                continue;
+            if (!sunder_i_candidates_push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
+        }
+    }
+    g->placed.lattice.counts.orientation_tests += 2 * asked;
+    return true;
+}
+
+static void sink(sunder_i_candidates *h, size_t i)
+{
+    const sunder_i_candidate c = h->item[i];
+    for (;;) {
+        size_t k = 2 * i + 1;
+        if (k >= h->n) break;
+        if (k + 1 < h->n && h->item[k + 1].square < h->item[k].square) k++;
+        if (c.square <= h->item[k].square) break;
+        h->item[i] = h->item[k];
+        i = k;
+    }
+    h->item[i] = c;
+}
+
+void sunder_i_candidates_order(sunder_i_candidates *h)
+{
+    for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
+}
+
+bool sunder_i_candidates_find(sunder_i_pairing *g, double limit, sunder_i_candidates *h)
+{
+    sunder_i_cones p, q;
+    *h = (sunder_i_candidates){NULL, 0, 0};
+    if (!sunder_i_cones_find(g, 0, &p) || !sunder_i_cones_find(g, 1, &q)) return false;
+    if (!pair_edges(g, 0, &q, limit, h) || !pair_edges(g, 1, &p, limit, h)) return false;
+    sunder_i_candidates_order(h);
+    return true;
+}
+
+sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *h)
+{
+    const sunder_i_candidate top = h->item[0];
+    h->item[0] = h->item[--h->n];
+    if (h->n) sink(h, 0);
+    return top;
+}
+
+sunder_i_line sunder_i_candidate_line(sunder_i_pairing *g, const sunder_i_candidate *c)
+{
+    const sunder_i_point *at = g->at[c->side];
+    const uint32_t next = g->shape[c->side]->next[c->edge];
+    return sunder_i_line_make(g, sunder_i_pairing_add(g, at[c->edge], g->at[!c->side][c->vertex]),
+                              sunder_i_pairing_diff(g, at[next], at[c->edge]));
+}

@@ -1,0 +1,38 @@
+/* The reduced convolution: segments that carry the whole boundary of the obstacle, degenerate holes included. */
+#ifndef SUNDER_I_CANDIDATES_H
+#define SUNDER_I_CANDIDATES_H
+
+#include "separation/obstacle/line.h"
+
+typedef struct sunder_i_candidate {
+    double square;         /* squared distance of the segment from the origin, whose root is good to 4 pairing->error */
+    uint32_t edge, vertex; /* the edge that leaves vertex `edge` of operand `side`, moved to `vertex` of the other */
+    int side;
+} sunder_i_candidate;
+
+typedef struct sunder_i_candidates {
+    sunder_i_candidate *item;
+    size_t n, capacity;
+} sunder_i_candidates;
+
+/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
+ * distance itself is good to 4 times the pairing's error. */
+static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
+{
+    double t = -(ax * dx + ay * dy) * inverse;
+    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
+    const double x = ax + t * dx, y = ay + t * dy;
+    return x * x + y * y;
+}
+
+/* Adds a candidate; order() then makes a heap of them all. */
+bool sunder_i_candidates_push(sunder_i_pairing *pairing, sunder_i_candidates *heap, sunder_i_candidate candidate);
+void sunder_i_candidates_order(sunder_i_candidates *heap);
+
+/* All segments nearer than `limit` units, as a heap with the nearest on top. Memory: the lattice's arena. */
+bool sunder_i_candidates_find(sunder_i_pairing *pairing, double limit, sunder_i_candidates *out);
+/* Takes the top off. n > 0. */
+sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *heap);
+sunder_i_line sunder_i_candidate_line(sunder_i_pairing *pairing, const sunder_i_candidate *candidate);
+
+#endif

@@ -1,0 +1,72 @@
+/* Pieces with very many corners, as of round outlines, in parts with few: what is asked of two pieces takes their
+ * corners times each other, and of the sides of a great one hardly any come near a square.
+ *
+ * A core with corners evenly spaced along the piece keeps most of it together; what is left beyond each of its sides is
+ * a cap, which is cut likewise. The parts are convex and make up the piece, so with them for pieces all that is said of
+ * subsums holds as before: it does so for any pieces that make up an operand. */
+#include "separation/operands/operands.h"
+
+#define MOST 16 /* corners of a part; by measurement on discs and stars */
+
+typedef struct cutting {
+    sunder_shape *out;
+    const uint32_t *corner; /* of the piece */
+    uint32_t corners;       /* of all parts so far */
+} cutting;
+
+/* Corners first to last of a piece, which is closed by the side back. */
+static void cut(cutting *c, uint32_t first, uint32_t last)
+{
+    const uint32_t span = last - first, n = span < MOST ? span + 1 : MOST;
+    for (uint32_t k = 0; k < n; k++)
+        c->out->piece_vertex[c->corners++] = c->corner[first + (uint64_t)k * span / (n - 1)];
+    c->out->piece_end[c->out->pieces++] = c->corners;
+    for (uint32_t k = 0; k + 1 < n; k++) {
+        const uint32_t from = first + (uint32_t)((uint64_t)k * span / (n - 1));
+        const uint32_t to = first + (uint32_t)((uint64_t)(k + 1) * span / (n - 1));
+        if (to - from > 1) cut(c, from, to);
+    }
+}
+
+/* Each part beyond the core has at least one corner of its own, and two that were there before. */
+static bool cut_operand(sunder_i_pairing *g, int side)
+{
+    const sunder_shape *s = g->shape[side];
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    const size_t corners = s->piece_end[s->pieces - 1], most = s->pieces + corners;
+    sunder_shape *out = sunder_i_arena_alloc(arena, 1, sizeof *out);
+    uint32_t *end = sunder_i_arena_alloc(arena, most, sizeof *end);
+    uint32_t *vertex = sunder_i_arena_alloc(arena, 3 * corners, sizeof *vertex);
+    if (!vertex) return false;
+    *out = *s;
+    out->pieces = 0;
+    out->piece_end = end;
+    out->piece_vertex = vertex;
+    cutting c = {.out = out};
+    for (uint32_t i = 0, first = 0; i < s->pieces; first = s->piece_end[i++]) {
+        if (!sunder_i_steps(s->piece_end[i] - first)) return false;
+        c.corner = s->piece_vertex + first;
+        cut(&c, 0, s->piece_end[i] - first - 1);
+    }
+    g->shape[side] = out;
+    g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));
+    g->ring[side] = sunder_i_arena_alloc(arena, out->pieces, sizeof *g->ring[side]);
+    if (!g->ring[side]) return false;
+    sunder_i_pairing_fill_boxes(g, side);
+    return true;
+}
+
+bool sunder_i_pairing_cut(sunder_i_pairing *g)
+{
+    return cut_operand(g, 0) && cut_operand(g, 1);
+}
+
+static uint64_t parts_of(const sunder_shape *s)
+{
+    uint64_t parts = 0;
+    for (uint32_t i = 0, first = 0; i < s->pieces; first = s->piece_end[i++])
+        parts += 1 + (s->piece_end[i] - first) / (MOST + 1);
+    return parts;
+}
+
+uint64_t sunder_i_pairing_parts(const sunder_i_pairing *g) { return parts_of(g->shape[0]) * parts_of(g->shape[1]); }

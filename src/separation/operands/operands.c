@@ -1,0 +1,231 @@
+#include "separation/operands/operands.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Doubles of coordinates are within 2^-53 of the magnitude M; a sum of two adds as much again and its own rounding. A
+ * point a + t d with t from an exact fraction (its value within 2^-50 of max(1, |t|), t taken in [0, 1]) and |d| <= 4 M
+ * is within 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
+#define COORDINATE_ERROR 0x1p-45
+
+static void grow_box(double box[4], double x, double y)
+{
+    if (x < box[0]) box[0] = x;
+    if (y < box[1]) box[1] = y;
+    if (x > box[2]) box[2] = x;
+    if (y > box[3]) box[3] = y;
+}
+
+static const double EMPTY_BOX[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+
+void sunder_i_pairing_fill_boxes(sunder_i_pairing *g, int side)
+{
+    const sunder_shape *s = g->shape[side];
+    const double *xy = g->xy[side];
+    double *all = g->box[side];
+    memcpy(all, EMPTY_BOX, sizeof EMPTY_BOX);
+    uint32_t c = 0;
+    for (uint32_t i = 0; i < s->pieces; i++) {
+        double *box = g->piece_box[side] + 4 * (size_t)i;
+        memcpy(box, EMPTY_BOX, sizeof EMPTY_BOX);
+        for (; c < s->piece_end[i]; c++) grow_box(box, xy[2 * s->piece_vertex[c]], xy[2 * s->piece_vertex[c] + 1]);
+        grow_box(all, box[0], box[1]);
+        grow_box(all, box[2], box[3]);
+        g->ring[side][i].n = 0;
+    }
+    for (int k = 0; k < 4; k++) g->magnitude = fmax(g->magnitude, fabs(all[k]));
+}
+
+static void fill_doubles(sunder_i_pairing *g, int side)
+{
+    for (uint32_t v = 0; v < g->shape[side]->vertices; v++) {
+        g->xy[side][2 * v] = sunder_i_approx(&g->placed.lattice, g->at[side][v].x);
+        g->xy[side][2 * v + 1] = sunder_i_approx(&g->placed.lattice, g->at[side][v].y);
+    }
+}
+
+/* All arrays in one block of the lattice's arena; `points`: room for the vertices on the lattice too. */
+static bool make_room(sunder_i_pairing *g, sunder_i_point **points)
+{
+    const size_t pn = g->shape[0]->vertices, qn = g->shape[1]->vertices;
+    const size_t pp = g->shape[0]->pieces, qp = g->shape[1]->pieces;
+    const size_t doubles = (2 * (pn + qn) + 4 * (pp + qp)) * sizeof(double), rings = (pp + qp) * sizeof(sunder_i_ring);
+    const size_t extra = points ? (pn + qn) * sizeof **points : 0;
+    char *block = sunder_i_arena_alloc(&g->placed.lattice.arena, doubles + rings + extra, 1);
+    if (!block) return false;
+    g->xy[0] = (double *)(void *)block;
+    g->xy[1] = g->xy[0] + 2 * pn;
+    g->piece_box[0] = g->xy[1] + 2 * qn;
+    g->piece_box[1] = g->piece_box[0] + 4 * pp;
+    g->ring[0] = (sunder_i_ring *)(void *)(block + doubles);
+    g->ring[1] = g->ring[0] + pp;
+    if (points) *points = (sunder_i_point *)(void *)(block + doubles + rings);
+    return true;
+}
+
+/* ---- The common case, without detours: doubles that are all below 2^53 units in magnitude ---- */
+
+typedef struct plain {
+    int bit;            /* the unit is 2^bit */
+    double scale, back; /* 2^-bit, 2^bit */
+    double shift[2][2]; /* of the operands, in units */
+    double origin[2];   /* in units */
+} plain;
+
+static void hold(plain *u, const double *v, size_t n, double *most)
+{
+    for (size_t i = 0; i < n; i++) {
+        const int b = sunder_i_low_bit(v[i]);
+        if (b < u->bit) u->bit = b;
+        *most = fmax(*most, fabs(v[i]));
+    }
+}
+
+/* The unit, if everything is an integer below 2^53 in it; false if not. */
+static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunder_i_pairing_options *o, plain *u)
+{
+    if (p->rational || q->rational || o->force_wide) return false;
+    double most = 0;
+    u->bit = p->extent.low_bit < q->extent.low_bit ? p->extent.low_bit : q->extent.low_bit;
+    for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(p->box[k]), fabs(q->box[k])));
+    hold(u, o->extra, o->extra_n, &most);
+    if (o->tp) hold(u, o->tp, 2, &most);
+    if (o->tq) hold(u, o->tq, 2, &most);
+    if (u->bit <= -900 || u->bit >= 900 || most >= ldexp(1, u->bit + 53)) return false;
+    u->scale = ldexp(1, -u->bit);
+    u->back = ldexp(1, u->bit);
+    for (int k = 0; k < 2; k++) {
+        u->shift[0][k] = o->tp ? o->tp[k] * u->scale : 0;
+        u->shift[1][k] = o->tq ? o->tq[k] * u->scale : 0;
+        u->origin[k] = floor((p->box[k] / 2 + p->box[k + 2] / 2) * u->scale);
+    }
+    return true;
+}
+
+/* Integers below 2^53 each, so below 2^55 together: exact on the lattice, and exact as doubles unless the magnitude
+ * says that they are not. */
+static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool reflect, sunder_i_point *out)
+{
+    const sunder_shape *s = g->shape[side];
+    double *xy = g->xy[side];
+    const int64_t add_x = (int64_t)u->shift[side][0] - (int64_t)u->origin[0];
+    const int64_t add_y = (int64_t)u->shift[side][1] - (int64_t)u->origin[1];
+    for (uint32_t v = 0; v < s->vertices; v++) {
+        const int64_t x = (int64_t)(s->xy[2 * v] * u->scale) + add_x,
+                      y = (int64_t)(s->xy[2 * v + 1] * u->scale) + add_y;
+        out[v] = reflect ? (sunder_i_point){-x, -y} : (sunder_i_point){x, y};
+        xy[2 * v] = (double)out[v].x;
+        xy[2 * v + 1] = (double)out[v].y;
+    }
+}
+
+static bool place_plain(sunder_i_pairing *g, bool reflect, const plain *u)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    l->narrow = l->small = true;
+    l->exponent = u->bit;
+    sunder_i_point *points;
+    if (!make_room(g, &points)) return false;
+    for (int k = 0; k < 2; k++) {
+        g->placed.origin_p[k] = u->origin[k] * u->back;
+        g->placed.origin_q[k] = reflect ? -g->placed.origin_p[k] : g->placed.origin_p[k];
+    }
+    g->at[0] = points;
+    g->at[1] = points + g->shape[0]->vertices;
+    plain_operand(g, 0, u, false, points);
+    plain_operand(g, 1, u, reflect, points + g->shape[0]->vertices);
+    return true;
+}
+
+/* Only the difference of the translations matters. Where it is a double it is given to Q alone, which keeps the numbers
+ * short; that the subtraction is exact is seen from its rounding error (Knuth's two-sum). */
+static const double *reduced(const double *tp, const double *tq, double difference[2])
+{
+    if (!tp) return NULL;
+    for (int k = 0; k < 2; k++) {
+        const double a = tq ? tq[k] : 0, b = -tp[k], s = a + b, bb = s - a;
+        if (!isfinite(s) || (a - (s - bb)) + (b - bb) != 0) return NULL;
+        difference[k] = s;
+    }
+    return difference;
+}
+
+static sunder_status place(sunder_i_pairing *g, const sunder_i_pairing_options *given, sunder_error *err)
+{
+    plain u;
+    double difference[2];
+    sunder_i_pairing_options reduced_options = *given;
+    const sunder_i_pairing_options *o = given;
+    if (reduced(given->tp, given->tq, difference)) {
+        g->base[0] = given->tp[0];
+        g->base[1] = given->tp[1];
+        reduced_options.tp = NULL;
+        reduced_options.tq = difference;
+        o = &reduced_options;
+    }
+    const sunder_shape *p = g->shape[0], *q = g->shape[1];
+    if (plain_unit(p, q, o, &u)) {
+        if (place_plain(g, o->reflect_q, &u)) return SUNDER_OK;
+        sunder_i_placed_free(&g->placed);
+        return sunder_i_no_memory(err);
+    }
+    const sunder_i_place_options options = {.reflect_q = o->reflect_q,
+                                            .common_origin = true,
+                                            .extra = o->extra,
+                                            .extra_n = o->extra_n,
+                                            .shift_p = o->tp,
+                                            .shift_q = o->tq,
+                                            .force_wide = o->force_wide};
+    const sunder_status status = sunder_i_place(p, q, &options, &g->placed, err);
+    if (status) return status;
+    if (!make_room(g, NULL) || g->placed.lattice.arena.failed) {
+        sunder_i_placed_free(&g->placed);
+        return sunder_i_no_memory(err);
+    }
+    g->at[0] = g->placed.p;
+    g->at[1] = g->placed.q;
+    fill_doubles(g, 0);
+    fill_doubles(g, 1);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, const sunder_shape *q,
+                                    const sunder_i_pairing_options *options, sunder_error *err)
+{
+    memset(g, 0, sizeof *g);
+    g->shape[0] = p;
+    g->shape[1] = q;
+    const sunder_status status = place(g, options, err);
+    if (status) return status;
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_pairing_fill_boxes(g, 0);
+    sunder_i_pairing_fill_boxes(g, 1);
+    g->error = COORDINATE_ERROR * g->magnitude;
+    /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
+    g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
+    g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;
+    g->unit = ldexp(1, (int)(l->exponent + l->approx_shift));
+    return SUNDER_OK;
+}
+
+void sunder_i_pairing_free(sunder_i_pairing *pairing) { sunder_i_placed_free(&pairing->placed); }
+
+/* Is a + s + gap <= b + t for certain? Each double sum is off by at most an ulp of its larger operand. */
+static bool certainly_below(double a, double s, double b, double t, double gap)
+{
+    const double left = a + s + gap, right = b + t;
+    const double slack = 0x1p-50 * (fabs(a) + fabs(s) + gap + fabs(b) + fabs(t));
+    return left + slack < right || (s == 0 && t == 0 && gap == 0 && a <= b);
+}
+
+bool sunder_i_boxes_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                          double gap)
+{
+    for (int k = 0; k < 2; k++) {
+        const double s = tp ? tp[k] : 0, t = tq ? tq[k] : 0;
+        if (certainly_below(p->box[k + 2], s, q->box[k], t, gap) ||
+            certainly_below(q->box[k + 2], t, p->box[k], s, gap))
+            return true;
+    }
+    return false;
+}

@@ -1,0 +1,128 @@
+/* Two operands on one lattice, with what the searches of this folder ask of them again and again: coordinates as
+ * doubles with a bound on their error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made
+ * when wanted.
+ *
+ * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles only ever settle a question when
+ * they clear the bound; else the lattice decides. */
+#ifndef SUNDER_I_PAIRING_H
+#define SUNDER_I_PAIRING_H
+
+#include "base/watch.h"
+#include "predicate/kernel.h"
+#include "shape/shape.h"
+
+/* R_ij, counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
+typedef struct sunder_i_subsum {
+    uint32_t i, j;  /* the pieces of P and of Q */
+    uint32_t sides; /* 0: not made yet */
+    double box[4];
+    sunder_i_point *corner, *side; /* side[k] = corner[k + 1] - corner[k] */
+    double *cx, *cy, *sx, *sy;     /* the same as doubles */
+    double *bound; /* side k has the point on its left for certain if cross(side, x - corner) > bound[k] */
+    bool plain;    /* all corners and sides are plain numbers */
+} sunder_i_subsum;
+
+/* A convex piece that starts at its lowest corner; the first corner stands again at the end. */
+typedef struct sunder_i_ring {
+    uint32_t n; /* sides; 0: not made yet */
+    sunder_i_point *corner, *side;
+} sunder_i_ring;
+
+typedef struct sunder_i_pairing {
+    const sunder_shape *shape[2];
+    sunder_i_placed placed;
+    const sunder_i_point *at[2]; /* vertices on the lattice; Q's reflected if that was asked for */
+    double *xy[2];               /* the same as doubles */
+    double *piece_box[2];        /* [4 * pieces] x0 y0 x1 y1 */
+    double box[2][4];
+    double magnitude; /* no coordinate is larger */
+    double error;     /* of a coordinate of a sum, or of a point on a line through sums, evaluated in doubles */
+    double rough;     /* absolute error of a difference vector as doubles, besides its relative one; mostly 0 */
+    double coarse;    /* the same for the difference of two coordinates in doubles; 0 if they are exact */
+    double base[2];   /* a translation of both that was left out */
+    double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */
+
+    sunder_i_ring *ring[2];  /* [pieces] */
+    sunder_i_subsum *subsum; /* those within reach (sunder_i_pairing_reach); they that may cover the origin first */
+    size_t subsums;
+    struct sunder_i_held *held; /* what is known of them all together; NULL: nothing (board.h) */
+} sunder_i_pairing;
+
+typedef struct sunder_i_pairing_options {
+    const double *tp, *tq; /* exact translations, or NULL */
+    bool reflect_q, force_wide;
+    const double *extra; /* further doubles for the lattice to hold */
+    size_t extra_n;
+} sunder_i_pairing_options;
+
+/* Both operands not empty. *pairing is to be freed only after success. */
+sunder_status sunder_i_pairing_init(sunder_i_pairing *pairing, const sunder_shape *p, const sunder_shape *q,
+                                    const sunder_i_pairing_options *options, sunder_error *err);
+void sunder_i_pairing_free(sunder_i_pairing *pairing);
+
+/* The boxes of an operand's pieces, and its own. */
+void sunder_i_pairing_fill_boxes(sunder_i_pairing *pairing, int side);
+
+/* Cuts up the pieces that have many corners (cut_pieces.c); false if memory is out. */
+bool sunder_i_pairing_cut(sunder_i_pairing *pairing);
+/* About how many pairs of pieces there would be then. */
+uint64_t sunder_i_pairing_parts(const sunder_i_pairing *pairing);
+
+/* Do the boxes of P + tp and Q + tq stand at least gap apart in one coordinate? True only if that is certain. */
+bool sunder_i_boxes_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                          double gap);
+
+/* Do the interiors of piece i of P and piece j of Q (not reflected) meet? Exact. */
+bool sunder_i_pieces_overlap(sunder_i_pairing *pairing, uint32_t i, uint32_t j);
+/* Do the interiors of any two? False too if memory is out. */
+bool sunder_i_operands_overlap(sunder_i_pairing *pairing);
+
+/* Lists the subsums whose boxes come within `radius` units of the origin (none is made yet). False if memory is out. */
+bool sunder_i_pairing_reach(sunder_i_pairing *pairing, double radius);
+/* Turns all pieces at once, which is done for each when it is wanted else; false if memory is out. */
+bool sunder_i_pairing_turn(sunder_i_pairing *pairing);
+/* Makes the corners of one; false if memory is out. */
+bool sunder_i_subsum_make(sunder_i_pairing *pairing, sunder_i_subsum *subsum);
+
+/* Subsums of so many sides are searched by halving; the sides of others are looked at one by one. */
+#define SUNDER_I_SIDES_MANY 24
+
+/* In doubles, and so only nearly: the triangle of the fan from corner 0 that (x, y) stands in, or over whose side away
+ * from that corner it stands; k is returned for corners 0, k, k + 1. */
+static inline uint32_t sunder_i_subsum_fan(uint32_t sides, const double *cx, const double *cy, double x, double y)
+{
+    uint32_t low = 1, high = sides - 1;
+    while (high - low > 1) {
+        const uint32_t k = low + (high - low) / 2;
+        if ((cx[k] - cx[0]) * (y - cy[0]) - (cy[k] - cy[0]) * (x - cx[0]) >= 0)
+            low = k;
+        else
+            high = k;
+    }
+    return low;
+}
+
+static inline sunder_i_point sunder_i_pairing_diff(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b)
+{
+    return g->placed.lattice.narrow ? sunder_i_narrow_sub(a, b) : sunder_i_point_sub(&g->placed.lattice, a, b);
+}
+
+static inline sunder_i_point sunder_i_pairing_add(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b)
+{
+    return g->placed.lattice.narrow ? (sunder_i_point){a.x + b.x, a.y + b.y}
+                                    : sunder_i_point_add(&g->placed.lattice, a, b);
+}
+
+static inline int sunder_i_pairing_cross(sunder_i_pairing *g, sunder_i_point u, sunder_i_point v)
+{
+    return g->placed.lattice.narrow ? sunder_i_i128_sign(sunder_i_narrow_cross(u, v))
+                                    : sunder_i_cross_sign(&g->placed.lattice, u, v);
+}
+
+static inline int sunder_i_pairing_dot(sunder_i_pairing *g, sunder_i_point u, sunder_i_point v)
+{
+    return g->placed.lattice.narrow ? sunder_i_i128_sign(sunder_i_narrow_dot(u, v))
+                                    : sunder_i_dot_sign(&g->placed.lattice, u, v);
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* Do the interiors of two sets meet? They do if those of two pieces do, and two convex pieces have disjoint interiors
+ * exactly if a side of one of them has all of the other on its right, or on it: the separating axis theorem, in the
+ * plane and for closed sets that may touch. */
+#include "separation/operands/operands.h"
+
+/* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
+static bool side_parts(sunder_i_pairing *g, int side, uint32_t i, uint32_t j)
+{
+    const sunder_shape *s = g->shape[side], *o = g->shape[!side];
+    const uint32_t *c = s->piece_vertex, *d = o->piece_vertex;
+    const uint32_t first = i ? s->piece_end[i - 1] : 0, last = s->piece_end[i];
+    const uint32_t from = j ? o->piece_end[j - 1] : 0, to = o->piece_end[j];
+    sunder_i_lattice *l = &g->placed.lattice;
+    for (uint32_t k = first; k < last; k++) {
+        const sunder_i_point a = g->at[side][c[k]], b = g->at[side][c[k + 1 < last ? k + 1 : first]];
+        uint32_t m = from;
+        if (l->narrow) {
+            const sunder_i_point u = sunder_i_narrow_sub(b, a);
+            while (m < to && sunder_i_narrow_cross(u, sunder_i_narrow_sub(g->at[!side][d[m]], a)) <= 0) m++;
+            l->counts.orientation_tests += m - from;
+        } else
+            while (m < to && sunder_i_orient(l, a, b, g->at[!side][d[m]]) <= 0) m++;
+        if (m == to) return true;
+    }
+    return false;
+}
+
+bool sunder_i_pieces_overlap(sunder_i_pairing *g, uint32_t i, uint32_t j)
+{
+    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
+    if (a[2] < b[0] - e || b[2] < a[0] - e || a[3] < b[1] - e || b[3] < a[1] - e) return false;
+    return !side_parts(g, 0, i, j) && !side_parts(g, 1, j, i);
+}
+
+/* The pieces of one operand whose boxes come within `reach` of the other operand's box. */
+static uint32_t *pieces_near(sunder_i_pairing *g, int side, double reach, uint32_t *n)
+{
+    const uint32_t all = g->shape[side]->pieces;
+    uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, all, sizeof *list);
+    *n = 0;
+    if (!list) return NULL;
+    const double *o = g->box[!side];
+    for (uint32_t i = 0; i < all; i++) {
+        const double *b = g->piece_box[side] + 4 * (size_t)i;
+        if (b[0] <= o[2] + reach && o[0] <= b[2] + reach && b[1] <= o[3] + reach && o[1] <= b[3] + reach)
+            list[(*n)++] = i;
+    }
+    return list;
+}
+
+bool sunder_i_operands_overlap(sunder_i_pairing *g)
+{
+    uint32_t m, n;
+    const uint32_t *p = pieces_near(g, 0, g->error, &m), *q = pieces_near(g, 1, g->error, &n);
+    if (!p || !q) return false;
+    for (uint32_t i = 0; i < m; i++)
+        for (uint32_t j = 0; j < n; j++)
+            if (sunder_i_pieces_overlap(g, p[i], q[j])) return true;
+    return false;
+}

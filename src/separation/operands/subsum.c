@@ -1,0 +1,179 @@
+/* Convex subsums: which of them matter, and their corners. The sum of two convex polygons has the sides of both, merged
+ * by direction. */
+#include "separation/operands/operands.h"
+
+#include "base/sort.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool touches_disc(const double box[4], double radius)
+{
+    const double x = box[0] > 0 ? box[0] : box[2] < 0 ? -box[2] : 0;
+    const double y = box[1] > 0 ? box[1] : box[3] < 0 ? -box[3] : 0;
+    return x <= radius && y <= radius && (x + y <= radius || x * x + y * y <= radius * radius * (1 + 0x1p-50));
+}
+
+/* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
+static int nearness(const sunder_i_pairing *g, uint32_t i, uint32_t j, double reach, double box[4])
+{
+    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
+    for (int k = 0; k < 4; k++) box[k] = a[k] + b[k];
+    return touches_disc(box, 2 * g->error) ? 2 : touches_disc(box, reach) ? 1 : 0;
+}
+
+/* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
+static bool sort_by_size(sunder_i_pairing *g)
+{
+    sunder_i_arena *arena = &g->placed.lattice.arena;
+    const size_t n = g->subsums;
+    uint64_t *key = sunder_i_arena_alloc(arena, n, sizeof *key);
+    sunder_i_subsum *sorted = sunder_i_arena_alloc(arena, n + 1, sizeof *sorted);
+    if (!key || !sorted) return false;
+    for (size_t k = 0; k < n; k++) {
+        const double *b = g->subsum[k].box;
+        const float size = (float)(fmin(b[2] - b[0], b[3] - b[1]) / g->magnitude);
+        uint32_t bits;
+        memcpy(&bits, &size, sizeof bits); /* ordered like the numbers, which are not negative */
+        key[k] = (uint64_t)~bits << 32 | k;
+    }
+    if (!sunder_i_sort_keys(key, n)) return false;
+    for (size_t k = 0; k < n; k++) sorted[k] = g->subsum[key[k] & UINT32_MAX];
+    g->subsum = sorted;
+    return true;
+}
+
+bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
+{
+    const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
+    const double reach = radius + 2 * g->error;
+    double box[4];
+    size_t room = (size_t)m * n, count[3] = {0, 0, 0};
+    const bool many = room > 64;
+    if (many) {
+        for (uint32_t i = 0; i < m && sunder_i_steps(n / 8 + 1); i++)
+            for (uint32_t j = 0; j < n; j++) count[nearness(g, i, j, reach, box)]++;
+        room = count[1] + count[2];
+    }
+    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, room + 1, sizeof *g->subsum);
+    if (!g->subsum) return false;
+    size_t near = 0, all = 0; /* those that may cover the origin come first */
+    for (uint32_t i = 0; i < m; i++) {
+        if (!sunder_i_steps(n / 8 + 1)) return false;
+        for (uint32_t j = 0; j < n; j++) {
+            const int how = nearness(g, i, j, reach, box);
+            if (how == 0) continue;
+            sunder_i_subsum *s = g->subsum + all++;
+            if (how == 2) {
+                *s = g->subsum[near];
+                s = g->subsum + near++;
+            }
+            s->i = i;
+            s->j = j;
+            s->sides = 0;
+            memcpy(s->box, box, sizeof box);
+        }
+    }
+    g->subsums = all;
+    return !many || sort_by_size(g);
+}
+
+/* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
+
+static uint32_t lowest(sunder_i_pairing *g, int side, uint32_t first, uint32_t n)
+{
+    const uint32_t *c = g->shape[side]->piece_vertex + first;
+    sunder_i_lattice *l = &g->placed.lattice;
+    uint32_t best = 0;
+    for (uint32_t k = 1; k < n; k++) {
+        const sunder_i_point a = g->at[side][c[k]], b = g->at[side][c[best]];
+        int d;
+        if (l->narrow)
+            d = a.y != b.y ? (a.y < b.y ? -1 : 1) : (a.x < b.x ? -1 : 1);
+        else {
+            d = sunder_i_int_cmp(l, a.y, b.y);
+            if (d == 0) d = sunder_i_int_cmp(l, a.x, b.x);
+        }
+        if (d < 0) best = k;
+    }
+    return best;
+}
+
+/* The piece's corners and sides, one more corner than sides; NULL if memory is out. */
+static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece)
+{
+    sunder_i_ring *r = g->ring[side] + piece;
+    if (r->n) return r;
+    const sunder_shape *s = g->shape[side];
+    const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
+    sunder_i_point *block = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * (size_t)n + 1, sizeof *block);
+    if (!block) return NULL;
+    uint32_t k = lowest(g, side, first, n);
+    r->corner = block;
+    r->side = block + n + 1;
+    for (uint32_t i = 0; i <= n; i++) {
+        block[i] = g->at[side][s->piece_vertex[first + k]];
+        if (++k == n) k = 0;
+    }
+    for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_pairing_diff(g, block[i + 1], block[i]);
+    r->n = n;
+    return r;
+}
+
+bool sunder_i_pairing_turn(sunder_i_pairing *g)
+{
+    for (int side = 0; side < 2; side++)
+        for (uint32_t i = 0; i < g->shape[side]->pieces; i++)
+            if (!turned(g, side, i)) return false;
+    return true;
+}
+
+/* ---- The merge ---- */
+
+/* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
+ * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
+static uint32_t merge(sunder_i_pairing *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
+                      sunder_i_point *side)
+{
+    uint32_t n = 0, i = 0, j = 0;
+    while (i < a->n || j < b->n) {
+        corner[n] = sunder_i_pairing_add(g, a->corner[i], b->corner[j]);
+        const int turn = i == a->n ? -1 : j == b->n ? 1 : sunder_i_pairing_cross(g, a->side[i], b->side[j]);
+        side[n++] = turn > 0 ? a->side[i] : turn < 0 ? b->side[j] : sunder_i_pairing_add(g, a->side[i], b->side[j]);
+        i += turn >= 0;
+        j += turn <= 0;
+    }
+    return n;
+}
+
+bool sunder_i_subsum_make(sunder_i_pairing *g, sunder_i_subsum *s)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    const sunder_i_ring *a = turned(g, 0, s->i), *b = turned(g, 1, s->j);
+    if (!a || !b) return false;
+    const size_t most = (size_t)a->n + b->n;
+    sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *s->cx);
+    if (!points) return false;
+    s->corner = points;
+    s->side = points + most;
+    s->cx = (double *)(points + 2 * most);
+    s->cy = s->cx + most;
+    s->sx = s->cy + most;
+    s->sy = s->sx + most;
+    s->bound = s->sy + most;
+    const uint32_t n = merge(g, a, b, s->corner, s->side);
+    const double per_length = 2 * g->error, fixed = 16 * g->magnitude * g->rough;
+    s->plain = true;
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_point c = s->corner[k], d = s->side[k];
+        s->plain = s->plain && sunder_i_point_is_plain(c) && sunder_i_point_is_plain(d);
+        s->cx[k] = l->narrow ? (double)c.x : sunder_i_approx(l, c.x);
+        s->cy[k] = l->narrow ? (double)c.y : sunder_i_approx(l, c.y);
+        s->sx[k] = l->narrow ? (double)d.x : sunder_i_approx(l, d.x);
+        s->sy[k] = l->narrow ? (double)d.y : sunder_i_approx(l, d.y);
+        s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
+    }
+    s->sides = n;
+    return !l->arena.failed;
+}

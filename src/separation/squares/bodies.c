@@ -1,0 +1,256 @@
+/* Bodies are floats, which is half as much to be fetched from memory: they are asked by the million. What they hold
+ * they hold for certain. */
+#include "separation/squares/bodies.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+#define BOXES_LEAST 64 /* boxes, and as many as a quarter of the pieces: the largest */
+
+/* ---- Corners ---- */
+
+static double length_of(double x, double y) { return sqrt(x * x + y * y); }
+
+static float length_f(float x, float y) { return sqrtf(x * x + y * y); }
+
+/* A body with n corners, at xy or at those of its places that are named. Where the difference of corners is rounded the
+ * directions of short sides are off by more than floats are. */
+static void add_body(sunder_i_bodies *b, const sunder_i_pairing *g, const double *xy, const uint32_t *vertex,
+                     uint32_t n)
+{
+    const uint32_t first = b->n ? b->end[b->n - 1] : 0, blocks = (n + 3) / 4;
+    const double scale = sunder_i_float_scale(g);
+    double shortest = INFINITY;
+    for (uint32_t k = 0; k < 4 * blocks; k++) {
+        sunder_i_body_block *to = b->block + first + k / 4;
+        const uint32_t i = k < n ? k : 0, j = i + 1 < n ? i + 1 : 0, m = k % 4;
+        const double *c = xy + 2 * (size_t)(vertex ? vertex[i] : i), *d = xy + 2 * (size_t)(vertex ? vertex[j] : j);
+        const double dx = d[0] - c[0], dy = d[1] - c[1], length = length_of(dx, dy);
+        shortest = length < shortest ? length : shortest;
+        to->x[m] = (float)(scale * c[0]);
+        to->y[m] = (float)(scale * c[1]);
+        to->nx[m] = (float)(dy / length);
+        to->ny[m] = (float)(-dx / length);
+        to->support[m] = (float)(scale * (dy / length * c[0] - dx / length * c[1]));
+    }
+    const double vague = shortest > 0x1p-480 ? 32 * g->coarse / shortest : INFINITY;
+    b->vague[b->n] = (float)vague;
+    for (uint32_t k = first; vague > 0 && k < first + blocks; k++)
+        for (int m = 0; m < 4; m++) b->block[k].support[m] -= b->vague[b->n];
+    b->end[b->n++] = first + blocks;
+}
+
+static void add_pieces(sunder_i_bodies *b, const sunder_i_pairing *g, int side)
+{
+    const sunder_shape *s = g->shape[side];
+    for (uint32_t i = 0, k = 0; i < s->pieces; k = s->piece_end[i++])
+        add_body(b, g, g->xy[side], s->piece_vertex + k, s->piece_end[i] - k);
+}
+
+/* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
+static bool add_box(sunder_i_bodies *b, const sunder_i_pairing *g, const double box[4])
+{
+    double at[4] = {box[0], box[1], box[2], box[3]};
+    for (int k = 0; k < 4 && g->placed.lattice.narrow; k++) at[k] = k < 2 ? ceil(box[k]) : floor(box[k]);
+    if (at[0] >= at[2] || at[1] >= at[3]) return false;
+    const double xy[8] = {at[0], at[1], at[2], at[1], at[2], at[3], at[0], at[3]};
+    memcpy(b->box + 4 * (size_t)b->boxes++, at, sizeof at);
+    add_body(b, g, xy, NULL, 4);
+    return true;
+}
+
+/* A node of the quartering and its box. */
+typedef struct place {
+    int32_t node;
+    double box[4];
+} place;
+
+/* The full boxes, level by level, so the largest first, until there are `most` more; false if memory is out. */
+static bool add_boxes(sunder_i_bodies *b, const sunder_i_pairing *g, const sunder_i_inner *inner, uint32_t most)
+{
+    place *queue = sunder_i_alloc(inner->nodes, sizeof *queue);
+    size_t n = 1;
+    if (!queue) return false;
+    queue[0] = (place){.node = 0};
+    memcpy(queue[0].box, inner->box, sizeof queue[0].box);
+    for (size_t i = 0; i < n && most > 0 && sunder_i_step(); i++) {
+        const place at = queue[i];
+        const int32_t child = inner->child[at.node];
+        if (child == SUNDER_I_INNER_FULL && add_box(b, g, at.box)) most--;
+        for (int k = 0; child >= 0 && k < 4; k++, n++) {
+            queue[n].node = child + k;
+            sunder_i_inner_quarter(at.box, k, queue[n].box);
+        }
+    }
+    sunder_i_free(queue);
+    return true;
+}
+
+/* ---- Chiefs ---- */
+
+/* Of a point that is outside of side m of a block, which ends at (ex, ey). */
+static float distance_from_side(const sunder_i_body_block *c, int m, float ex, float ey, float x, float y)
+{
+    const float tx = -c->ny[m], ty = c->nx[m], along = tx * (x - c->x[m]) + ty * (y - c->y[m]);
+    if (along <= 0) return length_f(x - c->x[m], y - c->y[m]);
+    if (along >= tx * (ex - c->x[m]) + ty * (ey - c->y[m])) return length_f(x - ex, y - ey);
+    return c->nx[m] * x + c->ny[m] * y - c->support[m];
+}
+
+static float distance_from_body(const sunder_i_bodies *b, uint32_t body, float x, float y)
+{
+    const uint32_t first = body ? b->end[body - 1] : 0, end = b->end[body];
+    float least = INFINITY;
+    bool inside = true;
+    for (uint32_t k = first; k < end; k++)
+        for (int m = 0; m < 4; m++) {
+            const sunder_i_body_block *c = b->block + k, *d = m < 3 ? c : b->block + (k + 1 < end ? k + 1 : first);
+            if (c->nx[m] * x + c->ny[m] * y <= c->support[m]) continue;
+            const float v = distance_from_side(c, m, d->x[(m + 1) % 4], d->y[(m + 1) % 4], x, y);
+            least = v < least ? v : least;
+            inside = false;
+        }
+    return inside ? 0 : least;
+}
+
+/* How much deeper body i can hold a square than body k is seen to hold it. */
+static float stands_out(const sunder_i_bodies *b, uint32_t i, uint32_t k)
+{
+    float most = 0;
+    for (uint32_t c = i ? b->end[i - 1] : 0; c < b->end[i]; c++)
+        for (int m = 0; m < 4; m++) {
+            const float v = distance_from_body(b, k, b->block[c].x[m], b->block[c].y[m]);
+            if (!(v <= most)) most = v;
+        }
+    return most + SUNDER_I_BODIES_ERROR + 2 * b->vague[k];
+}
+
+/* Its extents in all ways together. */
+static float size_of(const sunder_i_extents *extent)
+{
+    float size = 0;
+    for (int k = 0; k < SUNDER_I_WAYS; k++) size += extent->high[k] - extent->low[k];
+    return size;
+}
+
+/* The largest body of each node, by what is known of its children. */
+static bool name_chiefs(sunder_i_bodies *b, const sunder_i_extents *extent)
+{
+    const uint32_t leaves = b->all.leaves;
+    b->node = sunder_i_alloc(2 * (size_t)leaves, sizeof *b->node);
+    if (!b->node) return false;
+    for (uint32_t k = 2 * leaves; --k > 0;) {
+        if (k >= leaves) {
+            const uint32_t body = b->all.piece[k - leaves];
+            b->node[k].chief = body;
+            b->node[k].reach = body == UINT32_MAX ? 0 : SUNDER_I_BODIES_ERROR + 2 * b->vague[body];
+            continue;
+        }
+        const sunder_i_body_node u = b->node[2 * k], v = b->node[2 * k + 1];
+        const bool first = v.chief == UINT32_MAX ||
+                           (u.chief != UINT32_MAX && size_of(extent + u.chief) >= size_of(extent + v.chief));
+        const sunder_i_body_node other = first ? v : u;
+        b->node[k] = first ? u : v;
+        if (!sunder_i_step()) return false;
+        if (other.chief == UINT32_MAX) continue;
+        const float reach = other.reach + stands_out(b, other.chief, b->node[k].chief);
+        if (!(reach <= b->node[k].reach)) b->node[k].reach = reach;
+    }
+    return true;
+}
+
+/* ---- All together ---- */
+
+static bool plant(sunder_i_bodies *b, uint32_t pieces)
+{
+    sunder_i_extents *extent = sunder_i_alloc(b->n, sizeof *extent);
+    if (!extent) return false;
+    for (uint32_t k = 0, i = 0; k < b->n; k++) {
+        extent[k] = sunder_i_extents_nowhere();
+        for (; i < b->end[k]; i++)
+            for (int m = 0; m < 4; m++) sunder_i_extents_add(&extent[k], b->block[i].x[m], b->block[i].y[m]);
+    }
+    const bool ok = sunder_i_piece_tree_build(&b->pieces, extent, pieces) &&
+                    sunder_i_piece_tree_build(&b->all, extent, b->n) && name_chiefs(b, extent);
+    sunder_i_free(extent);
+    return ok;
+}
+
+bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_pairing *g, int side, const sunder_i_inner *inner)
+{
+    const sunder_shape *s = g->shape[side];
+    const uint32_t boxes = s->pieces / 4 + BOXES_LEAST;
+    const size_t n = (size_t)s->pieces + boxes, blocks = s->piece_end[s->pieces - 1] / 4 + n;
+    *b = (sunder_i_bodies){.end = sunder_i_alloc(n, sizeof *b->end),
+                           .block = sunder_i_alloc(blocks, sizeof *b->block),
+                           .vague = sunder_i_alloc(n, sizeof *b->vague),
+                           .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
+    if (!b->end || !b->block || !b->vague || !b->box) return false;
+    add_pieces(b, g, side);
+    return add_boxes(b, g, inner, boxes) && plant(b, s->pieces);
+}
+
+void sunder_i_bodies_free(sunder_i_bodies *b)
+{
+    sunder_i_free(b->end);
+    sunder_i_free(b->block);
+    sunder_i_free(b->vague);
+    sunder_i_free(b->box);
+    sunder_i_piece_tree_free(&b->pieces);
+    sunder_i_piece_tree_free(&b->all);
+    sunder_i_free(b->node);
+    memset(b, 0, sizeof *b);
+}
+
+/* ---- Depths ---- */
+
+sunder_i_aim sunder_i_bodies_aim(const sunder_i_pairing *g, const double at[4])
+{
+    const double scale = sunder_i_float_scale(g);
+    return (sunder_i_aim){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
+                          (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
+}
+
+/* The sides of one body, each at the corner of the other that is farthest out. Four at a time, without branches. */
+static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunder_i_bodies *o, uint32_t j,
+                               const sunder_i_aim *aim, sunder_i_floats *in, sunder_i_floats *touch)
+{
+    const sunder_i_body_block *from = o->block + (j ? o->end[j - 1] : 0), *to = o->block + o->end[j];
+    for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++) {
+        const sunder_i_body_block *s = b->block + k;
+        const sunder_i_floats nx = sunder_i_floats_at(s->nx), ny = sunder_i_floats_at(s->ny);
+        sunder_i_floats most = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+        for (const sunder_i_body_block *c = from; c < to; c++)
+            for (int m = 0; m < 4; m++) most = sunder_i_floats_max(most, nx * c->x[m] + ny * c->y[m]);
+        const sunder_i_floats depth = sunder_i_floats_at(s->support) + most - (nx * aim->x + ny * aim->y);
+        const sunder_i_floats half = aim->hx * sunder_i_floats_max(nx, -nx) + aim->hy * sunder_i_floats_max(ny, -ny);
+        *in = sunder_i_floats_min(*in, depth - half);
+        *touch = sunder_i_floats_min(*touch, depth + half);
+    }
+}
+
+/* How far a body reaches to the right, up, to the left and down. */
+static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
+{
+    sunder_i_floats r = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++)
+        for (int m = 0; m < 4; m++) {
+            const float x = b->block[k].x[m], y = b->block[k].y[m];
+            r = sunder_i_floats_max(r, (sunder_i_floats){x, y, -x, -y});
+        }
+    return r;
+}
+
+sunder_i_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j, const sunder_i_aim *aim)
+{
+    sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
+    below_sides(b, i, b + 1, j, aim, &in, &touch);
+    below_sides(b + 1, j, b, i, aim, &in, &touch);
+    if (aim->hx < 0) { /* the square's sides are sides of the sum, too */
+        const sunder_i_floats at = {aim->x + aim->hx, aim->y + aim->hy, aim->hx - aim->x, aim->hy - aim->y};
+        in = sunder_i_floats_min(in, reach_of(b, i) + reach_of(b + 1, j) - at);
+    }
+    return (sunder_i_depth){sunder_i_floats_least(in), sunder_i_floats_least(touch)};
+}

@@ -1,0 +1,174 @@
+/* The tree is split at the median of whatever the pieces of a node differ most in: one of their sixteen bounds. So long
+ * pieces are parted from short ones, and those of one direction from those of another. */
+#include "separation/squares/dop_tree.h"
+
+#include "base/random.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double WAY[SUNDER_I_WAYS][2] = {{1, 0},
+                                             {0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2},
+                                             {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                             {0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                             {0, 1},
+                                             {-0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                             {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                             {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
+
+double sunder_i_float_scale(const sunder_i_pairing *g) { return ldexp(1, -ilogb(g->magnitude)); }
+
+/* With coordinates up to M, themselves floats, a bound of a body is below 1.42 M and off by 2^-24 of 2.9 M; so is that
+ * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
+ * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
+#define FLOAT_ERROR 0x1p-20
+
+sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4], double by)
+{
+    const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
+    const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = sunder_i_float_scale(g);
+    sunder_i_extents out;
+    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        const double middle = x * WAY[k][0] + y * WAY[k][1];
+        const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude + by;
+        out.low[k] = (float)(scale * (middle - reach));
+        out.high[k] = (float)(scale * (middle + reach));
+    }
+    return out;
+}
+
+static const sunder_i_extents NOWHERE = {
+    {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY},
+    {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY}};
+
+static void include(sunder_i_extents *all, const sunder_i_extents *one)
+{
+    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        all->low[k] = one->low[k] < all->low[k] ? one->low[k] : all->low[k];
+        all->high[k] = one->high[k] > all->high[k] ? one->high[k] : all->high[k];
+    }
+}
+
+sunder_i_extents sunder_i_extents_nowhere(void) { return NOWHERE; }
+
+void sunder_i_extents_add(sunder_i_extents *all, float x, float y)
+{
+    sunder_i_extents at;
+    for (int k = 0; k < SUNDER_I_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
+    include(all, &at);
+}
+
+typedef struct planter {
+    sunder_i_piece_tree *tree;
+    const sunder_i_extents *extent; /* of each piece */
+    uint32_t *list;
+    uint64_t *key;
+} planter;
+
+static float bound_of(const sunder_i_extents *e, int k)
+{
+    return k < SUNDER_I_WAYS ? e->low[k] : e->high[k - SUNDER_I_WAYS];
+}
+
+/* The bound in which the pieces of list[from] ... differ most. */
+static int widest(const planter *p, size_t from, size_t n)
+{
+    sunder_i_extents least = p->extent[p->list[from]], most = least;
+    for (size_t i = from + 1; i < from + n; i++) {
+        const sunder_i_extents *e = p->extent + p->list[i];
+        for (int k = 0; k < SUNDER_I_WAYS; k++) {
+            least.low[k] = e->low[k] < least.low[k] ? e->low[k] : least.low[k];
+            least.high[k] = e->high[k] < least.high[k] ? e->high[k] : least.high[k];
+            most.low[k] = e->low[k] > most.low[k] ? e->low[k] : most.low[k];
+            most.high[k] = e->high[k] > most.high[k] ? e->high[k] : most.high[k];
+        }
+    }
+    int best = 0;
+    for (int k = 1; k < 2 * SUNDER_I_WAYS; k++)
+        if (bound_of(&most, k) - bound_of(&least, k) > bound_of(&most, best) - bound_of(&least, best)) best = k;
+    return best;
+}
+
+/* A float as an integer of the same order. */
+static uint32_t ordered(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
+}
+
+/* Brings the m least of n keys to the front; no two are equal. Expected linear time [Hoa61]. */
+static void select_least(uint64_t *key, size_t n, size_t m)
+{
+    uint64_t seed = n;
+    size_t low = 0, high = n; /* what is before low is among the least, and what is from high on is not */
+    while (high - low > 1) {
+        const uint64_t pivot = key[low + sunder_i_draw(&seed) % (high - low)];
+        size_t i = low, j = high;
+        for (;;) {
+            while (key[i] < pivot) i++;
+            while (key[--j] > pivot) {}
+            if (i >= j) break;
+            const uint64_t swap = key[i];
+            key[i++] = key[j];
+            key[j] = swap;
+        }
+        if (i == low) i++; /* the pivot is the least of them */
+        if (m < i)
+            high = i;
+        else
+            low = i;
+        if (m == low || m == high) return;
+    }
+}
+
+/* The lesser half of list[from] ... by a bound comes first. */
+static void halve_by(planter *p, size_t from, size_t n, int bound)
+{
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t piece = p->list[from + i];
+        p->key[i] = (uint64_t)ordered(bound_of(p->extent + piece, bound)) << 32 | piece;
+    }
+    select_least(p->key, n, n - n / 2);
+    for (size_t i = 0; i < n; i++) p->list[from + i] = (uint32_t)p->key[i];
+}
+
+/* The pieces of list[from] ... below a node; as many to the left as to the right, or one more. */
+static bool plant(planter *p, uint32_t node, size_t from, size_t n)
+{
+    sunder_i_piece_tree *t = p->tree;
+    if (node >= t->leaves) {
+        t->piece[node - t->leaves] = n ? p->list[from] : UINT32_MAX;
+        t->extent[node] = n ? p->extent[p->list[from]] : NOWHERE;
+        return true;
+    }
+    if (!sunder_i_steps(n)) return false;
+    if (n > 1) halve_by(p, from, n, widest(p, from, n));
+    if (!plant(p, 2 * node, from, n - n / 2) || !plant(p, 2 * node + 1, from + n - n / 2, n / 2)) return false;
+    t->extent[node] = t->extent[2 * node];
+    include(&t->extent[node], &t->extent[2 * node + 1]);
+    return true;
+}
+
+bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents *extent, uint32_t n)
+{
+    *tree = (sunder_i_piece_tree){.leaves = 1};
+    while (tree->leaves < n) tree->leaves *= 2;
+    tree->piece = sunder_i_alloc(tree->leaves, sizeof *tree->piece);
+    tree->extent = sunder_i_alloc(2 * (size_t)tree->leaves, sizeof *tree->extent);
+    planter p = {tree, extent, sunder_i_alloc(n, sizeof *p.list), sunder_i_alloc(n, sizeof *p.key)};
+    bool ok = tree->piece && tree->extent && p.list && p.key;
+    for (uint32_t i = 0; ok && i < n; i++) p.list[i] = i;
+    ok = ok && plant(&p, 1, 0, n);
+    sunder_i_free(p.list);
+    sunder_i_free(p.key);
+    return ok;
+}
+
+void sunder_i_piece_tree_free(sunder_i_piece_tree *tree)
+{
+    sunder_i_free(tree->piece);
+    sunder_i_free(tree->extent);
+    *tree = (sunder_i_piece_tree){0};
+}

@@ -1,0 +1,239 @@
+/* What holds a square whole: a box inside P and one inside -Q whose sum, a box, has it in its interior, so that any
+ * placement from the square makes the two overlap; or a subsum. And where nothing does, the pairs of pieces that come
+ * near it.
+ *
+ * Where the operands overlap deeply a few large boxes hold large squares. Spikes have no boxes inside, but the sum of
+ * two that cross is a parallelogram that holds many a square. Among millions of pairs one is found in the two trees of
+ * bodies, the most promising nodes first: the sum of their chiefs is asked itself, and says for all of their bodies how
+ * deep the square can be. If that leads nowhere soon there are many that nearly hold it, and its quarters are better
+ * asked; it is not worth while then to list who comes near.
+ *
+ * All in doubles or floats and one-sided: held is certain, and a pair that is not listed stays off by more than the
+ * error. */
+#include "separation/squares/squares_inner.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST_TRIES 1000 /* pairs of boxes that are looked at to hold one square */
+/* Nodes are taken by how deep the square is in the sum of their chiefs, and by this much of how deep it can be in any
+ * by their extents. Those about the pair that held nearly the square that this is a quarter of, so many levels up, come
+ * along with the roots. By measurement on stars; nothing of it matters much. */
+#define DEEP 0.25f
+#define LEVELS 2
+
+/* ---- Boxes ---- */
+
+/* The nodes a and b of the two quarterings, with their boxes. Parts of a box whose sum does not hold the square do not
+ * either. */
+static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const double abox[4], int32_t b,
+                 const double bbox[4])
+{
+    const double e = 8 * q->g->error;
+    for (int k = 0; k < 2; k++)
+        if (at[k] - e <= abox[k] + bbox[k] || at[k + 2] + e >= abox[k + 2] + bbox[k + 2]) return false;
+    const int32_t u = q->inner[0].child[a], v = q->inner[1].child[b];
+    if (u == SUNDER_I_INNER_REST || v == SUNDER_I_INNER_REST) return false;
+    if (u == SUNDER_I_INNER_FULL && v == SUNDER_I_INNER_FULL) return true;
+    if (++q->tries > MOST_TRIES) return false;
+    const bool of_p = v == SUNDER_I_INNER_FULL || (u != SUNDER_I_INNER_FULL && abox[2] - abox[0] >= bbox[2] - bbox[0]);
+    for (int k = 0; k < 4; k++) {
+        double part[4];
+        sunder_i_inner_quarter(of_p ? abox : bbox, k, part);
+        if (of_p ? hold(q, at, u + k, part, b, bbox) : hold(q, at, a, abox, v + k, part)) return true;
+    }
+    return false;
+}
+
+bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
+{
+    q->tries = 0;
+    return hold(q, at, 0, q->inner[0].box, 0, q->inner[1].box);
+}
+
+/* ---- Bodies ---- */
+
+/* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
+ * that if the sum itself holds what is left of the square, so much smaller. */
+static void aim_to_hold(sunder_i_squares *q, const double at[4], double less[4])
+{
+    const double by = 0.70 * q->gap;
+    for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
+    q->aim = sunder_i_bodies_aim(q->g, less);
+    q->at = less;
+}
+
+/* Does the sum of the chiefs of two nodes hold the square? It is remembered whose holds it, or does so most nearly. */
+static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
+{
+    const uint32_t i = q->bodies[0].node[node[0]].chief, j = q->bodies[1].node[node[1]].chief;
+    *in = sunder_i_bodies_depth(q->bodies, i, j, &q->aim).in;
+    if (*in > q->best_depth) {
+        q->best_depth = *in;
+        memcpy(q->best, node, sizeof q->best);
+    }
+    if (fabsf(*in) > SUNDER_I_BODIES_ERROR) return *in > 0;
+    const bool pieces = i < q->g->shape[0]->pieces && j < q->g->shape[1]->pieces;
+    return pieces && q->aim.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
+}
+
+static void sink_node(sunder_i_squares *q, sunder_i_node_pair v)
+{
+    size_t i = 0;
+    for (size_t k = 1; k < q->nodes; i = k, k = 2 * k + 1) {
+        if (k + 1 < q->nodes && q->node[k + 1].key > q->node[k].key) k++;
+        if (v.key >= q->node[k].key) break;
+        q->node[i] = q->node[k];
+    }
+    q->node[i] = v;
+}
+
+static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
+{
+    if (!sunder_i_reserve(&q->node, &q->nodes_capacity, q->nodes + 1, sizeof *q->node)) return false;
+    if (v.node[0] >= q->bodies[0].all.leaves && v.node[1] >= q->bodies[1].all.leaves) return true; /* none below */
+    size_t i = q->nodes++;
+    for (; i > 0 && q->node[(i - 1) / 2].key < v.key; i = (i - 1) / 2) q->node[i] = q->node[(i - 1) / 2];
+    q->node[i] = v;
+    return true;
+}
+
+/* Of two nodes the one with more that stands out of its chief is opened. Its parts are looked at by their chiefs; those
+ * of which no sum can hold the square are dropped. */
+static sunder_i_held_by_one open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
+{
+    const sunder_i_bodies *b = q->bodies;
+    const float reach[2] = {b[0].node[v->node[0]].reach, b[1].node[v->node[1]].reach};
+    const int side = v->node[0] >= b[0].all.leaves || (v->node[1] < b[1].all.leaves && reach[1] > reach[0]);
+    const uint32_t chief = b[side].node[v->node[side]].chief;
+    for (uint32_t k = 0; k < 2; k++) {
+        sunder_i_node_pair part = *v;
+        part.node[side] = 2 * v->node[side] + k;
+        const sunder_i_extents *extent[2] = {b[0].all.extent + part.node[0], b[1].all.extent + part.node[1]};
+        const float depth = sunder_i_extents_depth(extent[0], extent[1], &q->extents);
+        if (!(depth > 0)) continue;
+        if (b[side].node[part.node[side]].chief != chief) {
+            if (q->tries == 0) return SUNDER_I_NOT_FOUND;
+            q->tries--;
+            if (holds(q, part.node, &part.in)) return SUNDER_I_HELD;
+        }
+        const float out = b[0].node[part.node[0]].reach + b[1].node[part.node[1]].reach;
+        if (part.in + out <= 0) continue;
+        part.key = part.in + DEEP * depth;
+        if (!push_node(q, part)) return SUNDER_I_HOLD_FAILED;
+    }
+    return SUNDER_I_NOT_HELD;
+}
+
+/* The pair of nodes that held the last square about there, if any did. */
+static uint32_t *remembered(sunder_i_squares *q)
+{
+    const float per_unit = SUNDER_I_SQUARES_MEMORY / (2 * q->reach);
+    const int x = (int)((q->aim.x + q->reach) * per_unit), y = (int)((q->aim.y + q->reach) * per_unit);
+    const int most = SUNDER_I_SQUARES_MEMORY - 1;
+    return q->memory[(y < 0 ? 0 : y > most ? most : y) * SUNDER_I_SQUARES_MEMORY + (x < 0 ? 0 : x > most ? most : x)];
+}
+
+static sunder_i_held_by_one search_nodes(sunder_i_squares *q, const uint32_t first[2])
+{
+    sunder_i_node_pair near = {.node = {first[0], first[1]}}, all = {.node = {1, 1}};
+    q->nodes = 0;
+    if (holds(q, first, &near.in) || holds(q, remembered(q), &all.in) || holds(q, all.node, &all.in))
+        return SUNDER_I_HELD;
+    for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS ? q->best[k] >> LEVELS : 1;
+    if ((near.node[0] > 1 || near.node[1] > 1) && holds(q, near.node, &near.in)) return SUNDER_I_HELD;
+    near.key = near.in;
+    all.key = all.in;
+    if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_HOLD_FAILED;
+    if (!push_node(q, all)) return SUNDER_I_HOLD_FAILED;
+    while (q->nodes) {
+        const sunder_i_node_pair top = q->node[0], last = q->node[--q->nodes];
+        if (q->nodes) sink_node(q, last);
+        const sunder_i_held_by_one how = open_pair(q, &top);
+        if (how != SUNDER_I_NOT_HELD) return how;
+        if (!sunder_i_step()) return SUNDER_I_HOLD_FAILED;
+    }
+    return SUNDER_I_NOT_HELD;
+}
+
+sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *q, const double at[4], const uint32_t first[2],
+                                                uint32_t tries)
+{
+    double less[4];
+    aim_to_hold(q, at, less);
+    q->extents = sunder_i_piece_tree_aim(q->g, less, 0);
+    q->tries = tries;
+    q->best_depth = -INFINITY;
+    q->best[0] = q->best[1] = 1;
+    const sunder_i_held_by_one how = search_nodes(q, first);
+    q->held = how == SUNDER_I_HELD;
+    if (!q->held) return how;
+    memcpy(remembered(q), q->best, sizeof q->best);
+    for (int k = 0; k < 2; k++) q->holder[k] = q->bodies[k].node[q->best[k]].chief;
+    return how;
+}
+
+/* ---- Pieces ---- */
+
+/* With a gap those that are farther by little more than that are listed too, as the search with a gap asks beside its
+ * points. */
+static sunder_i_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
+{
+    const sunder_i_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->aim);
+    const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
+    if (q->gap > 0) {
+        const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
+        return d.touch + gap < -e ? SUNDER_I_OUTSIDE : d.in > e ? SUNDER_I_WITHIN : SUNDER_I_ACROSS;
+    }
+    if (d.touch < -e) return SUNDER_I_OUTSIDE;
+    if (d.in > e) return SUNDER_I_WITHIN;
+    return d.touch > e && d.in < -e ? SUNDER_I_ACROSS : sunder_i_squares_position(q, q->at, i, j);
+}
+
+/* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
+static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32_t part[2][2])
+{
+    const bool first = b >= q->bodies[1].pieces.leaves || (a < q->bodies[0].pieces.leaves && a <= b);
+    for (uint32_t k = 0; k < 2; k++) {
+        part[k][0] = first ? 2 * a + k : a;
+        part[k][1] = first ? b : 2 * b + k;
+    }
+}
+
+/* Adds the pairs below two nodes; false once there are more than `most`, or if one of them holds the square (q->held),
+ * or if memory is out. */
+static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
+{
+    const sunder_i_piece_tree *p = &q->bodies[0].pieces, *r = &q->bodies[1].pieces;
+    if (!sunder_i_extents_near(p->extent + a, r->extent + b, &q->extents)) return true;
+    if (a >= p->leaves && b >= r->leaves) {
+        const uint32_t i = p->piece[a - p->leaves], j = r->piece[b - r->leaves];
+        if (!sunder_i_step()) return false;
+        const sunder_i_position where = position_to_subsum(q, i, j);
+        if (where == SUNDER_I_OUTSIDE) return true;
+        q->held = where == SUNDER_I_WITHIN;
+        q->holder[0] = i;
+        q->holder[1] = j;
+        if (q->held) return false;
+        if (q->pairs == most || !sunder_i_reserve(&q->pair, &q->pairs_capacity, q->pairs + 1, sizeof *q->pair))
+            return false;
+        q->pair[q->pairs][0] = i;
+        q->pair[q->pairs++][1] = j;
+        return true;
+    }
+    uint32_t part[2][2];
+    open_nodes(q, a, b, part);
+    return gather(q, part[0][0], part[0][1], most) && gather(q, part[1][0], part[1][1], most);
+}
+
+bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t most)
+{
+    double less[4];
+    aim_to_hold(q, at, less);
+    q->extents = sunder_i_piece_tree_aim(q->g, at, q->gap);
+    q->pairs = 0;
+    q->held = false;
+    return gather(q, 1, 1, most);
+}

@@ -1,0 +1,86 @@
+/* The subsums of an open square, and the segments of the reduced convolution that come near it. */
+#include "separation/squares/squares_inner.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+
+enum { UNKNOWN = 0, NO_CORNER, CORNER };
+
+static const sunder_i_cone *corner_of(sunder_i_squares *q, int side, uint32_t v)
+{
+    if (q->state[side][v] == UNKNOWN)
+        q->state[side][v] = sunder_i_cone_of(q->g, side, v, &q->corner[side][v]) ? CORNER : NO_CORNER;
+    return q->state[side][v] == CORNER ? &q->corner[side][v] : NULL;
+}
+
+/* Does the segment from (x, y) along (dx, dy) come near the square? */
+static bool comes_near(const double at[4], double e, double x, double y, double dx, double dy)
+{
+    return fmin(x, x + dx) <= at[2] + e && fmax(x, x + dx) >= at[0] - e && fmin(y, y + dy) <= at[3] + e &&
+           fmax(y, y + dy) >= at[1] - e;
+}
+
+/* The edge from vertex u, a side of piece i of operand `side`, at the corners of piece j of the other; those that are
+ * corners of several pieces with the first of them only. Tests as in reduced_convolution.c. */
+static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t u, uint32_t j,
+                     sunder_i_candidates *out)
+{
+    sunder_i_pairing *g = q->g;
+    const sunder_shape *s = g->shape[side], *o = g->shape[!side];
+    const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->next[u];
+    const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
+    const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
+    for (uint32_t k = j ? o->piece_end[j - 1] : 0; k < o->piece_end[j]; k++) {
+        const uint32_t v = o->piece_vertex[k];
+        const double *c = g->xy[!side] + 2 * (size_t)v;
+        if (q->first_piece[!side][v] != j || !comes_near(at, 32 * g->error, a[0] + c[0], a[1] + c[1], dx, dy)) continue;
+        const sunder_i_cone *w = corner_of(q, !side, v);
+        if (!w || !(w->in_x * dy - w->in_y * dx >= bound) || !(dx * w->out_y - dy * w->out_x >= bound)) continue;
+        const double norm = sunder_i_segment_square(a[0] + c[0], a[1] + c[1], dx, dy, inverse);
+        if (norm > reach * reach) continue;
+        if (!sunder_i_candidates_push(g, out, (sunder_i_candidate){norm, u, v, side})) return false;
+    }
+    return true;
+}
+
+/* A boundary edge is a side of one piece, so nothing comes twice. */
+static bool add_edges(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t i, uint32_t j,
+                      sunder_i_candidates *out)
+{
+    const sunder_shape *s = q->g->shape[side];
+    const uint32_t first = i ? s->piece_end[i - 1] : 0, end = s->piece_end[i];
+    for (uint32_t k = first; k < end; k++) {
+        const uint32_t u = s->piece_vertex[k], v = s->piece_vertex[k + 1 < end ? k + 1 : first];
+        if (sunder_i_is_boundary(s, u, v) && !add_edge(q, at, reach, side, u, j, out)) return false;
+    }
+    return true;
+}
+
+bool sunder_i_squares_take_subsums(sunder_i_squares *q)
+{
+    sunder_i_pairing *g = q->g;
+    g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, q->pairs + 1, sizeof *g->subsum);
+    g->subsums = g->subsum ? q->pairs : 0;
+    for (size_t k = 0; k < g->subsums; k++) {
+        sunder_i_subsum *s = g->subsum + k;
+        *s = (sunder_i_subsum){.i = q->pair[k][0], .j = q->pair[k][1]};
+        for (int m = 0; m < 4; m++)
+            s->box[m] = g->piece_box[0][4 * (size_t)s->i + (size_t)m] + g->piece_box[1][4 * (size_t)s->j + (size_t)m];
+    }
+    return g->subsum != NULL;
+}
+
+bool sunder_i_squares_take_candidates(sunder_i_squares *q, const double at[4], double limit,
+                                      sunder_i_candidates *out)
+{
+    const double reach = limit + 8 * q->g->error;
+    *out = (sunder_i_candidates){NULL, 0, 0};
+    for (size_t k = 0; k < q->pairs; k++) {
+        const uint32_t i = q->pair[k][0], j = q->pair[k][1];
+        if (!add_edges(q, at, reach, 0, i, j, out) || !add_edges(q, at, reach, 1, j, i, out)) return false;
+    }
+    sunder_i_candidates_order(out);
+    return true;
+}
+

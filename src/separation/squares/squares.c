@@ -1,0 +1,180 @@
+/* Squares that something holds whole (holders.c) are closed; those that few pairs of pieces come near are open,
+ * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
+ * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
+#include "separation/squares/squares_inner.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* With so few pairs a square is searched as it is; with twice as many after each halving from a certain one on, as many
+ * may truly meet in one point. */
+#define FEW_PAIRS 32
+#define PATIENT 8
+/* So many sums are tried to hold a square: twice as many after each halving from a certain one on, where there may be
+ * one that does among thousands that nearly do. */
+#define HOLD_TRIES 16
+#define HOLD_PATIENT 5
+#define HOLD_MOST 18 /* doublings */
+#define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
+#define ORIGIN_TRIES 1024
+/* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
+ * microseconds, and what else could be done takes all pairs of pieces. */
+#define MOST_SQUARES 20000
+#define MOST_EACH 8
+#define MOST_PAIRS 32
+
+/* ---- The heap ---- */
+
+static bool push(sunder_i_squares *q, sunder_i_square s)
+{
+    if (!sunder_i_reserve(&q->heap, &q->capacity, q->n + 1, sizeof *q->heap)) return false;
+    size_t i = q->n++;
+    for (; i > 0 && q->heap[(i - 1) / 2].distance > s.distance; i = (i - 1) / 2) q->heap[i] = q->heap[(i - 1) / 2];
+    q->heap[i] = s;
+    return true;
+}
+
+sunder_i_square sunder_i_squares_first(sunder_i_squares *q)
+{
+    const sunder_i_square top = q->heap[0], last = q->heap[--q->n];
+    q->seen++;
+    size_t i = 0;
+    for (size_t k = 1; k < q->n; i = k, k = 2 * k + 1) {
+        if (k + 1 < q->n && q->heap[k + 1].distance < q->heap[k].distance) k++;
+        if (last.distance <= q->heap[k].distance) break;
+        q->heap[i] = q->heap[k];
+    }
+    q->heap[i] = last;
+    return top;
+}
+
+static double distance_of(const double box[4])
+{
+    const double x = box[0] > 0 ? box[0] : box[2] < 0 ? -box[2] : 0;
+    const double y = box[1] > 0 ? box[1] : box[3] < 0 ? -box[3] : 0;
+    return sqrt(x * x + y * y);
+}
+
+bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
+{
+    static const double origin[4] = {0, 0, 0, 0};
+    *covered = sunder_i_squares_boxes_hold(q, origin);
+    if (*covered) return true;
+    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
+    *covered = how == SUNDER_I_HELD;
+    if (*covered || how == SUNDER_I_HOLD_FAILED) return *covered;
+    const bool all = sunder_i_squares_gather(q, origin, SIZE_MAX);
+    *covered = q->held;
+    return *covered || (all && sunder_i_squares_take_subsums(q));
+}
+
+/* ---- In order ---- */
+
+bool sunder_i_squares_cut(sunder_i_squares *q, const sunder_i_square *s)
+{
+    const uint32_t first = 1 + 4 * q->cuts++;
+    for (int k = 0; k < 4; k++) {
+        sunder_i_square part = {.depth = s->depth + 1, .place = first + (uint32_t)k, .best = {q->best[0], q->best[1]}};
+        sunder_i_inner_quarter(s->box, k, part.box);
+        part.distance = distance_of(part.box);
+        if (!push(q, part)) return false;
+    }
+    return true;
+}
+
+static uint32_t tries_to_hold(int depth)
+{
+    const int doublings = depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0;
+    return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
+}
+
+sunder_i_finding sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
+{
+    const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
+    q->held = q->gap == 0 && sunder_i_squares_boxes_hold(q, s->box); /* with a gap it is asked what holds it */
+    q->pairs = 0;
+    if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (q->held) return SUNDER_I_SQUARE_CLOSED;
+    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
+    if (how == SUNDER_I_HOLD_FAILED) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
+    const size_t few = (size_t)FEW_PAIRS << patience;
+    if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? SUNDER_I_SQUARE_OPEN : SUNDER_I_SQUARE_CLOSED;
+    if (q->held) return SUNDER_I_SQUARE_CLOSED;
+    return q->pairs == few ? SUNDER_I_SQUARE_IN_PARTS : SUNDER_I_SQUARE_NO_MEMORY;
+}
+
+bool sunder_i_squares_too_many(const sunder_i_squares *q, const sunder_i_square *s)
+{
+    return q->seen > q->most || s->depth > DEEPEST;
+}
+
+sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *q, double limit, double box[4], sunder_i_mark *mark,
+                                           sunder_i_candidates *candidates)
+{
+    while (q->n && q->heap[0].distance <= limit + 64 * q->g->error) {
+        const sunder_i_square s = sunder_i_squares_first(q);
+        if (sunder_i_squares_too_many(q, &s)) return SUNDER_I_SQUARES_TOO_MANY;
+        const sunder_i_finding what = sunder_i_squares_look(q, &s);
+        if (what == SUNDER_I_SQUARE_NO_MEMORY || (what == SUNDER_I_SQUARE_IN_PARTS && !sunder_i_squares_cut(q, &s)))
+            return SUNDER_I_SQUARES_NO_MEMORY;
+        if (what != SUNDER_I_SQUARE_OPEN) continue;
+        memcpy(box, s.box, sizeof s.box);
+        *mark = sunder_i_arena_mark(&q->g->placed.lattice.arena);
+        const bool ok = sunder_i_squares_take_subsums(q) && sunder_i_squares_take_candidates(q, box, limit, candidates);
+        return ok ? SUNDER_I_SQUARES_OPEN : SUNDER_I_SQUARES_NO_MEMORY;
+    }
+    return SUNDER_I_SQUARES_END;
+}
+
+static bool make_tables(sunder_i_squares *q, int side)
+{
+    const sunder_shape *s = q->g->shape[side];
+    q->first_piece[side] = sunder_i_alloc(s->vertices, sizeof *q->first_piece[side]);
+    q->corner[side] = sunder_i_alloc(s->vertices, sizeof *q->corner[side]);
+    q->state[side] = sunder_i_calloc(s->vertices, sizeof *q->state[side]);
+    if (!q->first_piece[side] || !q->corner[side] || !q->state[side]) return false;
+    for (uint32_t i = s->pieces; i-- > 0;)
+        for (uint32_t k = i ? s->piece_end[i - 1] : 0; k < s->piece_end[i]; k++)
+            q->first_piece[side][s->piece_vertex[k]] = i;
+    return true;
+}
+
+sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach, double gap)
+{
+    sunder_i_squares *q = sunder_i_calloc(1, sizeof *q);
+    if (!q) return NULL;
+    q->g = g;
+    q->gap = gap;
+    const size_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
+    q->most = MOST_SQUARES + MOST_EACH * (m + n) + m * n / MOST_PAIRS;
+    const double r = reach + 64 * g->error;
+    q->reach = (float)(sunder_i_float_scale(g) * r);
+    for (int k = 0; k < SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY; k++) q->memory[k][0] = q->memory[k][1] = 1;
+    const bool ok = sunder_i_inner_build(&q->inner[0], g, 0) && sunder_i_inner_build(&q->inner[1], g, 1) &&
+                    sunder_i_bodies_build(&q->bodies[0], g, 0, &q->inner[0]) &&
+                    sunder_i_bodies_build(&q->bodies[1], g, 1, &q->inner[1]) &&
+                    make_tables(q, 0) && make_tables(q, 1) &&
+                    push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
+    if (ok) return q;
+    sunder_i_squares_free(q);
+    return NULL;
+}
+
+void sunder_i_squares_free(sunder_i_squares *q)
+{
+    if (!q) return;
+    for (int k = 0; k < 2; k++) {
+        sunder_i_inner_free(&q->inner[k]);
+        sunder_i_bodies_free(&q->bodies[k]);
+        sunder_i_free(q->first_piece[k]);
+        sunder_i_free(q->corner[k]);
+        sunder_i_free(q->state[k]);
+    }
+    sunder_i_free(q->heap);
+    sunder_i_free(q->pair);
+    sunder_i_free(q->node);
+    sunder_i_free(q);
+}

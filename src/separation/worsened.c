@@ -1,0 +1,178 @@
+/* Does a pair stand worse than it stood? Exactly.
+ *
+ * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the
+ * least translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where they
+ * differ by more than they can be off; else the rationals are compared. */
+#include "separation/separation.h"
+
+#include "predicate/vector.h"
+#include "separation/least.h"
+#include "separation/operands/operands.h"
+
+#include <math.h>
+
+/* num / den * 2^exponent, den > 0. */
+typedef struct square {
+    sunder_i_big num, den;
+    long exponent;
+} square;
+
+static bool is_less(sunder_i_arena *a, const square *p, const square *q)
+{
+    sunder_i_big u = sunder_i_big_mul(a, p->num, q->den), v = sunder_i_big_mul(a, q->num, p->den);
+    const long shift = p->exponent - q->exponent;
+    if (shift > 0) u = sunder_i_big_shl(a, u, (unsigned long)shift);
+    if (shift < 0) v = sunder_i_big_shl(a, v, (unsigned long)-shift);
+    return sunder_i_big_cmp(u, v) < 0;
+}
+
+/* ---- Disjoint: distances -------------------------------------------------------------------------------------------
+ */
+
+/* Of point c from the edge ab, in doubles. */
+static double end_distance(const double *c, const double *a, const double *b)
+{
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, v[2] = {c[0] - a[0], c[1] - a[1]};
+    const double long_square = e[0] * e[0] + e[1] * e[1];
+    const double s = long_square > 0 ? fmin(1, fmax(0, (v[0] * e[0] + v[1] * e[1]) / long_square)) : 0;
+    return hypot(v[0] - s * e[0], v[1] - s * e[1]);
+}
+
+/* The squared distance of vertex v of one operand from an edge of the other, exactly. */
+static square end_square(sunder_i_pairing *g, int side, uint32_t v, uint32_t edge)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    sunder_i_arena *m = &l->arena;
+    if (m->failed) return (square){{NULL, 0}, {NULL, 0}, 0};
+    const sunder_i_vector c = sunder_i_vector_get(m, l, g->at[side][v]);
+    const sunder_i_vector a = sunder_i_vector_get(m, l, g->at[1 - side][edge]);
+    const sunder_i_vector b = sunder_i_vector_get(m, l, g->at[1 - side][g->shape[1 - side]->next[edge]]);
+    const sunder_i_vector e = sunder_i_vector_sub(m, b, a), u = sunder_i_vector_sub(m, c, a);
+    const sunder_i_vector w = sunder_i_vector_sub(m, c, b);
+    const bool beyond_a = sunder_i_big_sign(sunder_i_vector_dot(m, u, e)) > 0;
+    const bool beyond_b = beyond_a && sunder_i_big_sign(sunder_i_vector_dot(m, w, e)) >= 0;
+    if (beyond_a && !beyond_b) {
+        /* e's own denominator drops out. */
+        const sunder_i_big cross = sunder_i_vector_cross(m, e, u);
+        const sunder_i_big den = sunder_i_big_mul(m, sunder_i_vector_dot(m, e, e), sunder_i_big_mul(m, u.w, u.w));
+        return (square){sunder_i_big_mul(m, cross, cross), den, 2 * l->exponent};
+    }
+    const sunder_i_vector *d = beyond_b ? &w : &u;
+    return (square){sunder_i_vector_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w), 2 * l->exponent};
+}
+
+/* All ends against all edges: the least in doubles first, then exactly the least of those that it may be. A coordinate
+ * in doubles is off by g->error at most; with u = 2^-53 and coordinates of no more than M, the foot of the perpendicular
+ * is off by less than 16 u M besides, and a distance by no more than 8 g->error + 32 u M. */
+static square least_square(sunder_i_pairing *g)
+{
+    double least = INFINITY;
+    square best = {{NULL, 0}, {NULL, 0}, 0};
+    bool any = false;
+    for (int pass = 0; pass < 2; pass++) {
+        const double most = least + 2 * (8 * g->error + 0x1p-48 * g->magnitude);
+        for (int side = 0; side < 2; side++)
+            for (uint32_t v = 0; v < g->shape[side]->vertices; v++)
+                for (uint32_t e = 0; e < g->shape[1 - side]->vertices; e++) {
+                    const double *xy = g->xy[1 - side];
+                    const double d =
+                        end_distance(g->xy[side] + 2 * v, xy + 2 * e, xy + 2 * g->shape[1 - side]->next[e]);
+                    if (pass == 0) least = fmin(least, d);
+                    if (pass == 0 || d > most) continue;
+                    const square s = end_square(g, side, v, e);
+                    if (!any || is_less(&g->placed.lattice.arena, &s, &best)) best = s;
+                    any = true;
+                }
+    }
+    return best;
+}
+
+/* No coordinate of the pair is larger. */
+static double size_of(const sunder_i_pair *pair)
+{
+    double size = 0, box[4];
+    for (int e = 0; e < 2; e++) {
+        const double *t = e ? pair->tq : pair->tp;
+        sunder_shape_box(e ? pair->q : pair->p, box);
+        for (int c = 0; c < 4; c++) size = fmax(size, fabs(box[c]) + (t ? fabs(t[c & 1]) : 0));
+    }
+    return size;
+}
+
+static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse,
+                                       sunder_error *err)
+{
+    double before, now, on[4];
+    sunder_status status = sunder_i_distance(was->p, was->tp, was->q, was->tq, &before, on, on + 2, err);
+    if (!status) status = sunder_i_distance(is->p, is->tp, is->q, is->tq, &now, on, on + 2, err);
+    if (status) return status;
+    *worse = now < before;
+    /* Each is right to some ulps of the coordinates: on a wide lattice the cross product that it comes from cancels. */
+    if (fabs(now - before) > 0x1p-40 * (now + before + size_of(was) + size_of(is))) return SUNDER_OK;
+    sunder_i_pairing g, h;
+    status = sunder_i_pairing_init(&g, was->p, was->q, &(sunder_i_pairing_options){.tp = was->tp, .tq = was->tq}, err);
+    if (status) return status;
+    status = sunder_i_pairing_init(&h, is->p, is->q, &(sunder_i_pairing_options){.tp = is->tp, .tq = is->tq}, err);
+    if (!status) {
+        const square a = least_square(&g), b = least_square(&h);
+        *worse = is_less(&g.placed.lattice.arena, &b, &a);
+        if (g.placed.lattice.arena.failed || h.placed.lattice.arena.failed) status = sunder_i_no_memory(err);
+        sunder_i_pairing_free(&h);
+    }
+    sunder_i_pairing_free(&g);
+    return status;
+}
+
+/* ---- In each other: least translations -----------------------------------------------------------------------------
+ */
+
+static sunder_status compare_texts(const char *was, const char *is, bool *worse, sunder_error *err)
+{
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    square a = {{NULL, 0}, {NULL, 0}, 0}, b = a;
+    const bool read = sunder_i_big_parse_ratio(&arena, was, &a.num, &a.den) &&
+                      sunder_i_big_parse_ratio(&arena, is, &b.num, &b.den);
+    *worse = read && is_less(&arena, &a, &b);
+    const bool failed = arena.failed || !read;
+    sunder_i_arena_free(&arena);
+    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
+static sunder_status compare_depths(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+{
+    sunder_separation before, now;
+    sunder_i_least_options o = {.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
+    sunder_status status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
+    if (status) return status;
+    o = (sunder_i_least_options){.tp = is->tp, .tq = is->tq, .upper = 2 * before.distance, .texts = true};
+    *worse = false;
+    status = sunder_i_least(is->p, is->q, &o, &now, worse, err);
+    if (!status && !*worse) {
+        /* Nearest doubles of the true lengths keep their order. */
+        if (now.distance != before.distance)
+            *worse = now.distance > before.distance;
+        else
+            status = compare_texts(before.distance_squared_text, now.distance_squared_text, worse, err);
+    }
+    if (!status) sunder_separation_clear(&now);
+    sunder_separation_clear(&before);
+    return status;
+}
+
+/* ---- The question --------------------------------------------------------------------------------------------------
+ */
+
+sunder_status sunder_i_is_worse(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+{
+    bool before, now;
+    *worse = false;
+    sunder_status status = sunder_i_overlap(was->p, was->tp, was->q, was->tq, &before, err);
+    if (!status) status = sunder_i_overlap(is->p, is->tp, is->q, is->tq, &now, err);
+    if (status) return status;
+    if (before != now) {
+        *worse = now;
+        return SUNDER_OK;
+    }
+    return now ? compare_depths(was, is, worse, err) : compare_distances(was, is, worse, err);
+}
