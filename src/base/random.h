@@ -1,8 +1,14 @@
-/* Pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. */
+/* Pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. Results must not depend on them; times, and what a
+ * search happens upon, do. So draws and their order are part of what is promised here: one draw for each of the
+ * numbers that are left to choose from, from all of them down to two. */
 #ifndef SUNDER_I_RANDOM_H
 #define SUNDER_I_RANDOM_H
 
+#include "base/invariant.h"
+
+#include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 /* The next number of the stream. */
 static inline uint64_t sunder_i_draw(uint64_t *state)
@@ -11,6 +17,23 @@ static inline uint64_t sunder_i_draw(uint64_t *state)
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
+}
+
+/* Which of n items of that size, all of one array, takes the last place: the two change places. One step of a shuffle
+ * by Fisher and Yates, from the back. random: a number drawn. */
+static inline void sunder_i_shuffle_step(void *array, size_t n, size_t size, uint64_t random)
+{
+    unsigned char *const chosen = (unsigned char *)array + (size_t)(random % n) * size;
+    unsigned char *const last = (unsigned char *)array + (n - 1) * size, kept[16];
+    SUNDER_I_ASSERT(size <= sizeof kept);
+    memcpy(kept, chosen, size);
+    memmove(chosen, last, size);
+    memcpy(last, kept, size);
+}
+
+static inline void sunder_i_shuffle(void *array, size_t n, size_t size, uint64_t *state)
+{
+    for (size_t i = n; i > 1; i--) sunder_i_shuffle_step(array, i, size, sunder_i_draw(state));
 }
 
 #endif

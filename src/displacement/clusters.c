@@ -56,20 +56,12 @@ sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)
     w->carrier = sunder_i_alloc(n, sizeof *w->carrier);
     if (!w->improved || !w->parent || !w->dirty || !w->widened || !w->changed || !w->standing || !w->carrier)
         return sunder_i_no_memory(err);
-    for (size_t b = 0; b < n; b++) {
-        w->parent[b] = (uint32_t)b;
-        w->carrier[b] = SUNDER_I_NOBODY;
-    }
+    sunder_i_union_init(w->parent, n);
+    for (size_t b = 0; b < n; b++) w->carrier[b] = SUNDER_I_NOBODY;
     return SUNDER_OK;
 }
 
 /* ---- Clusters -------------------------------------------------------------------------------------------------- */
-
-uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x)
-{
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
-    return x;
-}
 
 bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j)
 {
@@ -79,8 +71,7 @@ bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j)
     if (!fi) w->dirty[i] = true;
     if (!fj) w->dirty[j] = true;
     if (fi || fj) return true;
-    const uint32_t a = sunder_i_union_find(w->parent, i), b = sunder_i_union_find(w->parent, j);
-    if (a != b) w->parent[a < b ? b : a] = a < b ? a : b;
+    sunder_i_union_join(w->parent, i, j);
     return true;
 }
 

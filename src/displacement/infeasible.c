@@ -49,7 +49,7 @@ static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
 {
     const sunder_i_town *town = &w->town;
     size_t n = 0;
-    for (uint32_t b = 0; b < town->bodies; b++) parent[b] = b;
+    sunder_i_union_init(parent, town->bodies);
     for (size_t k = 0; k < w->start.n; k++) {
         const sunder_i_relation *r = &w->start.pair[k];
         if (!sunder_i_job_is_conflict(town, r)) continue;
@@ -57,8 +57,7 @@ static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
         if (town->body[i].fixed && town->body[j].fixed) continue;
         list[n++].pair = i < j ? (sunder_i_couple){i, j} : (sunder_i_couple){j, i};
         if (town->body[i].fixed || town->body[j].fixed) continue;
-        const uint32_t a = sunder_i_union_find(parent, i), b = sunder_i_union_find(parent, j);
-        if (a != b) parent[a < b ? b : a] = a < b ? a : b;
+        sunder_i_union_join(parent, i, j);
     }
     for (size_t k = 0; k < n; k++) {
         const sunder_i_couple c = list[k].pair;

@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_JOB_H
 #define SUNDER_I_JOB_H
 
+#include "base/union_find.h"
 #include "displacement/displacement.h"
 
 typedef struct sunder_i_member {
@@ -57,7 +58,6 @@ void sunder_i_job_free(sunder_i_job *w);
 /* ---- clusters.c ---- */
 
 /* The least member of x's set; halves the paths on its way. */
-uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x);
 /* An edge between bodies, which makes them dirty. False if memory is out. */
 bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */

@@ -15,13 +15,12 @@
 static void join_conflicts(const sunder_i_job *w, uint32_t *root)
 {
     const sunder_i_town *town = &w->town;
-    for (size_t b = 0; b < town->bodies; b++) root[b] = (uint32_t)b;
+    sunder_i_union_init(root, town->bodies);
     for (size_t k = 0; k < w->start.n; k++) {
         const sunder_i_relation *r = &w->start.pair[k];
         const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
         if (!sunder_i_job_is_conflict(town, r) || town->body[i].fixed || town->body[j].fixed) continue;
-        const uint32_t a = sunder_i_union_find(root, i), b = sunder_i_union_find(root, j);
-        if (a != b) root[a < b ? b : a] = a < b ? a : b;
+        sunder_i_union_join(root, i, j);
     }
     for (size_t b = 0; b < town->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
 }
@@ -97,7 +96,7 @@ static bool forget(sunder_i_job *w, const bool *back)
     for (size_t e = 0; e < w->edges; e++)
         if (!back[w->edge[e].a] && !back[w->edge[e].b]) w->edge[out++] = w->edge[e];
     w->edges = 0;
-    for (uint32_t b = 0; b < town->bodies; b++) w->parent[b] = b;
+    sunder_i_union_init(w->parent, town->bodies);
     for (size_t e = 0; e < out; e++) sunder_i_job_add_edge(w, w->edge[e].a, w->edge[e].b); /* there is room */
     out = 0;
     for (size_t k = 0; k < town->given_n; k++)

@@ -4,6 +4,7 @@
  * the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it came from, in
  * another order; all go down from there, and what is cheaper is kept. In doubt are those that overlapped another by much,
  * for which another side is not much farther, and those that went much farther than any pair was in conflict by. */
+#include "base/random.h"
 #include "displacement/search.h"
 
 #include <math.h>
@@ -125,10 +126,7 @@ static void shuffle(uint32_t *order, size_t n, uint64_t *state)
         *state ^= *state << 13;
         *state ^= *state >> 7;
         *state ^= *state << 17;
-        const size_t with = (size_t)(*state % (k + 1));
-        const uint32_t swap = order[k];
-        order[k] = order[with];
-        order[with] = swap;
+        sunder_i_shuffle_step(order, k + 1, sizeof *order, *state);
     }
 }
 

@@ -9,24 +9,17 @@
  * bodies that may move; a fixed body is a member of every cluster that has an edge to it, and joins none. Edges are
  * never removed, so each round either adds an edge between clusters, or widens the margin of a cluster whose result
  * failed the exact check (a limited number of times), or is the last: the loop ends. */
+#include "base/clock.h"
 #include "displacement/job.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* What was given up is looked at again, each time with what the search ran into since. */
 #define RECONSIDERED 4
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
-
-static double seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
  * features were listed. */
@@ -106,7 +99,7 @@ static sunder_status seek(sunder_i_job *w, bool known, double from, double to, s
 static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
                               sunder_error *err)
 {
-    const double began = seconds();
+    const double began = sunder_i_now();
     bool lifted = false, back = false;
     sunder_status status = sunder_i_order_layer(layer, &w->layer, &w->number, err);
     if (!status) status = start(w, &w->layer, options, err);
@@ -128,7 +121,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     if (!status) status = sunder_i_job_uphold(w, err);
     if (!status) status = sunder_i_job_gather(w, err);
     if (status) return status;
-    const double solved = seconds();
+    const double solved = sunder_i_now();
     if (!sunder_i_progress(&w->town.rules, 0.8)) return sunder_i_no_memory(err);
     sunder_report *report = w->report;
     /* Once more from nothing: the verdict leans on no earlier one. */
@@ -139,7 +132,7 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     sunder_i_free(w->now.pair);
     w->now = last;
     report->summary.seconds_solve = solved - began;
-    report->summary.seconds_verify = seconds() - solved;
+    report->summary.seconds_verify = sunder_i_now() - solved;
     sunder_i_count_relations(&w->town, &w->now, &report->summary.after);
     status = sunder_i_report_conflicts(report, &w->town, &w->scene, &w->now, true, err);
     if (!status) status = sunder_i_job_bound(w, err);
@@ -185,14 +178,14 @@ sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_o
     sunder_layer_options_init(&o);
     if (options) o = *options;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const double began = seconds();
+    const double began = sunder_i_now();
     sunder_status status = start(&w, layer, &o, err);
     if (!status) status = sunder_i_report_conflicts(w.report, &w.town, &w.scene, &w.start, false, err);
     if (!status) {
         sunder_layer_summary *s = &w.report->summary;
         s->after = s->before;
         s->verified = true;
-        s->seconds_verify = seconds() - began;
+        s->seconds_verify = sunder_i_now() - began;
         *out = w.report;
         w.report = NULL;
     }

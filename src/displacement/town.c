@@ -1,4 +1,5 @@
 /* The town: features with their boxes, the near pairs, and the bodies that the rules make of them. */
+#include "base/union_find.h"
 #include "displacement/displacement.h"
 
 #include <math.h>
@@ -59,26 +60,6 @@ sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules
 
 /* ---- Bodies ---------------------------------------------------------------------------------------------------- */
 
-/* The representative of x, the least member of its set; paths are halved on the way. */
-static uint32_t find(uint32_t *parent, uint32_t x)
-{
-    while (parent[x] != x) {
-        parent[x] = parent[parent[x]];
-        x = parent[x];
-    }
-    return x;
-}
-
-static void unite(uint32_t *parent, uint32_t x, uint32_t y)
-{
-    x = find(parent, x);
-    y = find(parent, y);
-    if (x < y)
-        parent[y] = x;
-    else
-        parent[x] = y;
-}
-
 typedef struct label {
     int64_t block;
     uint32_t feature;
@@ -104,7 +85,8 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
         }
     qsort(labels, k, sizeof *labels, by_label);
     for (size_t i = 1; i < k; i++)
-        if (labels[i].block == labels[i - 1].block) unite(parent, labels[i - 1].feature, labels[i].feature);
+        if (labels[i].block == labels[i - 1].block)
+            sunder_i_union_join(parent, labels[i - 1].feature, labels[i].feature);
     sunder_i_free(labels);
     return true;
 }
@@ -114,7 +96,7 @@ static void number_bodies(sunder_i_town *town, uint32_t *parent)
 {
     uint32_t bodies = 0;
     for (size_t f = 0; f < town->features; f++) {
-        const uint32_t root = find(parent, (uint32_t)f);
+        const uint32_t root = sunder_i_union_find(parent, (uint32_t)f);
         /* The least member is its own root, and comes first. */
         town->body_of[f] = root == f ? bodies++ : town->body_of[root];
         town->body[town->body_of[f]].members++;
@@ -143,10 +125,11 @@ sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *
     const size_t n = town->features;
     uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
     if (!parent) return sunder_i_no_memory(err);
-    for (size_t f = 0; f < n; f++) parent[f] = (uint32_t)f;
+    sunder_i_union_init(parent, n);
     for (size_t k = 0; k < relations->n && town->rules.joins; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINMENT_BLOCK)) unite(parent, r->a, r->b);
+        if (r->touch || (r->contained && town->rules.contained == SUNDER_CONTAINMENT_BLOCK))
+            sunder_i_union_join(parent, r->a, r->b);
     }
     const sunder_status status =
         unite_labelled(town->layer, parent) ? sunder_i_keep_init(town, relations, err) : sunder_i_no_memory(err);

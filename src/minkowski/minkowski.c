@@ -1,27 +1,20 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
-#include "outline/buried.h"
-#include "minkowski/convex_operands.h"
 #include "minkowski/minkowski.h"
-#include "outline/outline.h"
-#include "convex/subsums.h"
-#include "minkowski/convolution.h"
+#include "base/clock.h"
 #include "base/watch.h"
+#include "convex/subsums.h"
+#include "minkowski/convex_operands.h"
+#include "minkowski/convolution.h"
+#include "outline/buried.h"
+#include "outline/outline.h"
 #include "unions/unions.h"
 
 #include <string.h>
-#include <time.h>
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                            const sunder_sum_options *options, sunder_error *err)
 {
-    const double start = now();
+    const double start = sunder_i_now();
     sunder_i_placed placed;
     const sunder_i_place_options place = {.force_wide = force_wide};
     sunder_status status = sunder_i_place(p, q, &place, &placed, err);
@@ -33,7 +26,7 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     if (sunder_i_are_convex(p, q)) {
         status = sunder_i_convex_build(sum, p, placed.p, q, placed.q, err);
         sunder_i_placed_free(&placed);
-        sum->seconds[2] = now() - start;
+        sum->seconds[2] = sunder_i_now() - start;
         return status;
     }
     bool traced = false;
@@ -43,7 +36,7 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
         status = sunder_i_traced_build(sum, q, placed.q, p, placed.p, &traced, err);
     if (status != SUNDER_OK || traced) {
         sunder_i_placed_free(&placed);
-        sum->seconds[2] = now() - start;
+        sum->seconds[2] = sunder_i_now() - start;
         return status;
     }
     sunder_i_subsums subsums;
@@ -53,10 +46,10 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
     if (p->polygons > 1 || q->polygons > 1)
         status = sunder_i_bury_candidates(&subsums, err);
-    sum->seconds[1] = now() - start;
+    sum->seconds[1] = sunder_i_now() - start;
     if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
     sunder_i_subsums_free(&subsums);
-    sum->seconds[2] = now() - start - sum->seconds[1];
+    sum->seconds[2] = sunder_i_now() - start - sum->seconds[1];
     return status;
 }
 

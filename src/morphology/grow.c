@@ -58,11 +58,7 @@ static uint64_t *random_order(uint64_t *random, uint64_t n)
 {
     uint64_t *order = sunder_i_alloc(n, sizeof *order);
     for (uint64_t i = 0; order && i < n; i++) order[i] = i;
-    for (uint64_t i = n; order && i > 1; i--) {
-        const uint64_t j = sunder_i_draw(random) % i, kept = order[j];
-        order[j] = order[i - 1];
-        order[i - 1] = kept;
-    }
+    if (order) sunder_i_shuffle(order, n, sizeof *order, random);
     return order;
 }
 

@@ -6,6 +6,7 @@
  * be reached is decided exactly, and reaching a farther one would not be wrong. */
 #include "motion/corners.h"
 
+#include "base/union_find.h"
 #include "outline/coverage.h"
 #include "spatial/strips.h"
 
@@ -21,22 +22,10 @@ void sunder_i_corners_free(sunder_i_corners *c)
     memset(c, 0, sizeof *c);
 }
 
-/* ---- The forest ---- */
-
-static uint32_t root_of(sunder_i_corners *c, uint32_t v)
+bool sunder_i_corners_connected(sunder_i_corners *c, uint32_t a, uint32_t b)
 {
-    while (c->parent[v] != v) v = c->parent[v] = c->parent[c->parent[v]];
-    return v;
+    return sunder_i_union_find(c->parent, a) == sunder_i_union_find(c->parent, b);
 }
-
-static void join(sunder_i_corners *c, uint32_t a, uint32_t b)
-{
-    a = root_of(c, a);
-    b = root_of(c, b);
-    if (a != b) c->parent[a > b ? a : b] = a > b ? b : a;
-}
-
-bool sunder_i_corners_connected(sunder_i_corners *c, uint32_t a, uint32_t b) { return root_of(c, a) == root_of(c, b); }
 
 /* ---- Nodes ---- */
 
@@ -191,9 +180,9 @@ static void shoot(const sunder_i_space *s, sunder_i_corners *c, const sunder_i_s
             sunder_i_place_at hit;
             if (x[1] < nearest || !meet_left(s, p, a, b, &hit)) continue;
             any = true;
-            if (sunder_i_space_is_free(s, &hit, p, false, NULL)) join(c, v, e->from);
+            if (sunder_i_space_is_free(s, &hit, p, false, NULL)) sunder_i_union_join(c->parent, v, e->from);
         }
-    if (!any) join(c, v, c->vertices + 2);
+    if (!any) sunder_i_union_join(c->parent, v, c->vertices + 2);
 }
 
 static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
@@ -201,10 +190,10 @@ static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
     uint32_t *curve = sunder_i_alloc(c->vertices, sizeof *curve), *least = sunder_i_alloc(c->vertices, sizeof *least);
     sunder_i_strips t;
     const bool ok = make_strips(s, c, &t) && curve && least;
-    for (uint32_t v = 0; v < c->vertices + 3; v++) c->parent[v] = v;
-    for (size_t i = 0; i < s->stretches; i++) join(c, s->stretch[i].from, s->stretch[i].to);
+    sunder_i_union_init(c->parent, (size_t)c->vertices + 3);
+    for (size_t i = 0; i < s->stretches; i++) sunder_i_union_join(c->parent, s->stretch[i].from, s->stretch[i].to);
     for (uint32_t v = 0; ok && v < c->vertices; v++) {
-        const uint32_t r = curve[v] = root_of(c, v);
+        const uint32_t r = curve[v] = sunder_i_union_find(c->parent, v);
         /* A root is the least number of its tree, so it comes first. */
         if (r == v || sunder_i_place_cmp(&s->ground, &c->place[v], &c->place[least[r]]) < 0) least[r] = v;
     }

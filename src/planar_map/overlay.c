@@ -46,11 +46,9 @@ static bool add_all(sunder_i_planar_map *map, const sunder_i_planar_map *of, nam
     size_t count = 0;
     for (uint32_t e = 0; e < of->edges; e++)
         if (of->edge[e].end[0] != NOWHERE) order[count++] = e;
-    for (size_t i = count; i > 0; i--) { /* Fisher and Yates, from the back, inserted as drawn */
-        const size_t j = (size_t)(sunder_i_draw(&map->random) % i);
-        const uint32_t e = order[j];
-        order[j] = order[i - 1];
-        if (!add_edge(map, of, n, e)) return false;
+    for (size_t i = count; i > 0; i--) { /* shuffled, and inserted as drawn; the last one costs a draw, too */
+        sunder_i_shuffle_step(order, i, sizeof *order, sunder_i_draw(&map->random));
+        if (!add_edge(map, of, n, order[i - 1])) return false;
     }
     for (uint32_t v = 0; v < of->vertices; v++) {
         if (!of->vertex[v].alive) continue;

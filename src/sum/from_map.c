@@ -22,6 +22,8 @@
 #include "base/watch.h"
 #include "sum/from_map.h"
 
+#include "base/union_find.h"
+
 #include <string.h>
 
 typedef struct ring {
@@ -49,12 +51,6 @@ static int compare_vertices(const outline *o, uint32_t v, uint32_t w)
 
 /* ---- Components ---- */
 
-static uint32_t find(uint32_t *parent, uint32_t f)
-{
-    while (parent[f] != f) f = parent[f] = parent[parent[f]];
-    return f;
-}
-
 static bool left_inside(const outline *o, uint32_t h)
 {
     return o->inside ? o->inside->face[sunder_i_planar_map_face(o->map, h)]
@@ -66,19 +62,18 @@ static bool connect_faces(outline *o)
     const uint32_t faces = sunder_i_planar_map_face_end(o->map);
     o->component = sunder_i_alloc(faces, sizeof *o->component);
     if (!o->component) return false;
-    for (uint32_t f = 0; f < faces; f++) o->component[f] = f;
+    sunder_i_union_init(o->component, faces);
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
         if (!sunder_i_planar_map_edge_alive(o->map, e) || !left_inside(o, 2 * e) || !left_inside(o, 2 * e + 1)) continue;
-        const uint32_t f = find(o->component, sunder_i_planar_map_face(o->map, 2 * e));
-        const uint32_t g = find(o->component, sunder_i_planar_map_face(o->map, 2 * e + 1));
-        o->component[f < g ? g : f] = f < g ? f : g;
+        sunder_i_union_join(o->component, sunder_i_planar_map_face(o->map, 2 * e),
+                            sunder_i_planar_map_face(o->map, 2 * e + 1));
     }
     return true;
 }
 
 static uint32_t component_of(const outline *o, uint32_t h)
 {
-    return find(o->component, sunder_i_planar_map_face(o->map, h));
+    return sunder_i_union_find(o->component, sunder_i_planar_map_face(o->map, h));
 }
 
 /* ---- Rings ---- */

@@ -2,14 +2,7 @@
  * map's. Their time and operations are booked apart from the map's. */
 #include "unions/unions.h"
 
-#include <time.h>
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+#include "base/clock.h"
 
 static void book(sunder_counts *to, const sunder_counts *before, const sunder_counts *after)
 {
@@ -22,10 +15,10 @@ static void book(sunder_counts *to, const sunder_counts *before, const sunder_co
 bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
 {
     const sunder_counts before = u->lattice->counts;
-    const double start = now();
+    const double start = sunder_i_now();
     const bool ok = sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces,
                                            &u->arena, out);
-    u->seconds += now() - start;
+    u->seconds += sunder_i_now() - start;
     book(&u->counts, &before, &u->lattice->counts);
     return ok;
 }

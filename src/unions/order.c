@@ -18,16 +18,6 @@
 
 #include <math.h>
 
-/* Fisher and Yates. */
-static void shuffle(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
-{
-    for (uint32_t i = n; i > 1; i--) {
-        const uint32_t j = (uint32_t)(sunder_i_draw(&u->random) % i), t = subsum[j];
-        subsum[j] = subsum[i - 1];
-        subsum[i - 1] = t;
-    }
-}
-
 /* The corner's offset from the first one, near enough. */
 static void offset(sunder_i_uniting *u, const sunder_i_convex_sum *s, uint32_t k, double xy[2])
 {
@@ -80,7 +70,7 @@ static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
         key[i] = fatness_of(u, first + i);
         subsum[i] = i;
     }
-    shuffle(u, subsum, n);
+    sunder_i_shuffle(subsum, n, sizeof *subsum, &u->random);
     const bool ok = sunder_i_sort_indices(subsum, n, descending, key);
     for (uint32_t i = 0; i < n; i++) subsum[i] += first;
     sunder_i_free(key);
@@ -91,7 +81,7 @@ bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
     switch (u->options->order) {
     case SUNDER_ORDER_RANDOM:
-        shuffle(u, subsum, n);
+        sunder_i_shuffle(subsum, n, sizeof *subsum, &u->random);
         break;
     case SUNDER_ORDER_FAT:
         return sort_by_fatness(u, subsum, n);

@@ -1,19 +1,12 @@
 /* The stages of a sum by union: operands on one lattice, pieces, the union, the outline read off its map. */
 #include "unions/unions.h"
 
+#include "base/clock.h"
 #include "sum/from_map.h"
 #include "sum/map_view.h"
 
 #include <inttypes.h>
 #include <string.h>
-#include <time.h>
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static sunder_counts less(const sunder_counts *a, const sunder_counts *b)
 {
@@ -53,7 +46,7 @@ static sunder_status finish(sunder_sum *sum, sunder_i_planar_map *map, bool keep
 
 static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_error *err)
 {
-    const double start = now();
+    const double start = sunder_i_now();
     const sunder_counts before = sum->lattice.counts;
     sunder_i_planar_map *map;
     sunder_status status = unite(u, sum->method.algorithm, &map, err);
@@ -63,7 +56,7 @@ static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_e
     sum->phase[SUNDER_PHASE_SUBSUMS] = u->counts;
     sum->phase[SUNDER_PHASE_UNION] = less(&all, &u->counts);
     sum->seconds[SUNDER_PHASE_SUBSUMS] = u->seconds;
-    sum->seconds[SUNDER_PHASE_UNION] = now() - start - u->seconds;
+    sum->seconds[SUNDER_PHASE_UNION] = sunder_i_now() - start - u->seconds;
     return SUNDER_OK;
 }
 
@@ -83,7 +76,7 @@ static sunder_status place(sunder_sum *sum, const sunder_shape *p, const sunder_
 sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                  const sunder_sum_options *options, sunder_error *err)
 {
-    const double start = now();
+    const double start = sunder_i_now();
     sunder_i_placed placed;
     sunder_status status = place(sum, p, q, force_wide, &placed, err);
     if (status != SUNDER_OK) return status;
@@ -94,7 +87,7 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
     sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.counts, &before);
-    sum->seconds[SUNDER_PHASE_DECOMPOSE] = now() - start;
+    sum->seconds[SUNDER_PHASE_DECOMPOSE] = sunder_i_now() - start;
     sum->method.decomposition = u.p.fallbacks ? u.p.used : u.q.used; /* whichever fell back, if one did */
     sum->method.order = options->order;
     sum->method.pieces_p = u.p.pieces;

@@ -1,0 +1,34 @@
+/* Disjoint sets of the numbers 0 .. n - 1, as a forest: parent[x] is x itself at a root.
+ *
+ * The root of a set is its least member, whatever the order of joining: so results may depend on it. That gives up
+ * union by rank; halving paths alone keeps m operations within O(m log n) [Tarjan and van Leeuwen, "Worst-case analysis
+ * of set union algorithms", J. ACM 31, 1984]. */
+#ifndef SUNDER_I_UNION_FIND_H
+#define SUNDER_I_UNION_FIND_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+static inline void sunder_i_union_init(uint32_t *parent, size_t n)
+{
+    for (size_t x = 0; x < n; x++) parent[x] = (uint32_t)x;
+}
+
+/* The least member of the set of x. */
+static inline uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x)
+{
+    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    return x;
+}
+
+static inline void sunder_i_union_join(uint32_t *parent, uint32_t x, uint32_t y)
+{
+    x = sunder_i_union_find(parent, x);
+    y = sunder_i_union_find(parent, y);
+    if (x < y)
+        parent[y] = x;
+    else
+        parent[x] = y;
+}
+
+#endif
