@@ -123,3 +123,9 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
     *out = value;
     return true;
 }
+
+bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_ruler *rule, const char *what,
+                                        double *out, gis_error *error)
+{
+    return !given->text || gis_length_in_layer_units(&given->length, rule, what, out, error);
+}

@@ -24,6 +24,12 @@ typedef struct gis_length {
     gis_length_unit unit;
 } gis_length;
 
+/* A length that may have been asked for. */
+typedef struct gis_optional_length {
+    const char *text; /* as it was written; NULL: not given */
+    gis_length length;
+} gis_optional_length;
+
 /* What a layer's CRS says about its coordinates, and the scale of the map. */
 typedef struct gis_ruler {
     bool has_crs;
@@ -42,5 +48,8 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
  * what to do. */
 bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, const char *what, double *out,
                                gis_error *error);
+/* The same of one that may not be given: then *out stays as it is. */
+bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_ruler *rule, const char *what,
+                                        double *out, gis_error *error);
 
 #endif

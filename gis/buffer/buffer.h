@@ -3,8 +3,20 @@
 #define GIS_BUFFER_H
 
 #include "layer/input.h"
-#include "sum/layers.h"
+#include "round/round.h"
 #include "write/sink.h"
+
+/* What is asked for. Strings are borrowed until the buffer is cleared. */
+typedef struct gis_buffer_request {
+    gis_layer_input_request layer;
+    gis_shape_request shape;
+    sunder_operation operation;
+    bool dissolve;              /* into one set, or by the field */
+    const char *dissolve_field; /* NULL: none */
+    bool align;                 /* the shape is turned to the main direction of a set or block */
+    bool degenerate;            /* layers of degenerate segments and points, too */
+    unsigned threads;           /* 0: as many as there are processors */
+} gis_buffer_request;
 
 /* One set of features (a single one, unless they are dissolved) and what became of it. */
 typedef struct gis_buffer_set {
@@ -12,20 +24,18 @@ typedef struct gis_buffer_set {
     size_t members;
     bool none;            /* none of them has a polygon: nothing is made, and a null geometry written */
     gis_rounded result;
-    double *segment;      /* [4 * segments] ends, with --degenerate */
+    double *segment;      /* [4 * segments] ends, if degenerate ones are wanted */
     double *point;        /* [2 * points] */
     size_t segments, points;
     double area;
 } gis_buffer_set;
 
 typedef struct gis_buffer {
-    const gis_options *options;
+    const gis_buffer_request *request;
     gis_layer_input input;
     sunder_shape *shape;
     gis_source *shape_source; /* NULL: it is a text */
-    sunder_operation operation;
-    int field;             /* of --dissolve-field; -1: none */
-    bool dissolve;         /* into one set, or by the field */
+    int field;             /* of dissolve_field; -1: none */
     gis_buffer_set *set;
     size_t sets;
     size_t *member;        /* features, set by set */
@@ -33,10 +43,13 @@ typedef struct gis_buffer {
     double area, deviation;
 } gis_buffer;
 
+/* Reads the layer and the shape, and deals the features to sets (gis_buffer_gather). On failure what was read can be
+ * released all the same. */
+bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_error *error);
 /* Deals the features to sets: by value of the field, in the order in which values come first (each null by itself), or
  * all into one. */
 bool gis_buffer_gather(gis_buffer *buffer, gis_error *error);
-/* Makes the sets, on as many threads as the options ask for, and adds up the figures. */
+/* Makes the sets, on as many threads as are asked for, and adds up the figures. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error);
 /* Makes one set, as it stands. */
 bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
@@ -56,7 +69,7 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
 bool gis_buffer_straighten(gis_rounded *rounded, gis_error *error);
 void gis_buffer_clear(gis_buffer *buffer);
 
-/* LAYER, and with --degenerate LAYER_degenerate_segments and LAYER_degenerate_points. */
+/* LAYER, and, if wanted, LAYER_degenerate_segments and LAYER_degenerate_points. */
 bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error);
 
 #endif

@@ -12,7 +12,7 @@
 static bool is_multi(const gis_buffer *buffer)
 {
     OGRwkbGeometryType type = wkbFlatten(gis_source_type(buffer->input.source));
-    if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->dissolve)
+    if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->request->dissolve)
         return true;
     for (size_t k = 0; k < buffer->sets; k++)
         if (buffer->set[k].result.set.polygons > 1)
@@ -41,8 +41,8 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
     gis_field number = {"features", OFTInteger64, 0};
     gis_layer_request request = {.suffix = "", .type = multi ? wkbMultiPolygon : wkbPolygon,
                                  .crs = gis_source_crs(buffer->input.source), .style = GIS_STYLE_RESULT};
-    request.like_source = !buffer->dissolve;
-    if (buffer->dissolve) {
+    request.like_source = !buffer->request->dissolve;
+    if (buffer->request->dissolve) {
         request.fields = &number;
         request.n_fields = 1;
         if (buffer->field >= 0)
@@ -61,7 +61,7 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
         if (!geometry && !set->none)
             return gis_no_memory(error);
         const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
-        bool of_feature = !buffer->dissolve || request.copied;
+        bool of_feature = !buffer->request->dissolve || request.copied;
         OGRFeatureH feature = of_feature ? gis_source_feature(buffer->input.source, set->member[0]) : NULL;
         if (!gis_sink_write(layer, feature, geometry, &members, error))
             return false;
@@ -78,7 +78,7 @@ typedef struct owner {
 static bool owner_of(const gis_buffer *buffer, const gis_buffer_set *set, owner *out, gis_error *error)
 {
     *out = (owner){.values = {{.kind = GIS_NULL}, {.kind = GIS_NULL}}};
-    if (buffer->dissolve)
+    if (buffer->request->dissolve)
         return true;
     out->values[0] = gis_fid_value(&buffer->input, set->member[0]);
     return gis_id_value(&buffer->input, set->member[0], &out->texts.id[0], &out->values[1], error);
@@ -121,7 +121,7 @@ bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error
 {
     if (!write_main(sink, buffer, error))
         return false;
-    if (!buffer->options->given[OPT_DEGENERATE] || !gis_sink_takes_more(sink))
+    if (!buffer->request->degenerate || !gis_sink_takes_more(sink))
         return true;
     return write_degenerate(sink, buffer, false, error) && write_degenerate(sink, buffer, true, error);
 }

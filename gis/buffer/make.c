@@ -44,7 +44,7 @@ static void fail(making *m, size_t set, const gis_error *error)
 {
     char who[512] = "";
     const gis_buffer *buffer = m->buffer;
-    if (!buffer->dissolve)
+    if (!buffer->request->dissolve)
         gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
     bool stopped = strcmp(error->message, GIS_INTERRUPTED) == 0;
     pthread_mutex_lock(&m->lock);
@@ -70,7 +70,7 @@ static void *work(void *argument)
         size_t k = atomic_fetch_add(&m->next, 1);
         if (k >= m->buffer->sets)
             break;
-        bool blocks = m->buffer->dissolve && m->buffer->options->given[OPT_ALIGN];
+        bool blocks = m->buffer->request->dissolve && m->buffer->request->align;
         if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
             fail(m, k, &error);
         tell(m);
@@ -80,9 +80,8 @@ static void *work(void *argument)
 
 static size_t thread_count(const gis_buffer *buffer)
 {
-    double asked = buffer->options->given[OPT_THREADS] ? buffer->options->number[OPT_THREADS] : 0;
     long there = sysconf(_SC_NPROCESSORS_ONLN);
-    return asked > 0 ? (size_t)fmin(asked, 4096) : there > 0 ? (size_t)there : 1;
+    return buffer->request->threads ? buffer->request->threads : there > 0 ? (size_t)there : 1;
 }
 
 static void add_up(gis_buffer *buffer)

@@ -1,6 +1,8 @@
 /* sets.c: which features are grown together, and the growing of one such set. */
 #include "buffer/buffer.h"
 
+#include "layer/fields.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,32 +10,32 @@
 
 /* ---- Sets ---- */
 
-typedef struct keyed {
+typedef struct dissolve_key {
     char *key; /* the value of the field as text; NULL: null */
     size_t feature, set;
-} keyed;
+} dissolve_key;
 
 /* Nulls stand by themselves: each is a value of its own. */
 static int by_key(const void *a, const void *b)
 {
-    const keyed *ka = a, *kb = b;
+    const dissolve_key *ka = a, *kb = b;
     int order = !ka->key || !kb->key ? (ka->key != NULL) - (kb->key != NULL) : strcmp(ka->key, kb->key);
     return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
 }
 
 static int by_first(const void *a, const void *b)
 {
-    const keyed *ka = a, *kb = b;
+    const dissolve_key *ka = a, *kb = b;
     int order = (ka->set > kb->set) - (ka->set < kb->set);
     return order ? order : (ka->feature > kb->feature) - (ka->feature < kb->feature);
 }
 
-static bool same_set(const keyed *a, const keyed *b)
+static bool same_set(const dissolve_key *a, const dissolve_key *b)
 {
     return a->key && b->key && strcmp(a->key, b->key) == 0;
 }
 
-static bool read_keys(const gis_buffer *buffer, keyed *keys, gis_error *error)
+static bool read_keys(const gis_buffer *buffer, dissolve_key *keys, gis_error *error)
 {
     for (size_t i = 0; i < buffer->input.n; i++) {
         OGRFeatureH feature = gis_source_feature(buffer->input.source, i);
@@ -48,7 +50,7 @@ static bool read_keys(const gis_buffer *buffer, keyed *keys, gis_error *error)
 }
 
 /* Numbers a set by its first feature, then puts the features in the order of sets. */
-static void sort_keys(keyed *keys, size_t n)
+static void sort_keys(dissolve_key *keys, size_t n)
 {
     qsort(keys, n, sizeof *keys, by_key);
     for (size_t i = 0; i < n; i++)
@@ -71,8 +73,8 @@ static bool has_single_values(const gis_buffer *buffer, gis_error *error)
     case OFTDateTime:
         return true;
     default:
-        return gis_fail(error, "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told apart",
-                        OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
+        return gis_fail(error, "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told "
+                        "apart", OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
     }
 }
 
@@ -81,7 +83,7 @@ static bool gather_by_field(gis_buffer *buffer, gis_error *error)
     if (!has_single_values(buffer, error))
         return false;
     size_t n = buffer->input.n;
-    keyed *keys = calloc(n + 1, sizeof *keys);
+    dissolve_key *keys = calloc(n + 1, sizeof *keys);
     if (!keys)
         return gis_no_memory(error);
     bool ok = read_keys(buffer, keys, error);
@@ -108,12 +110,12 @@ bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
         return gis_no_memory(error);
     if (buffer->field >= 0)
         return gather_by_field(buffer, error);
-    buffer->sets = buffer->dissolve ? 1 : n;
+    buffer->sets = buffer->request->dissolve ? 1 : n;
     for (size_t i = 0; i < n; i++)
         buffer->member[i] = i;
     for (size_t k = 0; k < buffer->sets; k++) {
         buffer->set[k].member = buffer->member + k;
-        buffer->set[k].members = buffer->dissolve ? n : 1;
+        buffer->set[k].members = buffer->request->dissolve ? n : 1;
     }
     return true;
 }
@@ -173,7 +175,8 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
         ok = !has_shape(buffer, set->member[i]) ||
              append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
-    ok = ok && (gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) == SUNDER_OK || gis_fail(error, "%s", why.message));
+    if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) != SUNDER_OK)
+        ok = gis_fail(error, "%s", why.message);
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
     return ok;
@@ -242,12 +245,12 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
 {
     sunder_sum *sum;
     sunder_error why;
-    sunder_status status = sunder_morphology(p, b, buffer->operation, how, &sum, &why);
+    sunder_status status = sunder_morphology(p, b, buffer->request->operation, how, &sum, &why);
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
-              (!buffer->options->given[OPT_ALIGN] || gis_buffer_straighten(&set->result, error)) &&
-              (!buffer->options->given[OPT_DEGENERATE] || keep_degenerate(sum, set, error));
+              (!buffer->request->align || gis_buffer_straighten(&set->result, error)) &&
+              (!buffer->request->degenerate || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)
         set->area = gis_buffer_area(&set->result.set);
@@ -267,8 +270,8 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
     if (shapes == 0)
         return true;
     double before = 0;
-    bool ok = (!buffer->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
-              (!buffer->options->given[OPT_ALIGN] || gis_buffer_turned(buffer, set, &turned, error)) &&
+    bool ok = (!buffer->request->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
+              (!buffer->request->align || gis_buffer_turned(buffer, set, &turned, error)) &&
               make_from(buffer, set, joined ? joined : buffer->input.shape[set->member[0]],
                         turned ? turned : buffer->shape, how, error);
     set->result.deviation += before;

@@ -3,7 +3,7 @@
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"
-#include "write/deliver.h"
+#include "commands/resolve.h"
 #include "layer/output.h"
 
 #include <cpl_conv.h>
@@ -13,6 +13,8 @@
 
 typedef struct check_run {
     const gis_options *options;
+    gis_destinations to;
+    gis_layer_input_request request;
     gis_layer_input input;
     char *layer;    /* LAYER_conflicts, unless --output-layer gives another name; the sink borrows it */
     gis_sink *sink; /* NULL: no OUTPUT */
@@ -24,7 +26,7 @@ typedef struct check_run {
 /* Opened before the work is done. */
 static bool open_sink(check_run *run, gis_error *error)
 {
-    const char *path = run->options->operand[1], *source = gis_source_name(run->input.source);
+    const char *path = run->to.output, *source = gis_source_name(run->input.source);
     if (!path)
         return true;
     size_t size = strlen(source) + sizeof "_conflicts";
@@ -32,7 +34,7 @@ static bool open_sink(check_run *run, gis_error *error)
     if (!run->layer)
         return gis_no_memory(error);
     snprintf(run->layer, size, "%s_conflicts", source);
-    gis_sink_request request = gis_options_sink(run->options, path, run->layer);
+    gis_sink_request request = gis_resolve_sink(run->options, path, run->layer);
     return gis_sink_open(&request, run->input.source, &run->sink, error);
 }
 
@@ -132,9 +134,9 @@ static void json_check(gis_json *out, const check_run *run)
 static bool deliver(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (gis_stats_path(run->options))
+    if (run->to.stats)
         json_check(&stats, run);
-    const gis_delivery delivery = {run->options, run->sink, &stats, taken ? NULL : print, run};
+    const gis_delivery delivery = {run->to.stats, run->sink, &stats, taken ? NULL : print, run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;
@@ -143,10 +145,13 @@ static bool deliver(const check_run *run, bool taken, gis_error *error)
 int gis_command_check(const gis_options *options)
 {
     gis_error error;
-    check_run run = {.options = options, .progress = gis_progress_of(options)};
-    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
+    check_run run = {.options = options,
+                     .to = gis_resolve_destinations(options),
+                     .progress = gis_resolve_progress(options)};
+    bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, 0.3);
-    ok = ok && gis_layer_input_read(options, &run.input, &error) && check_and_write(&run, &error) &&
+    ok = ok && gis_resolve_layer(options, &run.request, &error) &&
+         gis_layer_input_read(&run.request, &run.input, &error) && check_and_write(&run, &error) &&
          deliver(&run, taken, &error);
     int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.before);
     gis_sink_free(run.sink);

@@ -2,8 +2,7 @@
  * `pair`: the line from the anchor of Q to where it goes. */
 #include "base/message.h"
 #include "commands/commands.h"
-#include "read/operand.h"
-#include "write/deliver.h"
+#include "commands/resolve.h"
 
 #include <math.h>
 
@@ -67,20 +66,21 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
     return gis_sink_write(layer, NULL, line, values, error);
 }
 
-static bool open_sink(const gis_options *options, const gis_operands *operands, gis_sink **sink, gis_error *error)
+static bool open_sink(const gis_options *options, const gis_operands *operands, const char *output, gis_sink **sink,
+                      gis_error *error)
 {
-    gis_sink_request request = gis_options_sink(options, options->operand[2], "pair");
-    return gis_operands_spare(operands, options, options->operand[2], error) &&
+    gis_sink_request request = gis_resolve_sink(options, output, "pair");
+    return gis_operands_spare(operands, output, request.update, error) &&
            gis_sink_open(&request, gis_operands_source(operands), sink, error);
 }
 
-static bool report(const gis_options *options, const gis_operands *operands, const sunder_separation *answer,
+static bool report(const gis_destinations *to, const gis_operands *operands, const sunder_separation *answer,
                    gis_sink *sink, bool taken, gis_error *error)
 {
     gis_json text = {0};
     gis_sink_result result;
     json_pair(&text, answer);
-    const gis_delivery delivery = {options, sink, &text, sink || taken ? NULL : gis_print_json, &text};
+    const gis_delivery delivery = {to->stats, sink, &text, sink || taken ? NULL : gis_print_json, &text};
     bool ok = (gis_json_text(&text) || gis_no_memory(error)) &&
               (!sink || (add_translation(sink, operands, answer, error) && gis_sink_finish(sink, &result, error))) &&
               gis_deliver(&delivery, error);
@@ -91,19 +91,21 @@ static bool report(const gis_options *options, const gis_operands *operands, con
 int gis_command_pair(const gis_options *options)
 {
     gis_error error;
+    const gis_destinations to = gis_resolve_destinations(options);
+    const gis_optional_length asked = gis_resolve_length(options, OPT_GAP);
+    gis_operands_request request;
     gis_operands operands = {0};
     sunder_separation answer = {0};
     gis_sink *sink = NULL;
     sunder_error why;
     double gap = 0;
-    bool taken, ok = gis_stdout_taken(options, options->operand[2], &taken, &error) &&
-                     gis_stats_check(options, &error) && gis_operands_read(options, &operands, &error);
-    if (ok && options->given[OPT_GAP])
-        ok = gis_length_in_layer_units(&options->length[OPT_GAP], &operands.rule, "--gap", &gap, &error);
-    ok = ok && (!options->operand[2] || open_sink(options, &operands, &sink, &error));
+    bool taken, ok = gis_destinations_check(&to, &taken, &error) && gis_resolve_operands(options, &request, &error) &&
+                     gis_operands_read(&request, &operands, &error) &&
+                     gis_optional_length_in_layer_units(&asked, &operands.rule, "--gap", &gap, &error);
+    ok = ok && (!to.output || open_sink(options, &operands, to.output, &sink, &error));
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
         ok = gis_fail(&error, "%s", why.message);
-    ok = ok && report(options, &operands, &answer, sink, taken, &error);
+    ok = ok && report(&to, &operands, &answer, sink, taken, &error);
     gis_sink_free(sink);
     sunder_separation_clear(&answer);
     gis_operands_clear(&operands);

@@ -3,7 +3,7 @@
 #define GIS_REPORT_H
 
 #include "base/json.h"
-#include "options/progress.h"
+#include "options/options.h"
 #include "sunder.h"
 
 /* A time, to the nanosecond: more digits would be noise. */

@@ -2,44 +2,45 @@
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"
+#include "commands/resolve.h"
+#include "read/source_files.h"
 #include "route/layers.h"
-#include "write/deliver.h"
 
 #include <math.h>
 #include <stdio.h>
 
 typedef struct route_run {
+    const gis_options *options;
+    gis_destinations to;
+    gis_route_request request;
     gis_route_input input;
     sunder_route *route;
-    gis_sink_request request; /* the sink borrows it */
     gis_sink *sink;           /* NULL: no layers are written */
     double max_deviation;     /* of layers; NaN: none are written */
     char reason[640];         /* "" where there is a route */
 } route_run;
 
-static bool open_sink(route_run *run, const gis_options *options, gis_error *error)
+static bool open_sink(route_run *run, gis_error *error)
 {
     static const char *const suffixes[] = {"placements", "obstacles", "free_space", "degenerate_segments",
                                            "degenerate_points", NULL};
     static const char *const fewer[] = {"placements", NULL};
-    const char *path = options->operand[1];
-    if (!gis_source_spare(run->input.source, options, path, error) ||
-        !gis_source_spare(run->input.robot_source, options, path, error))
-        return false;
-    run->request = gis_options_sink(options, path, "route");
-    run->request.suffixes = options->given[OPT_FREE_SPACE] ? suffixes : fewer;
-    return gis_sink_open(&run->request, run->input.source ? run->input.source : run->input.robot_source, &run->sink,
-                         error);
+    const char *path = run->to.output;
+    gis_sink_request request = gis_resolve_sink(run->options, path, "route");
+    request.suffixes = run->request.free_space ? suffixes : fewer;
+    return gis_source_spare(run->input.source, path, request.update, error) &&
+           gis_source_spare(run->input.robot_source, path, request.update, error) &&
+           gis_sink_open(&request, run->input.source ? run->input.source : run->input.robot_source, &run->sink, error);
 }
 
 static bool find(route_run *run, gis_error *error)
 {
     sunder_error why;
-    gis_progress progress = gis_progress_of(run->input.options);
+    gis_progress progress = gis_resolve_progress(run->options);
     gis_progress_stage(&progress, 0, 1);
     const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
-    sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot, &run->input.from,
-                                             &run->input.to, &how, &run->route, &why);
+    sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot,
+                                             &run->request.from.at, &run->request.to.at, &how, &run->route, &why);
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     gis_progress_done(&progress);
@@ -61,7 +62,7 @@ static bool json_path(gis_json *out, const route_run *run, gis_error *error)
     gis_json_open(out, '[');
     for (size_t i = 0; i < sunder_route_vertices(run->route); i++) {
         gis_json_open(out, '[');
-        if (run->input.options->given[OPT_EXACT]) {
+        if (run->options->given[OPT_EXACT]) {
             const char *x, *y;
             sunder_route_vertex_text(run->route, i, &x, &y);
             gis_json_string(out, x);
@@ -123,7 +124,7 @@ static bool report(route_run *run, bool taken, gis_error *error)
     gis_json text = {0};
     bool ok = (!run->sink || write_layers(run, error)) && json_route(&text, run, error) &&
               (gis_json_text(&text) || gis_no_memory(error));
-    const gis_delivery delivery = {run->input.options, run->sink, &text, taken ? NULL : gis_print_json, &text};
+    const gis_delivery delivery = {run->to.stats, run->sink, &text, taken ? NULL : gis_print_json, &text};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&text);
     return ok;
@@ -132,19 +133,17 @@ static bool report(route_run *run, bool taken, gis_error *error)
 int gis_command_route(const gis_options *options)
 {
     gis_error error;
-    route_run run = {.max_deviation = NAN};
-    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) &&
-                     gis_stats_check(options, &error);
-    if (ok && options->given[OPT_FREE_SPACE] && !options->operand[1])
-        ok = gis_fail_usage(&error, "--free-space needs OUTPUT: it writes layers");
-    ok = ok && gis_route_input_read(options, &run.input, &error);
-    ok = ok && (!options->operand[1] || open_sink(&run, options, &error));
+    route_run run = {.options = options, .to = gis_resolve_destinations(options), .max_deviation = NAN};
+    bool taken, ok = gis_destinations_check(&run.to, &taken, &error) &&
+                     gis_resolve_route(options, &run.request, &error) &&
+                     gis_route_input_read(&run.request, &run.input, &error) &&
+                     (!run.to.output || open_sink(&run, &error));
     ok = ok && find(&run, &error) && report(&run, taken, &error);
-    int status = !ok                                                            ? gis_say_failure(&error)
-                 : run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS
-                                                                         : GIS_DONE;
+    bool lost = ok && run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS];
+    int status = !ok ? gis_say_failure(&error) : lost ? GIS_CONFLICTS : GIS_DONE;
     gis_sink_free(run.sink);
     sunder_route_free(run.route);
     gis_route_input_clear(&run.input);
+    gis_route_request_clear(&run.request);
     return status;
 }

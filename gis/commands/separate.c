@@ -1,16 +1,24 @@
 /* separate.c: sunder separate. Read, separate, write, say what came of it. */
 #include "base/message.h"
+#include "base/resources.h"
 #include "commands/commands.h"
 #include "commands/report.h"
-#include "write/deliver.h"
+#include "commands/resolve.h"
 #include "layer/output.h"
+#include "read/ruler.h"
 
 #include <cpl_conv.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+/* Bits of --layers. */
+enum { LAYER_MAIN = 1, LAYER_DISPLACEMENT = 2, LAYER_CONFLICTS = 4, LAYER_SYMBOLS = 8, N_LAYERS = 4 };
 
 typedef struct separate_run {
     const gis_options *options;
+    gis_destinations to;
+    gis_layer_input_request request;
     gis_layer_input input;
     const char *suffixes[4]; /* of the layers besides the main one; the sink borrows them */
     gis_sink *sink;
@@ -27,34 +35,53 @@ static bool write_layers(const separate_run *run, gis_error *error)
     unsigned chosen = run->chosen;
     gis_sink *sink = run->sink;
     const gis_layer_input *input = &run->input;
-    if ((chosen & GIS_LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
+    if ((chosen & LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
         return false;
-    if ((chosen & GIS_LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error))
+    if ((chosen & LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error))
         return false;
-    if ((chosen & GIS_LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error))
+    if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error))
         return false;
-    return !(chosen & GIS_LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
+    return !(chosen & LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
+}
+
+/* What --layers chooses of those that apply; an unknown name is wrong usage. */
+static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error)
+{
+    static const char *const names[N_LAYERS] = {"main", "displacement", "conflicts", "symbols"};
+    const unsigned apply = LAYER_MAIN | LAYER_DISPLACEMENT | LAYER_CONFLICTS | (points ? LAYER_SYMBOLS : 0u);
+    *chosen = list ? 0 : apply;
+    for (const char *rest = list; rest;) {
+        size_t n = strcspn(rest, ","), k = 0;
+        while (k < N_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0))
+            k++;
+        if (k == N_LAYERS)
+            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
+                                  rest);
+        *chosen |= 1u << k;
+        rest = rest[n] ? rest + n + 1 : NULL;
+    }
+    *chosen &= apply;
+    return *chosen || gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", list);
 }
 
 /* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
 static bool open_sink(separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!gis_layers_chosen(run->options, run->input.points, &run->chosen, error))
+    if (!choose_layers(run->options->text[OPT_LAYERS], run->input.points, &run->chosen, error))
         return false;
-    if (run->chosen & GIS_LAYER_DISPLACEMENT)
+    if (run->chosen & LAYER_DISPLACEMENT)
         run->suffixes[n++] = "displacement";
-    if (run->chosen & GIS_LAYER_CONFLICTS)
+    if (run->chosen & LAYER_CONFLICTS)
         run->suffixes[n++] = "conflicts";
-    if (run->chosen & GIS_LAYER_SYMBOLS)
+    if (run->chosen & LAYER_SYMBOLS)
         run->suffixes[n++] = "symbols";
-    gis_sink_request request =
-        gis_options_sink(run->options, run->options->operand[1], gis_source_name(run->input.source));
+    gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error))
         return false;
     if (!gis_sink_takes_more(run->sink))
-        run->chosen = GIS_LAYER_MAIN;
+        run->chosen = LAYER_MAIN;
     return true;
 }
 
@@ -217,9 +244,9 @@ static bool print_summary(const void *separated, gis_error *error)
         printf(" (FID " CPL_FRMT_GIB ")", gis_source_fid(run->input.source, summary->max_feature));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            optimality_gap(summary));
-    if (gis_any_conflict(after) && (run->chosen & GIS_LAYER_CONFLICTS))
+    if (gis_any_conflict(after) && (run->chosen & LAYER_CONFLICTS))
         printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
-               gis_options_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
+               gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
            gis_clock() - run->start);
     return true;
@@ -228,9 +255,9 @@ static bool print_summary(const void *separated, gis_error *error)
 static bool deliver(const separate_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (gis_stats_path(run->options))
+    if (run->to.stats)
         json_separate(&stats, run);
-    const gis_delivery delivery = {run->options, run->sink, &stats,
+    const gis_delivery delivery = {run->to.stats, run->sink, &stats,
                                    taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
@@ -240,10 +267,14 @@ static bool deliver(const separate_run *run, bool taken, gis_error *error)
 int gis_command_separate(const gis_options *options)
 {
     gis_error error;
-    separate_run run = {.options = options, .progress = gis_progress_of(options), .start = gis_clock()};
-    bool taken, ok = gis_stdout_taken(options, options->operand[1], &taken, &error) && gis_stats_check(options, &error);
+    separate_run run = {.options = options,
+                        .to = gis_resolve_destinations(options),
+                        .progress = gis_resolve_progress(options),
+                        .start = gis_clock()};
+    bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, 0.1);
-    ok = ok && gis_layer_input_read(options, &run.input, &error);
+    ok = ok && gis_resolve_layer(options, &run.request, &error) &&
+         gis_layer_input_read(&run.request, &run.input, &error);
     run.read = gis_clock() - run.start;
     ok = ok && solve_and_write(&run, &error) && deliver(&run, taken, &error);
     int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.after);

@@ -1,82 +1,31 @@
 /* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "base/resources.h"
 #include "commands/commands.h"
 #include "commands/report.h"
-#include "read/operand.h"
+#include "commands/resolve.h"
 #include "sum/layers.h"
-#include "write/deliver.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct sum_run {
     const gis_options *options;
+    gis_destinations to;
     sunder_sum_options how;
     gis_operands operands;
     sunder_shape *reflected; /* -Q, with --reflect */
     sunder_sum *sum;
-    gis_sink_request request; /* the sink borrows it */
-    gis_sink *sink;           /* NULL: no layers are written */
+    gis_sink *sink;       /* NULL: no layers are written */
     double max_deviation; /* of layers; NaN: none are written */
     double read, decompose, compute, write, start;
 } sum_run;
-
-/* The number of an option's word among the names of an enumeration, which end with an empty one. */
-static bool choice(const gis_options *options, gis_option_id option, const char *(*name)(unsigned), unsigned *number,
-                   gis_error *error)
-{
-    const char *word = options->text[option];
-    for (*number = 0; name(*number)[0]; ++*number)
-        if (word && strcmp(name(*number), word) == 0)
-            return true;
-    return gis_fail_usage(error, "%s: the library knows nothing of the name %s", gis_option_table[option].names,
-                          word ? word : "(none)");
-}
-
-static const char *algorithm_name(unsigned i)
-{
-    return sunder_algorithm_string((sunder_algorithm)i);
-}
-
-static const char *decomposition_name(unsigned i)
-{
-    return sunder_decomposition_string((sunder_decomposition)i);
-}
-
-static const char *order_name(unsigned i)
-{
-    return sunder_order_string((sunder_order)i);
-}
-
-/* How the sum is to be made. The planar map is refused where nobody would see it, or nothing makes it. */
-static bool choose_road(sum_run *run, gis_error *error)
-{
-    const gis_options *options = run->options;
-    unsigned algorithm, decomposition, order;
-    if (!choice(options, OPT_ALGORITHM, algorithm_name, &algorithm, error) ||
-        !choice(options, OPT_DECOMPOSITION, decomposition_name, &decomposition, error) ||
-        !choice(options, OPT_ORDER, order_name, &order, error))
-        return false;
-    run->how.algorithm = (sunder_algorithm)algorithm;
-    run->how.decomposition = (sunder_decomposition)decomposition;
-    run->how.order = (sunder_order)order;
-    run->how.seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
-    run->how.keep_map = options->given[OPT_PLANAR_MAP];
-    if (!run->how.keep_map)
-        return true;
-    if (run->how.algorithm == SUNDER_ALGORITHM_CONVOLUTION)
-        return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
-    if (!options->operand[2] || strcmp(options->operand[2], "/vsistdout/") == 0)
-        return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
-    return true;
-}
 
 static bool compute(sum_run *run, gis_error *error)
 {
     sunder_error why;
     const sunder_shape *q = run->operands.q;
-    gis_progress progress = gis_progress_of(run->options);
+    gis_progress progress = gis_resolve_progress(run->options);
     gis_progress_stage(&progress, 0, 1);
     run->decompose = run->operands.building;
     if (run->options->given[OPT_REFLECT]) {
@@ -303,15 +252,15 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
 }
 
 /* Opened before the work is done: what can be refused is refused at once. */
-static bool open_sink(sum_run *run, const char *path, gis_error *error)
+static bool open_sink(sum_run *run, gis_error *error)
 {
     static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", "faces", "edges", "vertices",
                                            NULL};
     static const char *const without_map[] = {"degenerate_segments", "degenerate_points", NULL};
-    run->request = gis_options_sink(run->options, path, "sum");
-    run->request.suffixes = run->how.keep_map ? suffixes : without_map;
-    return gis_operands_spare(&run->operands, run->options, path, error) &&
-           gis_sink_open(&run->request, gis_operands_source(&run->operands), &run->sink, error);
+    gis_sink_request request = gis_resolve_sink(run->options, run->to.output, "sum");
+    request.suffixes = run->how.keep_map ? suffixes : without_map;
+    return gis_operands_spare(&run->operands, run->to.output, request.update, error) &&
+           gis_sink_open(&request, gis_operands_source(&run->operands), &run->sink, error);
 }
 
 /* All but the last step, which is gis_deliver()'s. */
@@ -336,10 +285,10 @@ static bool report(sum_run *run, bool taken, gis_error *error)
                         : !wanted || (json_geometry(&geometry, run, error) &&
                                       (gis_json_text(&geometry) || gis_no_memory(error)));
     run->write = gis_clock() - begin;
-    ok = ok && (!gis_stats_path(run->options) || json_sum(&stats, run, NULL, error));
+    ok = ok && (!run->to.stats || json_sum(&stats, run, NULL, error));
     ok = ok && (!wanted || (json_sum(&whole, run, gis_json_text(&geometry), error) &&
                             (gis_json_text(&whole) || gis_no_memory(error))));
-    const gis_delivery delivery = {run->options, run->sink, &stats, wanted ? gis_print_json : NULL, &whole};
+    const gis_delivery delivery = {run->to.stats, run->sink, &stats, wanted ? gis_print_json : NULL, &whole};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&geometry);
     gis_json_clear(&whole);
@@ -350,11 +299,16 @@ static bool report(sum_run *run, bool taken, gis_error *error)
 int gis_command_sum(const gis_options *options)
 {
     gis_error error;
-    sum_run run = {.options = options, .max_deviation = NAN, .start = gis_clock()};
-    bool taken, ok = choose_road(&run, &error) && gis_stdout_taken(options, options->operand[2], &taken, &error);
-    ok = ok && gis_stats_check(options, &error) && gis_operands_read(options, &run.operands, &error);
+    sum_run run = {.options = options,
+                   .to = gis_resolve_destinations(options),
+                   .max_deviation = NAN,
+                   .start = gis_clock()};
+    gis_operands_request request;
+    bool taken, ok = gis_resolve_road(options, &run.how, &error) && gis_destinations_check(&run.to, &taken, &error) &&
+                     gis_resolve_operands(options, &request, &error) &&
+                     gis_operands_read(&request, &run.operands, &error);
     run.read = gis_clock() - run.start - run.operands.building;
-    ok = ok && (!options->operand[2] || open_sink(&run, options->operand[2], &error));
+    ok = ok && (!run.to.output || open_sink(&run, &error));
     ok = ok && compute(&run, &error) && report(&run, taken, &error);
     gis_sink_free(run.sink);
     sunder_sum_free(run.sum);

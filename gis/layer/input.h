@@ -1,13 +1,26 @@
-/* input.h: a source's features as the core's layer, after the options of separate and check. */
+/* input.h: a source's features as the core's layer: what separate and check, and in part buffer, read. */
 #ifndef GIS_LAYER_INPUT_H
 #define GIS_LAYER_INPUT_H
 
-#include "options/progress.h"
-#include "read/operand.h"
-#include "sunder.h"
+#include "base/progress.h"
+#include "layer/rules.h"
+#include "read/shape.h"
+
+/* What to read, and by which rules. Strings and lists are borrowed until the input is cleared; zeroed members mean "not
+ * given". */
+typedef struct gis_layer_input_request {
+    gis_source_request source; /* what it takes is filled in */
+    const char *output;        /* for who gives OUTPUT INPUT, and is told so */
+    gis_invalid invalid;
+    double scale; /* N of 1:N */
+    const char *id_field;
+    const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */
+    bool may_have_symbols;             /* whoever gives none, and points, is told of them */
+    gis_layer_rules rules;
+} gis_layer_input_request;
 
 typedef struct gis_layer_input {
-    const gis_options *options;
+    const gis_layer_input_request *request;
     gis_source *source;
     size_t n;                 /* features */
     bool points;              /* the features are points, and the shapes the symbols at them */
@@ -24,9 +37,9 @@ typedef struct gis_layer_input {
 } gis_layer_input;
 
 /* Reads everything. On failure what was read can be released all the same. */
-bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error);
+bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The source and the shapes alone, arcs as chords: for commands to which features are not in conflict. */
-bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis_error *error);
+bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);
 void gis_layer_input_clear(gis_layer_input *input);
@@ -34,27 +47,17 @@ void gis_layer_input_clear(gis_layer_input *input);
 /* "layer buildings, FID 12", with the user's own id if there is one. */
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size);
 
-/* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
-bool gis_field_is_blank(OGRFeatureH feature, int field);
-
-/* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones.
- * NULL: memory is out. Not for lists, whose texts are cut. */
-char *gis_field_key(OGRFeatureH feature, int field);
-
-/* The field that an option names; *field is -1 where it is not given. A field that is not there is an error that knows
- * which one was probably meant. */
-bool gis_layer_field(const gis_layer_input *input, gis_option_id option, int *field, gis_error *error);
-
-/* The stages, in this order: shapes (shapes.c) and rules (rules.c). */
-bool gis_layer_lengths(gis_layer_input *input, gis_error *error);
-bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* --ignore-where, --fixed-where */
-bool gis_layer_blocks(gis_layer_input *input, gis_error *error);  /* --block-field */
-bool gis_layer_weights(gis_layer_input *input, gis_error *error); /* --weight, --weight-field */
+/* The stages, in this order. */
+bool gis_layer_lengths(gis_layer_input *input, gis_error *error); /* rules.c */
+bool gis_layer_shapes(gis_layer_input *input, gis_error *error);  /* shapes.c */
+bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: who is ignored, who is fixed */
+bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
+bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 
 /* sunder_layer_separate or sunder_layer_check. */
 typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,
                                      sunder_report **out, sunder_error *err);
-/* Has the core do it, after the options; a call that it refuses as wrong is wrong usage. */
+/* Has the core do it, by the rules (run.c); a call that it refuses as wrong is wrong usage. */
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
                    sunder_layer_summary *summary, gis_error *error);
 

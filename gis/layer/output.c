@@ -1,4 +1,5 @@
-/* output.c: the layers of separate but the conflicts. */
+/* output.c: the layers of separate but the conflicts. What is written of a feature is what the core says of it: its move
+ * and the place that this leads to are the doubles that were proved. */
 #include "layer/output.h"
 
 #include "base/interrupt.h"
@@ -6,27 +7,6 @@
 #include <cpl_conv.h>
 #include <math.h>
 #include <string.h>
-
-bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen, gis_error *error)
-{
-    static const char *const names[] = {"main", "displacement", "conflicts", "symbols"};
-    unsigned apply = GIS_LAYER_MAIN | GIS_LAYER_DISPLACEMENT | GIS_LAYER_CONFLICTS | (points ? GIS_LAYER_SYMBOLS : 0u);
-    const char *list = options->text[OPT_LAYERS];
-    *chosen = list ? 0 : apply;
-    while (list) {
-        size_t n = strcspn(list, ","), k = 0;
-        while (k < 4 && (strlen(names[k]) != n || memcmp(names[k], list, n) != 0))
-            k++;
-        if (k == 4)
-            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
-                                  list);
-        *chosen |= 1u << k;
-        list = list[n] ? list + n + 1 : NULL;
-    }
-    *chosen &= apply;
-    return *chosen ||
-           gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", options->text[OPT_LAYERS]);
-}
 
 static gis_value block_value(const sunder_report *report, size_t feature)
 {

@@ -5,17 +5,6 @@
 #include "layer/input.h"
 #include "write/sink.h"
 
-/* Bits of --layers. */
-enum {
-    GIS_LAYER_MAIN = 1,
-    GIS_LAYER_DISPLACEMENT = 2,
-    GIS_LAYER_CONFLICTS = 4,
-    GIS_LAYER_SYMBOLS = 8
-};
-
-/* What --layers chooses of those that apply; an unknown name is wrong usage. */
-bool gis_layers_chosen(const gis_options *options, bool points, unsigned *chosen, gis_error *error);
-
 /* LAYER: every feature, moved, with sunder_dx, sunder_dy, sunder_len, sunder_st, sunder_blk. */
 bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 /* LAYER_displacement: a line for each feature that moved. */

@@ -5,33 +5,18 @@
 
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "layer/fields.h"
 #include "round/round.h"
 
 #include <cpl_conv.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+/* Corners of the polygon that a shape with arcs is grown by. With 16 it reaches a fiftieth farther than the disc that it
+ * contains, whose radius is itself under a thousandth of the arc's (GDAL's chords span four degrees). */
 static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
-
-void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
-{
-    GIntBig fid = gis_source_fid(input->source, i);
-    int n = snprintf(text, size, "layer %s, ", gis_source_name(input->source));
-    if (n < 0 || (size_t)n >= size)
-        return;
-    if (fid == OGRNullFID)
-        n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
-    else
-        n += snprintf(text + n, size - (size_t)n, "FID " CPL_FRMT_GIB, fid);
-    OGRFeatureH feature = gis_source_feature(input->source, i);
-    if (input->id_field >= 0 && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
-        snprintf(text + n, size - (size_t)n, " (id %s)", OGR_F_GetFieldAsString(feature, input->id_field));
-}
 
 /* The core's status of a call about one feature. */
 static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
@@ -70,21 +55,14 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
 static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gis_error *error)
 {
     char who[512];
-    gis_invalid policy = gis_options_invalid(input->options);
     sunder_shape *shape = NULL, *grown;
     bool invalid;
-    gis_error reason;
     if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error))
         return false;
     gis_feature_name(input, i, who, sizeof who);
-    bool ok = gis_shape_of_polygons(&rings->set, policy, who, &shape, &invalid, &reason, error);
-    if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
+    if (!gis_shape_of_feature(&rings->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
         return false;
-    if (invalid) {
-        input->invalid++;
-        gis_say_warning("%s: invalid: %s; %s", who, reason.message,
-                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
-    }
+    input->invalid += invalid;
     if (rings->linearised > 0 && input->as_chords)
         gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
                         rings->linearised);
@@ -139,7 +117,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
                         gis_error *error)
 {
     sunder_shape *symbol;
-    if (!gis_shape_from_text(text, who, &input->rule, gis_options_invalid(input->options), &symbol, NULL, error))
+    if (!gis_shape_from_text(text, who, &input->rule, input->request->invalid, &symbol, NULL, error))
         return false;
     if (sunder_shape_is_empty(symbol)) {
         sunder_shape_free(symbol);
@@ -159,13 +137,13 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
         if (common)
             return place_symbol(input, i, common, who, error);
         return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
-                        input->options->text[OPT_SYMBOL_FIELD]);
+                        input->request->symbol_field);
     }
     sunder_shape *own = NULL;
     const char *text = OGR_F_GetFieldAsString(feature, field);
     if (!gis_shape_is_text(text))
         return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
-                        input->options->text[OPT_SYMBOL_FIELD]);
+                        input->request->symbol_field);
     if (!read_symbol(input, text, who, &own, error)) {
         error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
         return false;
@@ -185,18 +163,17 @@ typedef struct shaping {
 /* --symbol and --symbol-field. */
 static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *error)
 {
-    const gis_options *options = input->options;
-    const char *symbol = options->text[OPT_SYMBOL];
-    if (!gis_layer_field(input, OPT_SYMBOL_FIELD, &how->symbol_field, error))
+    const char *symbol = input->request->symbol;
+    if (!gis_field_find(input->source, "--symbol-field", input->request->symbol_field, &how->symbol_field, error))
         return false;
-    if (!options->given[OPT_SYMBOL])
+    if (!symbol)
         return true;
     if (!gis_shape_is_text(symbol))
         return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
     return read_symbol(input, symbol, "--symbol", &how->symbol, error);
 }
 
-static bool make_shapes(gis_layer_input *input, gis_error *error)
+bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
 {
     shaping how = {.symbol_field = -1};
     gis_content wanted = input->points ? GIS_POINTS : GIS_POLYGONS;
@@ -213,123 +190,4 @@ static bool make_shapes(gis_layer_input *input, gis_error *error)
     sunder_shape_free(how.symbol);
     gis_rings_clear(&how.rings);
     return ok;
-}
-
-/* Who writes OUTPUT INPUT, as with ogr2ogr, is told so. */
-static bool hint_at_order(const gis_options *options, gis_error *error)
-{
-    const char *input = options->operand[0], *output = options->operand[1];
-    if (output && strstr(error->message, "no such file") && access(input, F_OK) != 0 && access(output, F_OK) == 0)
-        return gis_fail(error, "%s: no such file, but %s exists: the order is INPUT OUTPUT", input, output);
-    return false;
-}
-
-/* Points are taken where a symbol is given, which is easily forgotten. */
-static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
-{
-    bool known = gis_option_table[OPT_SYMBOL].commands & input->options->command->bit;
-    if (input->points || !known || !strstr(error->message, "Point"))
-        return false;
-    size_t n = strlen(error->message);
-    snprintf(error->message + n, sizeof error->message - n, "; for points give their --symbol, as in --symbol disc:4");
-    return false;
-}
-
-static bool open_source(gis_layer_input *input, gis_error *error)
-{
-    const gis_options *options = input->options;
-    input->points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
-    gis_source_request request =
-        gis_options_source(options, options->operand[0], input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS);
-    if (!gis_source_open(&request, &input->source, error))
-        return hint_at_order(options, error) || hint_at_symbol(input, error);
-    gis_say_warnings(gis_source_warnings(input->source));
-    input->n = gis_source_count(input->source);
-    return gis_layer_field(input, OPT_ID_FIELD, &input->id_field, error);
-}
-
-void gis_layer_warn_of_crs(const gis_layer_input *input)
-{
-    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < input->n; i++) {
-        double one[4];
-        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
-            continue;
-        sunder_shape_box(input->shape[i], one);
-        for (int k = 0; k < 2; k++) {
-            box[k] = fmin(box[k], one[k]);
-            box[k + 2] = fmax(box[k + 2], one[k + 2]);
-        }
-    }
-    gis_ruler_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
-}
-
-static bool make_layer(gis_layer_input *input, gis_error *error)
-{
-    sunder_error why;
-    for (size_t i = 0; i < input->n; i++)
-        input->feature[i].shape = input->shape[i];
-    if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
-        return core_failed(gis_source_name(input->source), &why, error);
-    return true;
-}
-
-static bool start_reading(const gis_options *options, gis_layer_input *out, gis_error *error)
-{
-    *out = (gis_layer_input){.options = options, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
-    if (!open_source(out, error))
-        return false;
-    out->rule = gis_ruler_of(gis_source_crs(out->source), options);
-    out->shape = calloc(out->n + 1, sizeof *out->shape);
-    return out->shape || gis_no_memory(error);
-}
-
-bool gis_layer_shapes_read(const gis_options *options, gis_layer_input *out, gis_error *error)
-{
-    if (!start_reading(options, out, error))
-        return false;
-    out->as_chords = true;
-    return make_shapes(out, error);
-}
-
-/* A layer of any type may hold what the command passes by. */
-static void warn_of_others(const gis_layer_input *input)
-{
-    bool any_points = false;
-    for (size_t i = 0; i < input->n && !input->points && !any_points; i++)
-        any_points = gis_source_content(input->source, i) == GIS_POINTS;
-    if (input->other > 0)
-        gis_say_warning("%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
-                        gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
-                        any_points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
-}
-
-bool gis_layer_input_read(const gis_options *options, gis_layer_input *out, gis_error *error)
-{
-    if (!start_reading(options, out, error))
-        return false;
-    out->feature = calloc(out->n + 1, sizeof *out->feature);
-    if (!out->feature)
-        return gis_no_memory(error);
-    if (!gis_layer_lengths(out, error) || !make_shapes(out, error))
-        return false;
-    for (size_t i = 0; i < out->n; i++) {
-        bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
-        out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
-    }
-    gis_layer_warn_of_crs(out);
-    warn_of_others(out);
-    return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
-           make_layer(out, error);
-}
-
-void gis_layer_input_clear(gis_layer_input *input)
-{
-    sunder_layer_free(input->layer);
-    for (size_t i = 0; input->shape && i < input->n; i++)
-        sunder_shape_free(input->shape[i]);
-    free(input->shape);
-    free(input->feature);
-    gis_source_close(input->source);
-    *input = (gis_layer_input){0};
 }

@@ -1,6 +1,8 @@
-/* ruler.c: what a CRS says about lengths on its map. */
+/* ruler.c: see ruler.h. Only what the CRS itself says counts; the one place where coordinates are looked at, the local
+ * scale of a Mercator map, feeds a warning and nothing else. */
+#include "read/ruler.h"
+
 #include "base/message.h"
-#include "read/operand.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,11 +15,16 @@ bool gis_crs_is_known(OGRSpatialReferenceH crs)
     return crs && !(name && EQUALN(name, "undefined", 9));
 }
 
-gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, const gis_options *options)
+bool gis_crs_may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q)
+{
+    return !gis_crs_is_known(p) || !gis_crs_is_known(q) || OSRIsSame(p, q);
+}
+
+gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, double scale)
 {
     if (!gis_crs_is_known(crs))
         crs = NULL;
-    gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = options->number[OPT_SCALE]};
+    gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = scale};
     if (crs) {
         rule.geographic = OSRIsGeographic(crs) != 0;
         if (!rule.geographic)
@@ -69,10 +76,8 @@ void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *b
     if (!gis_crs_is_known(crs))
         return;
     if (OSRIsGeographic(crs))
-        gis_say_warning(
-            "%s: the coordinates are degrees; distances and moves are measured in them, which are no lengths on "
-            "the ground",
-            layer);
+        gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no "
+                        "lengths on the ground", layer);
     else
         warn_mercator(crs, layer, box);
 }

@@ -1,10 +1,12 @@
-/* shape_text.c: shapes written on the command line or in a field: WKT, @FILE, @-, disc:, inside-disc:, square:,
- * rectangle:. */
+/* shape_text.c: see shape_text.h. A text is told from a data source by its first words alone, but a file of that very
+ * name is a data source: who has one called "POLYGON (...)" means it. */
+#include "read/shape_text.h"
+
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/nearest.h"
-#include "options/progress.h"
-#include "read/operand.h"
+#include "base/resources.h"
+#include "read/wkt.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -144,33 +146,6 @@ bool gis_shape_read_file(const char *name, const char *who, char **text, gis_err
     if (!standard)
         fclose(file);
     return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
-}
-
-static bool shape_failed(const char *who, sunder_status status, const sunder_error *why, gis_error *error)
-{
-    gis_fail(error, "%s: %s", who, why->message);
-    error->no_memory = status == SUNDER_ENOMEM;
-    return false;
-}
-
-bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
-                           bool *invalid, gis_error *reason, gis_error *error)
-{
-    sunder_error why;
-    *invalid = false;
-    sunder_status status = gis_polygons_shape(set, SUNDER_VALIDITY_STRICT, out, &why);
-    if (status == SUNDER_OK)
-        return true;
-    if (status != SUNDER_EINVALID)
-        return shape_failed(who, status, &why, error);
-    *invalid = true;
-    gis_fail(reason, "%s", why.message);
-    if (policy == GIS_INVALID_REPAIR) {
-        status = gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, out, &why);
-        if (status == SUNDER_OK)
-            return true;
-    }
-    return shape_failed(who, status, &why, error);
 }
 
 bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,

@@ -97,3 +97,10 @@ bool gis_source_lies_in(const gis_source *source, const char *file)
     CSLDestroy(files);
     return found;
 }
+
+bool gis_source_spare(const gis_source *source, const char *output, bool update, gis_error *error)
+{
+    if (!update && gis_source_lies_in(source, output))
+        return gis_fail(error, "%s is an input; give another output, or --update with new layer names", output);
+    return true;
+}

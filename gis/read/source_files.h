@@ -12,4 +12,7 @@ bool gis_path_lies_in(const char *path, const char *file);
 /* The same of all files of an open source. NULL: false. */
 bool gis_source_lies_in(const gis_source *source, const char *file);
 
+/* False, with an error, if writing the output would replace this source (NULL: there is none). An update adds to it. */
+bool gis_source_spare(const gis_source *source, const char *output, bool update, gis_error *error);
+
 #endif

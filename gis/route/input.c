@@ -1,8 +1,10 @@
-/* input.c: obstacles of a layer of any kind, or of a text; the robot; start and goal. */
+/* input.c: obstacles of a layer of any kind, or of a text, and the robot. A feature is one obstacle with all that it has:
+ * polygons as a shape, lines and points as chains. */
 #include "route/input.h"
 
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "read/ruler.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -97,9 +99,7 @@ static bool make_room(gis_route_input *input, size_t n, gis_error *error)
 static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_rings *rings, gis_error *error)
 {
     char who[512];
-    gis_invalid policy = gis_options_invalid(input->options);
-    bool arcs = false, invalid = false;
-    gis_error reason;
+    bool arcs = false, invalid;
     if (!geometry)
         return true;
     gis_route_obstacle_name(input, i, who, sizeof who);
@@ -110,26 +110,19 @@ static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry
                         rings->linearised);
     if (arcs)
         gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
-    if (!rings->set.polygons)
-        return true;
-    bool ok = gis_shape_of_polygons(&rings->set, policy, who, &input->shape[i], &invalid, &reason, error);
-    if (!ok && !(invalid && policy == GIS_INVALID_SKIP))
-        return false;
-    if (invalid)
-        gis_say_warning("%s: %s; %s", who, reason.message,
-                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
-    return true;
+    return !rings->set.polygons || gis_shape_of_feature(&rings->set, input->request->invalid, who, "", &input->shape[i],
+                                                        &invalid, error);
 }
 
 static bool read_layer(gis_route_input *input, gis_error *error)
 {
-    gis_source_request request = gis_options_source(input->options, input->options->operand[0],
-                                                    GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS);
-    const char *meant = gis_shape_prefix_meant(input->options->operand[0]);
-    if (!gis_source_open(&request, &input->source, error)) {
+    const char *path = input->request->obstacles, *meant = gis_shape_prefix_meant(path);
+    gis_source_request selected = input->request->source;
+    selected.path = path;
+    selected.takes = GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS;
+    if (!gis_source_open(&selected, &input->source, error)) {
         if (meant && strstr(error->message, "no such file"))
-            gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?",
-                     input->options->operand[0], meant);
+            gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?", path, meant);
         return false;
     }
     gis_say_warnings(gis_source_warnings(input->source));
@@ -181,7 +174,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
 {
     double unasked = 0;
     char who[640], *held = NULL;
-    const gis_invalid policy = gis_options_invalid(input->options);
+    const gis_invalid policy = input->request->invalid;
     gis_shape_name("OBSTACLES", text, who, sizeof who);
     if (!make_room(input, 1, error) || (text[0] == '@' && !gis_shape_read_file(text + 1, who, &held, error)))
         return false;
@@ -197,37 +190,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     return ok;
 }
 
-/* ---- Start and goal ---------------------------------------------------------------------------------------------- */
-
-/* One coordinate: a decimal, taken as the nearest double, or a fraction of whole numbers, taken as it is. */
-static bool read_coordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
-{
-    const char *slash = memchr(text, '/', n);
-    if (!slash)
-        return gis_length_parse_number(text, n, value);
-    size_t start = text[0] == '-' || text[0] == '+', m = (size_t)(slash - text);
-    if (strspn(text + start, "0123456789") != m - start || m == start || n == m + 1 ||
-        strspn(slash + 1, "0123456789") < n - m - 1 || strspn(slash + 1, "0") >= n - m - 1)
-        return false;
-    *fraction = CPLMalloc(n + 1);
-    memcpy(*fraction, text, n);
-    (*fraction)[n] = '\0';
-    *exact = *fraction;
-    return true;
-}
-
-static bool read_place(const gis_options *options, gis_option_id id, const char *name, sunder_place *out,
-                       char **fractions, gis_error *error)
-{
-    const char *text = options->text[id];
-    if (!text)
-        return gis_fail_usage(error, "%s X,Y is missing", name);
-    const char *comma = strchr(text, ',');
-    if (!comma || !read_coordinate(text, (size_t)(comma - text), &out->xy[0], &fractions[0], &out->text[0]) ||
-        !read_coordinate(comma + 1, strlen(comma + 1), &out->xy[1], &fractions[1], &out->text[1]))
-        return gis_fail_usage(error, "%s %s: expected X,Y, each a decimal or num/den", name, text);
-    return true;
-}
+/* ---- All of it ------------------------------------------------------------------------------------------------- */
 
 static void join_place(double box[4], double x, double y)
 {
@@ -254,27 +217,18 @@ static void warn_of_crs(const gis_route_input *input)
     gis_ruler_warn(input->crs, gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
 }
 
-bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_error *error)
+bool gis_route_input_read(const gis_route_request *request, gis_route_input *out, gis_error *error)
 {
-    *out = (gis_route_input){.options = options};
-    const char *obstacles = options->operand[0];
-    bool text = gis_shape_is_text(obstacles);
-    /* What is wrong with the call is said before anything is read. */
-    if (!read_place(options, OPT_FROM, "--from", &out->from, out->text, error) ||
-        !read_place(options, OPT_TO, "--to", &out->to, out->text + 2, error))
-        return false;
-    if (!options->text[OPT_ROBOT])
-        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
+    *out = (gis_route_input){.request = request};
+    bool text = gis_shape_is_text(request->obstacles);
     if (!text && !read_layer(out, error))
         return false;
-    out->rule = gis_ruler_of(out->crs, options);
-    if (text && !read_text(out, obstacles, error))
+    out->rule = gis_ruler_of(out->crs, request->scale);
+    if (text && !read_text(out, request->obstacles, error))
         return false;
     warn_of_crs(out);
-    if (!gis_shape_of_option(options, OPT_ROBOT, &out->rule, out->crs, &out->robot_source, &out->robot, error))
-        return false;
-    if (options->given[OPT_GAP] &&
-        !gis_length_in_layer_units(&options->length[OPT_GAP], &out->rule, "--gap", &out->gap, error))
+    if (!gis_shape_read(&request->robot, &out->rule, out->crs, &out->robot_source, &out->robot, error) ||
+        !gis_optional_length_in_layer_units(&request->gap, &out->rule, "--gap", &out->gap, error))
         return false;
     for (size_t i = 0; i < out->n; i++)
         out->obstacle[i] =
@@ -292,10 +246,14 @@ void gis_route_input_clear(gis_route_input *input)
     free(input->shape);
     free(input->lines);
     free(input->obstacle);
-    for (int k = 0; k < 4; k++)
-        CPLFree(input->text[k]);
     sunder_shape_free(input->robot);
     gis_source_close(input->robot_source);
     gis_source_close(input->source);
     *input = (gis_route_input){0};
+}
+
+void gis_route_request_clear(gis_route_request *request)
+{
+    gis_place_clear(&request->from);
+    gis_place_clear(&request->to);
 }

@@ -1,8 +1,23 @@
-/* input.h: what sunder route reads: obstacles, each feature by itself, the robot, start and goal. */
+/* input.h: what sunder route reads: obstacles, each feature by itself, and the robot. */
 #ifndef GIS_ROUTE_INPUT_H
 #define GIS_ROUTE_INPUT_H
 
-#include "read/operand.h"
+#include "read/shape.h"
+#include "route/place.h"
+
+/* What a route is asked of. Strings and lists are borrowed until the input is cleared. */
+typedef struct gis_route_request {
+    const char *obstacles;     /* a data source, or a text */
+    gis_source_request source; /* what is selected from it, if it is one; path and what it takes are filled in */
+    gis_shape_request robot;
+    gis_place from, to; /* owned */
+    gis_optional_length gap;
+    double scale; /* N of 1:N; 0: not given */
+    gis_invalid invalid;
+    bool free_space; /* layers of obstacles and free space, too */
+} gis_route_request;
+
+void gis_route_request_clear(gis_route_request *request);
 
 /* The lines and points of one feature. */
 typedef struct gis_lines {
@@ -12,7 +27,7 @@ typedef struct gis_lines {
 } gis_lines;
 
 typedef struct gis_route_input {
-    const gis_options *options;
+    const gis_route_request *request;
     gis_source *source;       /* of the obstacles; NULL: they are a text */
     gis_source *robot_source; /* likewise */
     gis_ruler rule;
@@ -22,13 +37,11 @@ typedef struct gis_route_input {
     gis_lines *lines;         /* [n] */
     sunder_obstacle *obstacle; /* [n] borrows the two */
     sunder_shape *robot;
-    sunder_place from, to;
     double gap;
-    char *text[4]; /* of from and to, where they are fractions */
 } gis_route_input;
 
 /* Reads everything. On failure what was read can be released all the same. */
-bool gis_route_input_read(const gis_options *options, gis_route_input *out, gis_error *error);
+bool gis_route_input_read(const gis_route_request *request, gis_route_input *out, gis_error *error);
 void gis_route_input_clear(gis_route_input *input);
 
 /* "layer buildings, FID 12", or "OBSTACLES" of a text. */

@@ -221,7 +221,7 @@ bool gis_write_route(gis_sink *sink, const gis_route_input *input, const sunder_
     bool ok = write_legs(&w, error);
     if (ok && gis_sink_takes_more(sink)) {
         ok = write_placements(&w, error);
-        if (ok && input->options->given[OPT_FREE_SPACE])
+        if (ok && input->request->free_space)
             ok = write_spaces(&w, error);
     }
     *deviation = w.deviation;

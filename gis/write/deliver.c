@@ -1,4 +1,5 @@
-/* deliver.c: see deliver.h. */
+/* deliver.c: see deliver.h. What can fail comes first and what cannot be undone last, so that a failure at any step finds
+ * everything as it was. */
 #include "write/deliver.h"
 
 #include "base/interrupt.h"
@@ -12,10 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-const char *gis_stats_path(const gis_options *options)
-{
-    return options->given[OPT_STATS] ? options->text[OPT_STATS] : NULL;
-}
+#define N_OF(array) (sizeof(array) / sizeof *(array))
 
 /* A file that an operand or an option is read from, or that holds it: the file of @FILE, the archive of a member. */
 static bool reads(const char *operand, const char *file)
@@ -23,33 +21,33 @@ static bool reads(const char *operand, const char *file)
     return operand && gis_path_lies_in(operand + (operand[0] == '@'), file);
 }
 
-/* Texts in files are no datasets, which the sink looks after. */
-static bool check_texts(const gis_options *options, gis_error *error)
+static bool reads_text(const char *operand, const char *file)
 {
-    static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
-    size_t output = options->command->most - 1;
-    const char *path = options->n_operands > output ? options->operand[output] : NULL;
-    bool read = false;
-    for (size_t i = 0; path && i < output; i++)
-        read = read || (options->operand[i][0] == '@' && reads(options->operand[i], path));
-    for (size_t i = 0; path && i < sizeof shapes / sizeof *shapes; i++)
-        read = read || (options->given[shapes[i]] && options->text[shapes[i]][0] == '@' &&
-                        reads(options->text[shapes[i]], path));
-    return !read || gis_fail(error, "%s is an input; give another output", path);
+    return operand && operand[0] == '@' && reads(operand, file);
 }
 
-bool gis_stats_check(const gis_options *options, gis_error *error)
+/* Texts in files are no datasets, which the sink looks after. */
+static bool check_texts(const gis_destinations *to, gis_error *error)
 {
-    const char *path = gis_stats_path(options);
+    bool read = false;
+    for (size_t i = 0; to->output && i < N_OF(to->input); i++)
+        read = read || reads_text(to->input[i], to->output);
+    for (size_t i = 0; to->output && i < N_OF(to->shape); i++)
+        read = read || reads_text(to->shape[i], to->output);
+    return !read || gis_fail(error, "%s is an input; give another output", to->output);
+}
+
+static bool check_stats(const gis_destinations *to, gis_error *error)
+{
+    const char *path = to->stats;
     struct stat info;
-    if (!check_texts(options, error))
-        return false;
     if (!path || strcmp(path, "-") == 0)
         return true;
-    for (size_t i = 0; i < options->n_operands; i++)
-        if (reads(options->operand[i], path))
-            return gis_fail_usage(error, "--stats %s: that is %s; give another file", path,
-                                  i + 1 == options->command->most ? "the output" : "an input");
+    for (size_t i = 0; i < N_OF(to->input); i++)
+        if (reads(to->input[i], path))
+            return gis_fail_usage(error, "--stats %s: that is an input; give another file", path);
+    if (reads(to->output, path))
+        return gis_fail_usage(error, "--stats %s: that is the output; give another file", path);
     bool there = stat(path, &info) == 0;
     if (!there && lstat(path, &info) == 0)
         return gis_fail(error, "--stats: %s is a link that leads nowhere", path);
@@ -65,31 +63,15 @@ bool gis_stats_check(const gis_options *options, gis_error *error)
     return true;
 }
 
-bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error)
+bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error)
 {
-    bool by_stats = options->given[OPT_STATS] && strcmp(options->text[OPT_STATS], "-") == 0;
-    bool by_layer = output && strncmp(output, "/vsistdout", 10) == 0;
+    static const char layer[] = "/vsistdout";
+    bool by_stats = to->stats && strcmp(to->stats, "-") == 0;
+    bool by_layer = to->output && strncmp(to->output, layer, sizeof layer - 1) == 0;
     if (by_stats && by_layer)
         return gis_fail_usage(error, "--stats - and the output /vsistdout/ cannot share standard output");
-    *taken = by_stats || by_layer;
-    return true;
-}
-
-gis_sink_request gis_options_sink(const gis_options *options, const char *path, const char *main_layer)
-{
-    return (gis_sink_request){
-        .path = path,
-        .format = options->text[OPT_OF],
-        .layer_options = options->list[OPT_LCO],
-        .dataset_options = options->list[OPT_CO],
-        .main_layer = options->given[OPT_OUTPUT_LAYER] ? options->text[OPT_OUTPUT_LAYER] : main_layer,
-        .overwrite = options->given[OPT_OVERWRITE],
-        .update = options->given[OPT_UPDATE],
-        .overwrite_layer = options->given[OPT_OVERWRITE_LAYER],
-        .strict = options->given[OPT_STRICT],
-        .allow_inexact = options->given[OPT_ALLOW_INEXACT_OUTPUT],
-        .no_styles = options->given[OPT_NO_STYLES],
-    };
+    *stdout_taken = by_stats || by_layer;
+    return check_texts(to, error) && check_stats(to, error);
 }
 
 bool gis_print_json(const void *json, gis_error *error)
@@ -109,7 +91,7 @@ static bool flush_stdout(gis_error *error)
 bool gis_deliver(const gis_delivery *delivery, gis_error *error)
 {
     static const char *const what = "--stats";
-    const char *path = gis_stats_path(delivery->options);
+    const char *path = delivery->stats_path;
     gis_text_file file = {0};
     bool ok = gis_go_on(error) && (!path || gis_json_text(delivery->stats) || gis_no_memory(error));
     if (ok && path && strcmp(path, "-") == 0)

@@ -4,25 +4,25 @@
 #define GIS_DELIVER_H
 
 #include "base/json.h"
-#include "options/options.h"
 #include "write/sink.h"
 
-/* Where --stats goes; NULL if nowhere. */
-const char *gis_stats_path(const gis_options *options);
-/* Can the file of --stats be made, and is neither it nor the output a file that something is read from? Asked before
- * the work, so that its failure does not come when all is done. */
-bool gis_stats_check(const gis_options *options, gis_error *error);
-/* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
- * once is wrong usage. */
-bool gis_stdout_taken(const gis_options *options, const char *output, bool *taken, gis_error *error);
+/* Where results go, and what is read besides, lest one replace the other. Strings are borrowed. */
+typedef struct gis_destinations {
+    const char *output; /* NULL: none */
+    const char *stats;  /* --stats: a file, or "-" for standard output; NULL: nowhere */
+    const char *input[2]; /* the operands that are read: data sources, texts, @FILEs; NULL after the last */
+    const char *shape[3]; /* the SHAPEs of options, any of them NULL */
+} gis_destinations;
 
-/* The options of the output; `main_layer` is its name unless --output-layer says another. */
-gis_sink_request gis_options_sink(const gis_options *options, const char *path, const char *main_layer);
+/* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
+ * once is wrong usage. And can the file of --stats be made, and is neither it nor the output a file that something is
+ * read from? Asked before the work, so that its failure does not come when all is done. */
+bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error);
 
 typedef struct gis_delivery {
-    const gis_options *options;
+    const char *stats_path; /* as above */
     gis_sink *sink;        /* finished (gis_sink_finish); NULL: there is no output */
-    const gis_json *stats; /* what --stats gets, if it is given */
+    const gis_json *stats; /* what goes there, if anywhere */
     bool (*print)(const void *run, gis_error *error); /* what else goes to standard output, by stdio; NULL: nothing */
     const void *run;
 } gis_delivery;

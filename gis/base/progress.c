@@ -1,18 +1,17 @@
-/* progress.c: see progress.h. */
-#include "options/progress.h"
+/* progress.c: see progress.h. What is shown never goes back: a stage begins where the one before it ended, and what
+ * was printed once is not printed again. */
+#include "base/progress.h"
 
 #include "base/interrupt.h"
 
 #include <stdio.h>
-#include <sys/resource.h>
-#include <time.h>
 
-gis_progress gis_progress_of(const gis_options *options)
+/* GDAL's bar, 0...10...20 ... 100 - done.: a mark each 2.5 percent, every fourth a number. */
+enum { BAR_MARKS = 40, MARKS_A_NUMBER = 4, PERCENT_A_NUMBER = 10 };
+
+gis_progress gis_progress_new(gis_progress_kind kind)
 {
-    gis_progress progress = {GIS_PROGRESS_NONE, 0, 1, -1};
-    if (options->given[OPT_PROGRESS] && !options->given[OPT_QUIET])
-        progress.kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
-    return progress;
+    return (gis_progress){.kind = kind, .to = 1, .shown = -1};
 }
 
 void gis_progress_stage(gis_progress *progress, double from, double to)
@@ -22,13 +21,12 @@ void gis_progress_stage(gis_progress *progress, double from, double to)
     gis_progress_call(0, progress);
 }
 
-/* The bar is GDAL's: 0...10...20 ... 100 - done. It has a mark each 2.5 percent. */
 static void print_bar(gis_progress *progress, double fraction)
 {
-    int marks = (int)(fraction * 40);
+    int marks = (int)(fraction * BAR_MARKS);
     for (int mark = progress->shown + 1; mark <= marks; mark++) {
-        if (mark % 4 == 0)
-            fprintf(stderr, "%d", mark / 4 * 10);
+        if (mark % MARKS_A_NUMBER == 0)
+            fprintf(stderr, "%d", mark / MARKS_A_NUMBER * PERCENT_A_NUMBER);
         else
             fputc('.', stderr);
         progress->shown = mark;
@@ -56,23 +54,4 @@ void gis_progress_done(gis_progress *progress)
     gis_progress_stage(progress, 1, 1);
     if (progress->kind == GIS_PROGRESS_BAR)
         fputs(" - done.\n", stderr);
-}
-
-double gis_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-uint64_t gis_peak_rss(void)
-{
-    struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0)
-        return 0;
-#ifdef __APPLE__
-    return (uint64_t)usage.ru_maxrss;
-#else
-    return (uint64_t)usage.ru_maxrss * 1024; /* Linux and the BSDs count in KiB */
-#endif
 }

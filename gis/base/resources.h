@@ -1,0 +1,12 @@
+/* resources.h: what a run takes of time and of memory. */
+#ifndef GIS_RESOURCES_H
+#define GIS_RESOURCES_H
+
+#include <stdint.h>
+
+/* Seconds of a clock that never goes back. */
+double gis_clock(void);
+/* The greatest amount of memory that the process has held, in bytes; 0: the system does not say. */
+uint64_t gis_peak_rss(void);
+
+#endif

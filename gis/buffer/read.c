@@ -1,0 +1,22 @@
+/* read.c: the layer that is grown or shrunk, and the shape it is done by. The layer comes first: its CRS gives lengths in
+ * the shape their meaning. */
+#include "buffer/buffer.h"
+
+#include "base/message.h"
+#include "layer/fields.h"
+
+bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_error *error)
+{
+    gis_layer_input *input = &out->input;
+    *out = (gis_buffer){.request = request, .field = -1};
+    if (!gis_layer_shapes_read(&request->layer, input, error) ||
+        !gis_field_find(input->source, "--dissolve-field", request->dissolve_field, &out->field, error) ||
+        !gis_shape_read(&request->shape, &input->rule, gis_source_crs(input->source), &out->shape_source, &out->shape,
+                        error))
+        return false;
+    gis_layer_warn_of_crs(input);
+    if (input->other > 0)
+        gis_say_warning("%s: %zu features are no polygons; they are written without geometry",
+                        gis_source_name(input->source), input->other);
+    return gis_buffer_gather(out, error);
+}

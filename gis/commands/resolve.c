@@ -1,0 +1,311 @@
+/* resolve.c: see resolve.h. Here alone is known how an option is spelt, whether one that was not given has a value all
+ * the same, and which of them mean one thing together. The order in which requests are resolved and carried out is the
+ * commands' affair: it is the order in which errors are told. */
+#include "commands/resolve.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- Words ------------------------------------------------------------------------------------------------- */
+
+bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned), unsigned *number,
+                        gis_error *error)
+{
+    const char *given = options->text[id];
+    for (unsigned i = 0; word(i)[0]; i++)
+        if (given && strcmp(word(i), given) == 0) {
+            *number = i;
+            return true;
+        }
+    gis_fail_usage(error, "%s: the library knows nothing of the name %s", gis_option_table[id].names,
+                   given ? given : "(none)");
+    return false;
+}
+
+/* The functions that give an enumeration its words, of one type. */
+static const char *algorithm_word(unsigned i)
+{
+    return sunder_algorithm_string((sunder_algorithm)i);
+}
+
+static const char *decomposition_word(unsigned i)
+{
+    return sunder_decomposition_string((sunder_decomposition)i);
+}
+
+static const char *order_word(unsigned i)
+{
+    return sunder_order_string((sunder_order)i);
+}
+
+static const char *operation_word(unsigned i)
+{
+    return sunder_operation_string((sunder_operation)i);
+}
+
+static const char *invalid_word(unsigned i)
+{
+    return gis_invalid_string((gis_invalid)i);
+}
+
+static const char *weighting_word(unsigned i)
+{
+    return gis_weighting_string((gis_weighting)i);
+}
+
+/* The library has no words for this one. */
+static const char *containment_word(unsigned i)
+{
+    static const char *const word[] = {[SUNDER_CONTAINMENT_BLOCK] = "block",
+                                       [SUNDER_CONTAINMENT_IGNORE] = "ignore",
+                                       [SUNDER_CONTAINMENT_SEPARATE] = "separate"};
+    return i < sizeof word / sizeof *word ? word[i] : "";
+}
+
+static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_error *error)
+{
+    unsigned policy;
+    if (!gis_resolve_choice(options, OPT_INVALID, invalid_word, &policy, error))
+        return false;
+    *out = (gis_invalid)policy;
+    return true;
+}
+
+/* ---- What several requests share --------------------------------------------------------------------------- */
+
+/* More threads than any machine has processors would be a slip of the pen. */
+static const double most_threads = 4096;
+
+/* 0: as many as there are processors. */
+static unsigned thread_count(const gis_options *options)
+{
+    return options->given[OPT_THREADS] ? (unsigned)fmin(options->number[OPT_THREADS], most_threads) : 0;
+}
+
+gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id id)
+{
+    return (gis_optional_length){options->text[id], options->length[id]};
+}
+
+/* The operand that messages call INPUT, or OBSTACLES. */
+static gis_source_request resolve_source(const gis_options *options)
+{
+    return (gis_source_request){
+        .path = options->operand[0],
+        .drivers = options->list[OPT_IF],
+        .open_options = options->list[OPT_OO],
+        .layer = options->text[OPT_INPUT_LAYER],
+        .sql = options->text[OPT_SQL],
+        .dialect = options->text[OPT_DIALECT],
+        .where = options->text[OPT_WHERE],
+        .bbox = options->given[OPT_BBOX] ? options->box : NULL,
+        .input_crs = options->text[OPT_INPUT_CRS],
+    };
+}
+
+static gis_shape_request resolve_shape(const gis_options *options, gis_option_id id, gis_invalid invalid)
+{
+    return (gis_shape_request){gis_option_table[id].names, options->text[id], invalid};
+}
+
+/* ---- The commands' requests -------------------------------------------------------------------------------- */
+
+/* Symbols that lie on each other are what a layer of points is separated for; buildings that do belong together. */
+static bool resolve_contained(const gis_options *options, sunder_containment *out, gis_error *error)
+{
+    bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
+    unsigned contained = SUNDER_CONTAINMENT_SEPARATE;
+    if (!(points && !options->given[OPT_CONTAINED]) &&
+        !gis_resolve_choice(options, OPT_CONTAINED, containment_word, &contained, error))
+        return false;
+    *out = (sunder_containment)contained;
+    return true;
+}
+
+static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
+{
+    unsigned weighting;
+    *out = (gis_layer_rules){
+        .gap = gis_resolve_length(options, OPT_GAP),
+        .max_shift = gis_resolve_length(options, OPT_MAX_SHIFT),
+        .touch_tolerance = gis_resolve_length(options, OPT_TOUCH_TOLERANCE),
+        .ignore_where = options->text[OPT_IGNORE_WHERE],
+        .fixed_where = options->text[OPT_FIXED_WHERE],
+        .block_field = options->text[OPT_BLOCK_FIELD],
+        .weight_field = options->text[OPT_WEIGHT_FIELD],
+        .no_blocks = options->given[OPT_NO_BLOCKS],
+        .list_inside = options->given[OPT_LIST_INSIDE],
+        .threads = thread_count(options),
+    };
+    if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error))
+        return false;
+    out->weighting = (gis_weighting)weighting;
+    return resolve_contained(options, &out->contained, error);
+}
+
+bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error)
+{
+    *out = (gis_layer_input_request){
+        .source = resolve_source(options),
+        .output = gis_resolve_output(options),
+        .scale = options->number[OPT_SCALE],
+        .id_field = options->text[OPT_ID_FIELD],
+        .symbol = options->text[OPT_SYMBOL],
+        .symbol_field = options->text[OPT_SYMBOL_FIELD],
+        .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
+    };
+    return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error);
+}
+
+/* What selects from a data source selects from nothing where both operands are texts. */
+static bool check_selection(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX,
+                                               OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
+    if (!gis_shape_is_text(options->operand[0]) || !gis_shape_is_text(options->operand[1]))
+        return true;
+    for (size_t i = 0; i < sizeof of_sources / sizeof *of_sources; i++)
+        if (options->given[of_sources[i]])
+            return gis_fail_usage(error, "%.*s selects from a data source, and neither P nor Q is one",
+                                  (int)strcspn(gis_option_table[of_sources[i]].names, " "),
+                                  gis_option_table[of_sources[i]].names);
+    return true;
+}
+
+bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error)
+{
+    *out = (gis_operands_request){
+        .text = {options->operand[0], options->operand[1]},
+        .source = resolve_source(options),
+        .scale = options->number[OPT_SCALE],
+    };
+    if (strcmp(options->operand[0], "@-") == 0 && strcmp(options->operand[1], "@-") == 0)
+        return gis_fail_usage(error, "P and Q cannot both be read from standard input");
+    return check_selection(options, error) && resolve_invalid(options, &out->invalid, error);
+}
+
+bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_error *error)
+{
+    unsigned algorithm, decomposition, order;
+    if (!gis_resolve_choice(options, OPT_ALGORITHM, algorithm_word, &algorithm, error) ||
+        !gis_resolve_choice(options, OPT_DECOMPOSITION, decomposition_word, &decomposition, error) ||
+        !gis_resolve_choice(options, OPT_ORDER, order_word, &order, error))
+        return false;
+    *out = (sunder_sum_options){
+        .algorithm = (sunder_algorithm)algorithm,
+        .decomposition = (sunder_decomposition)decomposition,
+        .order = (sunder_order)order,
+        .seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0,
+        .keep_map = options->given[OPT_PLANAR_MAP],
+    };
+    const char *output = gis_resolve_output(options);
+    if (!out->keep_map)
+        return true;
+    if (out->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
+        return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
+    if (!output || strcmp(output, "/vsistdout/") == 0)
+        return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
+    return true;
+}
+
+bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis_error *error)
+{
+    const char *shape = options->text[OPT_SHAPE];
+    unsigned operation;
+    if (!shape)
+        return gis_fail_usage(error, "--shape is missing: what to grow or shrink by, as in --shape square:6");
+    const char *meant = gis_shape_is_text(shape) || access(shape, F_OK) == 0 ? NULL : gis_shape_prefix_meant(shape);
+    if (meant)
+        return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
+    if (options->given[OPT_DISSOLVE] && options->given[OPT_DISSOLVE_FIELD])
+        return gis_fail_usage(error, "--dissolve makes one set of all features, --dissolve-field one of each value: "
+                              "give one of them");
+    *out = (gis_buffer_request){
+        .dissolve = options->given[OPT_DISSOLVE] || options->given[OPT_DISSOLVE_FIELD],
+        .dissolve_field = options->text[OPT_DISSOLVE_FIELD],
+        .align = options->given[OPT_ALIGN],
+        .degenerate = options->given[OPT_DEGENERATE],
+        .threads = thread_count(options),
+    };
+    if (!gis_resolve_layer(options, &out->layer, error) ||
+        !gis_resolve_choice(options, OPT_OPERATION, operation_word, &operation, error))
+        return false;
+    out->operation = (sunder_operation)operation;
+    out->shape = resolve_shape(options, OPT_SHAPE, out->layer.invalid);
+    return true;
+}
+
+static bool resolve_place(const gis_options *options, gis_option_id id, gis_place *out, gis_error *error)
+{
+    const char *name = gis_option_table[id].names, *text = options->text[id];
+    if (!text)
+        return gis_fail_usage(error, "%s X,Y is missing", name);
+    return gis_place_parse(text, out) ||
+           gis_fail_usage(error, "%s %s: expected X,Y, each a decimal or num/den", name, text);
+}
+
+bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_error *error)
+{
+    *out = (gis_route_request){
+        .obstacles = options->operand[0],
+        .source = resolve_source(options),
+        .gap = gis_resolve_length(options, OPT_GAP),
+        .scale = options->number[OPT_SCALE],
+        .free_space = options->given[OPT_FREE_SPACE],
+    };
+    if (out->free_space && !gis_resolve_output(options))
+        return gis_fail_usage(error, "--free-space needs OUTPUT: it writes layers");
+    if (!resolve_place(options, OPT_FROM, &out->from, error) || !resolve_place(options, OPT_TO, &out->to, error))
+        return false;
+    if (!options->text[OPT_ROBOT])
+        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
+    if (!resolve_invalid(options, &out->invalid, error))
+        return false;
+    out->robot = resolve_shape(options, OPT_ROBOT, out->invalid);
+    return true;
+}
+
+/* ---- Where results go ---------------------------------------------------------------------------------------- */
+
+gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer)
+{
+    return (gis_sink_request){
+        .path = path,
+        .format = options->text[OPT_OF],
+        .layer_options = options->list[OPT_LCO],
+        .dataset_options = options->list[OPT_CO],
+        .main_layer = options->given[OPT_OUTPUT_LAYER] ? options->text[OPT_OUTPUT_LAYER] : main_layer,
+        .overwrite = options->given[OPT_OVERWRITE],
+        .update = options->given[OPT_UPDATE],
+        .overwrite_layer = options->given[OPT_OVERWRITE_LAYER],
+        .strict = options->given[OPT_STRICT],
+        .allow_inexact = options->given[OPT_ALLOW_INEXACT_OUTPUT],
+        .no_styles = options->given[OPT_NO_STYLES],
+    };
+}
+
+/* It is the last operand of every command. */
+const char *gis_resolve_output(const gis_options *options)
+{
+    return options->operand[options->command->most - 1];
+}
+
+gis_destinations gis_resolve_destinations(const gis_options *options)
+{
+    gis_destinations to = {.output = gis_resolve_output(options), .stats = options->text[OPT_STATS]};
+    for (size_t i = 0; i + 1 < options->command->most; i++)
+        to.input[i] = options->operand[i];
+    static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        to.shape[i] = options->text[shapes[i]];
+    return to;
+}
+
+gis_progress gis_resolve_progress(const gis_options *options)
+{
+    gis_progress_kind kind = GIS_PROGRESS_NONE;
+    if (options->given[OPT_PROGRESS] && !options->given[OPT_QUIET])
+        kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
+    return gis_progress_new(kind);
+}

@@ -1,0 +1,39 @@
+/* resolve.h: the program's door. What options say, with what holds where they say nothing, as the typed requests of the
+ * folders below, which know of no option. Everything in a request is borrowed from the options but for what is said to
+ * be owned. */
+#ifndef GIS_RESOLVE_H
+#define GIS_RESOLVE_H
+
+#include "base/progress.h"
+#include "buffer/buffer.h"
+#include "options/options.h"
+#include "route/input.h"
+#include "sum/operands.h"
+#include "write/deliver.h"
+
+/* The number of a CHOICE's word in the enumeration that `word` gives the words of, from 0 on up to its end, the empty
+ * word. False, with an error: the table of options and the enumeration do not agree. */
+bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned), unsigned *number,
+                        gis_error *error);
+
+gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id id);
+
+/* Separate, check: the layer and its rules. */
+bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error);
+/* Sum, pair: P and Q. That options select from a data source where there is none is wrong usage. */
+bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);
+/* Sum: the road to it. A planar map is refused where nobody would see it, or nothing makes it. */
+bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_error *error);
+/* Buffer. What can be refused before anything is read is refused. */
+bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis_error *error);
+/* Route, likewise; to be cleared with gis_route_request_clear() in any case. */
+bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_error *error);
+
+/* OUTPUT; `main_layer` is the name of the main layer unless --output-layer says another. */
+gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer);
+/* The operand OUTPUT; NULL: not given. */
+const char *gis_resolve_output(const gis_options *options);
+gis_destinations gis_resolve_destinations(const gis_options *options);
+gis_progress gis_resolve_progress(const gis_options *options);
+
+#endif

@@ -1,0 +1,63 @@
+/* fields.c: see fields.h. Formats tell values apart in ways of their own (a text where a number was meant, blanks where
+ * a null was): what is read here is the same, whichever one holds it. */
+#include "layer/fields.h"
+
+#include "base/length.h"
+#include "base/nearest.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error)
+{
+    *field = name ? gis_source_field(source, name) : -1;
+    if (!name || *field >= 0)
+        return true;
+    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(gis_source_layer(source));
+    gis_nearest search = gis_nearest_to(name, strlen(name));
+    for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++) {
+        const char *other = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
+        gis_nearest_offer(&search, other, strlen(other));
+    }
+    return gis_fail(error, "%s: layer %s has no field %s%s%s%s", option, gis_source_name(source), name,
+                    search.best ? "; did you mean " : "", search.best ? search.best : "", search.best ? "?" : "");
+}
+
+bool gis_field_is_blank(OGRFeatureH feature, int field)
+{
+    if (!OGR_F_IsFieldSetAndNotNull(feature, field))
+        return true;
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString)
+        return false;
+    const char *text = OGR_F_GetFieldAsString(feature, field);
+    return text[strspn(text, " ")] == '\0';
+}
+
+/* Doubles with all their digits, so that different ones stay different; the two zeros are equal. */
+char *gis_field_key(OGRFeatureH feature, int field)
+{
+    OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field));
+    char number[64];
+    const char *text = number;
+    if (type == OFTReal)
+        snprintf(number, sizeof number, "%.17g", OGR_F_GetFieldAsDouble(feature, field) + 0.0);
+    else
+        text = OGR_F_GetFieldAsString(feature, field);
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+double gis_field_number(OGRFeatureH feature, int field)
+{
+    double value;
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString)
+        return OGR_F_GetFieldAsDouble(feature, field);
+    const char *text = OGR_F_GetFieldAsString(feature, field);
+    text += strspn(text, " ");
+    size_t n = strlen(text);
+    while (n && text[n - 1] == ' ')
+        n--;
+    return gis_length_parse_number(text, n, &value) ? value : NAN;
+}

@@ -1,0 +1,21 @@
+/* fields.h: attributes of features, as the program reads them. */
+#ifndef GIS_FIELDS_H
+#define GIS_FIELDS_H
+
+#include "read/source.h"
+
+/* The field of a name that an option gives; *field is -1 where the name is NULL. A field that is not there is an error
+ * that knows which one was probably meant. */
+bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error);
+
+/* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
+bool gis_field_is_blank(OGRFeatureH feature, int field);
+
+/* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones.
+ * NULL: memory is out. Not for lists, whose texts are cut. */
+char *gis_field_key(OGRFeatureH feature, int field);
+
+/* A number, also one that a text holds; NAN for anything else. */
+double gis_field_number(OGRFeatureH feature, int field);
+
+#endif

@@ -1,0 +1,146 @@
+/* input.c: a layer read: its source opened, its features made shapes, the rules applied to each, all of it handed to
+ * the core. Hints about a misunderstood call stand here, where its failure is known to come of opening. */
+#include "layer/input.h"
+
+#include "base/message.h"
+#include "layer/fields.h"
+#include "read/ruler.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
+{
+    GIntBig fid = gis_source_fid(input->source, i);
+    int n = snprintf(text, size, "layer %s, ", gis_source_name(input->source));
+    if (n < 0 || (size_t)n >= size)
+        return;
+    if (fid == OGRNullFID)
+        n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
+    else
+        n += snprintf(text + n, size - (size_t)n, "FID " CPL_FRMT_GIB, fid);
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    if (input->id_field >= 0 && (size_t)n < size && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
+        snprintf(text + n, size - (size_t)n, " (id %s)", OGR_F_GetFieldAsString(feature, input->id_field));
+}
+
+/* Who writes OUTPUT INPUT, as with ogr2ogr, is told so. */
+static bool hint_at_order(const gis_layer_input_request *request, gis_error *error)
+{
+    const char *input = request->source.path, *output = request->output;
+    if (output && strstr(error->message, "no such file") && access(input, F_OK) != 0 && access(output, F_OK) == 0)
+        return gis_fail(error, "%s: no such file, but %s exists: the order is INPUT OUTPUT", input, output);
+    return false;
+}
+
+/* Points are taken where a symbol is given, which is easily forgotten. */
+static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
+{
+    if (input->points || !input->request->may_have_symbols || !strstr(error->message, "Point"))
+        return false;
+    size_t n = strlen(error->message);
+    snprintf(error->message + n, sizeof error->message - n, "; for points give their --symbol, as in --symbol disc:4");
+    return false;
+}
+
+static bool open_source(gis_layer_input *input, gis_error *error)
+{
+    gis_source_request request = input->request->source;
+    input->points = input->request->symbol || input->request->symbol_field;
+    request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
+    if (!gis_source_open(&request, &input->source, error))
+        return hint_at_order(input->request, error) || hint_at_symbol(input, error);
+    gis_say_warnings(gis_source_warnings(input->source));
+    input->n = gis_source_count(input->source);
+    return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
+}
+
+void gis_layer_warn_of_crs(const gis_layer_input *input)
+{
+    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    for (size_t i = 0; i < input->n; i++) {
+        double one[4];
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
+            continue;
+        sunder_shape_box(input->shape[i], one);
+        for (int k = 0; k < 2; k++) {
+            box[k] = fmin(box[k], one[k]);
+            box[k + 2] = fmax(box[k + 2], one[k + 2]);
+        }
+    }
+    gis_ruler_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+}
+
+static bool make_layer(gis_layer_input *input, gis_error *error)
+{
+    sunder_error why;
+    for (size_t i = 0; i < input->n; i++)
+        input->feature[i].shape = input->shape[i];
+    if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
+        return gis_fail(error, "%s: %s", gis_source_name(input->source), why.message);
+    return true;
+}
+
+static bool start_reading(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
+{
+    *out = (gis_layer_input){.request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
+    if (!open_source(out, error))
+        return false;
+    out->rule = gis_ruler_of(gis_source_crs(out->source), request->scale);
+    out->shape = calloc(out->n + 1, sizeof *out->shape);
+    return out->shape || gis_no_memory(error);
+}
+
+bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
+{
+    if (!start_reading(request, out, error))
+        return false;
+    out->as_chords = true;
+    return gis_layer_shapes(out, error);
+}
+
+/* A layer of any type may hold what the command passes by. */
+static void warn_of_others(const gis_layer_input *input)
+{
+    bool any_points = false;
+    for (size_t i = 0; i < input->n && !input->points && !any_points; i++)
+        any_points = gis_source_content(input->source, i) == GIS_POINTS;
+    if (input->other > 0)
+        gis_say_warning("%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
+                        gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
+                        any_points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
+}
+
+bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
+{
+    if (!start_reading(request, out, error))
+        return false;
+    out->feature = calloc(out->n + 1, sizeof *out->feature);
+    if (!out->feature)
+        return gis_no_memory(error);
+    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error))
+        return false;
+    for (size_t i = 0; i < out->n; i++) {
+        bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
+        out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
+    }
+    gis_layer_warn_of_crs(out);
+    warn_of_others(out);
+    return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
+           make_layer(out, error);
+}
+
+void gis_layer_input_clear(gis_layer_input *input)
+{
+    sunder_layer_free(input->layer);
+    for (size_t i = 0; input->shape && i < input->n; i++)
+        sunder_shape_free(input->shape[i]);
+    free(input->shape);
+    free(input->feature);
+    gis_source_close(input->source);
+    *input = (gis_layer_input){0};
+}

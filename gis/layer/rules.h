@@ -1,0 +1,24 @@
+/* rules.h: what is asked of the features of a layer: the rules of separate and check. */
+#ifndef GIS_LAYER_RULES_H
+#define GIS_LAYER_RULES_H
+
+#include "base/length.h"
+#include "sunder.h"
+
+/* --weight */
+typedef enum gis_weighting { GIS_WEIGHTING_EVEN, GIS_WEIGHTING_AREA, GIS_WEIGHTING_SQRT_AREA } gis_weighting;
+/* "1", "area", "sqrt-area"; "" for what is none of them. */
+const char *gis_weighting_string(gis_weighting weighting);
+
+/* Strings are borrowed; zeroed members mean "not given". */
+typedef struct gis_layer_rules {
+    gis_optional_length gap, max_shift, touch_tolerance;
+    const char *ignore_where, *fixed_where; /* SQL */
+    const char *block_field, *weight_field;
+    gis_weighting weighting;
+    sunder_containment contained;
+    bool no_blocks, list_inside;
+    unsigned threads; /* 0: as many as there are processors */
+} gis_layer_rules;
+
+#endif

@@ -1,0 +1,110 @@
+/* shape.c: see shape.h. A layer's polygons are judged feature by feature, so that the one at fault can be named, and
+ * taken together as one set: strictly where all are valid, by the even-odd rule where one had to be repaired by it. */
+#include "read/shape.h"
+
+#include "base/interrupt.h"
+#include "base/message.h"
+#include "base/resources.h"
+#include "read/ruler.h"
+
+#include <cpl_conv.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Appends the polygons of one feature, after the rule of --invalid: each feature is judged by itself, so that the one
+ * at fault can be named. */
+static bool append_feature(const gis_source *source, size_t i, const gis_rings *rings, gis_invalid policy,
+                           gis_polygons *all, bool *any_invalid, gis_error *error)
+{
+    char who[512];
+    snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
+    if (rings->linearised > 0)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
+                        rings->linearised);
+    sunder_shape *alone = NULL;
+    bool invalid;
+    if (!gis_shape_of_feature(&rings->set, policy, who, "", &alone, &invalid, error))
+        return false;
+    if (!alone) /* skipped */
+        return true;
+    sunder_shape_free(alone);
+    *any_invalid = *any_invalid || invalid;
+    const gis_polygons *set = &rings->set;
+    for (size_t p = 0; p < set->polygons; p++)
+        if (!gis_polygons_append(all, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error))
+            return false;
+    return true;
+}
+
+static bool shape_of_layer(const gis_source *source, gis_invalid policy, const char *who, sunder_shape **out,
+                           double *building, gis_error *error)
+{
+    gis_polygons all = {0};
+    gis_rings rings = {0};
+    bool ok = true, any_invalid = false;
+    for (size_t i = 0; ok && i < gis_source_count(source); i++)
+        if (gis_source_content(source, i) == GIS_POLYGONS)
+            ok = gis_go_on(error) && gis_geometry_rings(gis_source_geometry(source, i), &rings, error) &&
+                 append_feature(source, i, &rings, policy, &all, &any_invalid, error);
+    if (ok) {
+        sunder_error why;
+        double begin = gis_clock();
+        const sunder_validity validity = any_invalid ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT;
+        ok = gis_polygons_shape(&all, validity, out, &why) == SUNDER_OK || gis_fail(error, "%s: %s", who, why.message);
+        if (building)
+            *building += gis_clock() - begin;
+    }
+    gis_rings_clear(&rings);
+    gis_polygons_clear(&all);
+    return ok;
+}
+
+bool gis_shape_from_source(const gis_source_request *request, gis_invalid policy, const char *who, gis_source **source,
+                           sunder_shape **out, double *building, gis_error *error)
+{
+    gis_source_request polygons = *request;
+    polygons.takes = GIS_TAKES_POLYGONS;
+    gis_source *opened;
+    const char *meant = gis_shape_prefix_meant(request->path);
+    if (!gis_source_open(&polygons, &opened, error)) {
+        if (meant && access(request->path, F_OK) != 0)
+            gis_fail(error, "%s (%s): no such file, and no shape; did you mean %s?", who, request->path, meant);
+        return false;
+    }
+    gis_say_warnings(gis_source_warnings(opened));
+    if (!shape_of_layer(opened, policy, who, out, building, error)) {
+        gis_source_close(opened);
+        return false;
+    }
+    *source = opened;
+    return true;
+}
+
+bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGRSpatialReferenceH crs,
+                    gis_source **source, sunder_shape **out, gis_error *error)
+{
+    const char *name = request->option, *text = request->text;
+    gis_source *opened = NULL;
+    sunder_shape *shape = NULL;
+    bool ok;
+    if (gis_shape_is_text(text)) {
+        ok = gis_shape_from_text(text, name, rule, request->invalid, &shape, NULL, error);
+    } else {
+        const gis_source_request whole = {.path = text};
+        ok = gis_shape_from_source(&whole, request->invalid, name, &opened, &shape, NULL, error) &&
+             (gis_crs_may_be_same(crs, gis_source_crs(opened)) ||
+              gis_fail(error, "%s %s has another CRS than the layer; reproject one of them first", name, text));
+    }
+    if (ok && sunder_shape_is_empty(shape))
+        ok = gis_fail_usage(error, "%s %s: it encloses nothing", name, text);
+    if (!ok) {
+        sunder_shape_free(shape);
+        gis_source_close(opened);
+        return false;
+    }
+    *out = shape;
+    if (opened)
+        *source = opened;
+    return true;
+}

@@ -1,0 +1,27 @@
+/* shape.h: shapes of data sources, and of options, which may be either: a source or a text. */
+#ifndef GIS_SHAPE_H
+#define GIS_SHAPE_H
+
+#include "read/shape_text.h"
+#include "read/source.h"
+
+/* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is
+ * printed; `who` opens messages. The time from numbers in memory to the shape is added to *building, unless that is
+ * NULL; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
+bool gis_shape_from_source(const gis_source_request *request, gis_invalid policy, const char *who, gis_source **source,
+                           sunder_shape **out, double *building, gis_error *error);
+
+/* The SHAPE of an option. Strings are borrowed. */
+typedef struct gis_shape_request {
+    const char *option; /* as messages call it */
+    const char *text;   /* NULL: not given */
+    gis_invalid invalid;
+} gis_shape_request;
+
+/* In any form; it must enclose something. A data source is read whole (--where and the like select from the operands),
+ * is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to *source, else untouched. Lengths
+ * inside a text are converted by the ruler. */
+bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGRSpatialReferenceH crs,
+                    gis_source **source, sunder_shape **out, gis_error *error);
+
+#endif

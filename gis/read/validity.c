@@ -1,0 +1,52 @@
+/* validity.c: see validity.h. The core is asked strictly first, so that a valid set is taken as it stands and an
+ * invalid one is known, with the place at fault; only then is it asked for the even-odd set. Memory that runs out is
+ * neither: it is an error under every policy. */
+#include "read/validity.h"
+
+#include "base/message.h"
+
+const char *gis_invalid_string(gis_invalid policy)
+{
+    static const char *const word[] = {"repair", "skip", "fail"};
+    return (unsigned)policy <= GIS_INVALID_FAIL ? word[policy] : "";
+}
+
+static bool shape_failed(const char *who, sunder_status status, const sunder_error *why, gis_error *error)
+{
+    gis_fail(error, "%s: %s", who, why->message);
+    error->no_memory = status == SUNDER_ENOMEM;
+    return false;
+}
+
+bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
+                           bool *invalid, gis_error *reason, gis_error *error)
+{
+    sunder_error why;
+    *invalid = false;
+    sunder_status status = gis_polygons_shape(set, SUNDER_VALIDITY_STRICT, out, &why);
+    if (status == SUNDER_OK)
+        return true;
+    if (status != SUNDER_EINVALID)
+        return shape_failed(who, status, &why, error);
+    *invalid = true;
+    gis_fail(reason, "%s", why.message);
+    if (policy == GIS_INVALID_REPAIR) {
+        status = gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, out, &why);
+        if (status == SUNDER_OK)
+            return true;
+    }
+    return shape_failed(who, status, &why, error);
+}
+
+bool gis_shape_of_feature(const gis_polygons *set, gis_invalid policy, const char *who, const char *said,
+                          sunder_shape **out, bool *invalid, gis_error *error)
+{
+    gis_error reason;
+    bool ok = gis_shape_of_polygons(set, policy, who, out, invalid, &reason, error);
+    if (!ok && !(*invalid && policy == GIS_INVALID_SKIP))
+        return false;
+    if (*invalid)
+        gis_say_warning("%s: %s%s; %s", who, said, reason.message,
+                        ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");
+    return true;
+}

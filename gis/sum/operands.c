@@ -1,0 +1,63 @@
+/* operands.c: see operands.h. Data sources are read before texts: their CRS gives lengths in the other operand their
+ * meaning. */
+#include "sum/operands.h"
+
+#include "read/ruler.h"
+#include "read/source_files.h"
+
+static bool check_crs(const gis_operands *operands)
+{
+    OGRSpatialReferenceH p = operands->p_source ? gis_source_crs(operands->p_source) : NULL;
+    OGRSpatialReferenceH q = operands->q_source ? gis_source_crs(operands->q_source) : NULL;
+    return gis_crs_may_be_same(p, q);
+}
+
+bool gis_operands_read(const gis_operands_request *request, gis_operands *out, gis_error *error)
+{
+    static const char *const names[2] = {"P", "Q"};
+    gis_operands read = {0};
+    sunder_shape **shape[2] = {&read.p, &read.q};
+    gis_source **source[2] = {&read.p_source, &read.q_source};
+    bool ok = true;
+    for (int i = 0; ok && i < 2; i++) {
+        if (gis_shape_is_text(request->text[i]))
+            continue;
+        gis_source_request selected = request->source;
+        selected.path = request->text[i];
+        ok = gis_shape_from_source(&selected, request->invalid, names[i], source[i], shape[i], &read.building, error);
+        if (ok && !gis_crs_is_known(read.crs))
+            read.crs = gis_source_crs(*source[i]);
+    }
+    if (ok && !check_crs(&read))
+        ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
+    read.rule = gis_ruler_of(read.crs, request->scale);
+    for (int i = 0; ok && i < 2; i++)
+        if (!*source[i])
+            ok = gis_shape_from_text(request->text[i], names[i], &read.rule, request->invalid, shape[i],
+                                     &read.building, error);
+    if (ok)
+        *out = read;
+    else
+        gis_operands_clear(&read);
+    return ok;
+}
+
+const gis_source *gis_operands_source(const gis_operands *operands)
+{
+    return operands->p_source ? operands->p_source : operands->q_source;
+}
+
+bool gis_operands_spare(const gis_operands *operands, const char *output, bool update, gis_error *error)
+{
+    return gis_source_spare(operands->p_source, output, update, error) &&
+           gis_source_spare(operands->q_source, output, update, error);
+}
+
+void gis_operands_clear(gis_operands *operands)
+{
+    sunder_shape_free(operands->p);
+    sunder_shape_free(operands->q);
+    gis_source_close(operands->p_source);
+    gis_source_close(operands->q_source);
+    *operands = (gis_operands){0};
+}
