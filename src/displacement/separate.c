@@ -9,11 +9,13 @@
  * bodies that may move; a fixed body is a member of every cluster that has an edge to it, and joins none. Edges are
  * never removed, so each round either adds an edge between clusters, or widens the margin of a cluster whose result
  * failed the exact check (a limited number of times), or is the last: the loop ends. */
-#include "base/clock.h"
-#include "displacement/job.h"
+#include "displacement/clusters/settle.h"
+#include "displacement/clusters/stages.h"
+#include "displacement/report/report.h"
 
-#include <math.h>
-#include <stdlib.h>
+#include "base/clock.h"
+#include "base/watch.h"
+
 #include <string.h>
 
 /* What was given up is looked at again, each time with what the search ran into since. */
@@ -21,42 +23,8 @@
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
 
-/* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
- * features were listed. */
-static void fill_moves(const sunder_i_job *w)
-{
-    const sunder_i_town *town = &w->town;
-    sunder_report *report = w->report;
-    sunder_layer_summary *s = &report->summary;
-    for (size_t f = 0; f < town->features; f++) {
-        const double *t = town->move + 2 * (size_t)town->body_of[f];
-        if (t[0] == 0 && t[1] == 0) continue;
-        report->move[2 * f] = t[0];
-        report->move[2 * f + 1] = t[1];
-        const double length = hypot(t[0], t[1]);
-        report->status[f] = SUNDER_FEATURE_MOVED;
-        s->moved++;
-        s->total += length;
-        s->cost += town->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
-        if (length > s->max) {
-            s->max = length;
-            s->max_feature = f;
-        }
-        if (town->inexact[f]) s->rounded++;
-    }
-    if (s->moved) s->mean = s->total / (double)s->moved;
-    for (size_t k = 0; k < report->conflicts; k++) {
-        const sunder_conflict *c = &report->conflict[k];
-        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
-        const size_t pair[2] = {c->a, c->b};
-        for (int e = 0; e < 2; e++)
-            if (!town->body[town->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
-    }
-    for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
-}
-
 static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
-                           sunder_error *err)
+                           sunder_report **report, sunder_error *err)
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
@@ -65,10 +33,24 @@ static sunder_status start(sunder_i_job *w, const sunder_layer *layer, const sun
     w->town.standing = &w->scene.tree;
     if (!status) status = sunder_i_scene_relate(&w->town, &w->scene, NULL, NULL, &w->start, err);
     if (!status) status = sunder_i_town_join(&w->town, &w->start, err);
-    if (!status) status = sunder_i_report_new(&w->town, &w->report, err);
+    if (!status) status = sunder_i_report_new(&w->town, report, err);
     if (status) return status;
-    w->report->summary.pairs_tested = w->start.tested;
-    sunder_i_count_relations(&w->town, &w->start, &w->report->summary.before);
+    (*report)->summary.pairs_tested = w->start.tested;
+    sunder_i_count_relations(&w->town, &w->start, &(*report)->summary.before);
+    return SUNDER_OK;
+}
+
+/* What is settled beforehand: pairs without a solution, the bodies in doubles, relations as they stand. */
+static sunder_status prepare(sunder_i_job *w, sunder_error *err)
+{
+    sunder_status status = sunder_i_job_judge(w, err);
+    if (!status) status = sunder_i_town_cut(&w->town, err);
+    if (!status) status = sunder_i_job_init(w, err);
+    if (status) return status;
+    w->now.pair = sunder_i_alloc(w->start.n, sizeof *w->now.pair);
+    if (!w->now.pair) return sunder_i_no_memory(err);
+    if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
+    w->now.n = w->start.n;
     return SUNDER_OK;
 }
 
@@ -96,38 +78,26 @@ static sunder_status seek(sunder_i_job *w, bool known, double from, double to, s
     return status;
 }
 
-static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
-                              sunder_error *err)
+/* Without limits first, and then within them. */
+static sunder_status solve(sunder_i_job *w, sunder_error *err)
 {
-    const double began = sunder_i_now();
     bool lifted = false, back = false;
-    sunder_status status = sunder_i_order_layer(layer, &w->layer, &w->number, err);
-    if (!status) status = start(w, &w->layer, options, err);
-    if (!status) status = sunder_i_job_judge(w, err);
-    if (!status) status = sunder_i_town_cut(&w->town, err);
-    if (!status) status = sunder_i_job_init(w, err);
-    if (status) return status;
-    w->now.pair = sunder_i_alloc(w->start.n, sizeof *w->now.pair);
-    if (!w->now.pair) return sunder_i_no_memory(err);
-    if (w->start.n) memcpy(w->now.pair, w->start.pair, w->start.n * sizeof *w->now.pair);
-    w->now.n = w->start.n;
-    if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_no_memory(err);
-    status = sunder_i_job_lift_limits(w, &lifted, err);
+    sunder_status status = sunder_i_job_lift_limits(w, &lifted, err);
     if (!status && !lifted) status = sunder_i_job_enter(w, err);
     if (!status) status = seek(w, false, 0.1, lifted ? 0.4 : 0.8, err);
     if (!status && lifted) status = sunder_i_job_restore_limits(w, &back, err);
     if (!status && lifted) status = sunder_i_job_enter(w, err);
     if (!status && lifted) status = seek(w, !back, 0.4, 0.8, err);
     if (!status) status = sunder_i_job_uphold(w, err);
-    if (!status) status = sunder_i_job_gather(w, err);
-    if (status) return status;
+    return status ? status : sunder_i_job_gather(w, err);
+}
+
+/* Relations once more from nothing, so that the verdict leans on no earlier one; and what is proved of them. */
+static sunder_status conclude(sunder_i_job *w, sunder_report *report, double began, sunder_error *err)
+{
     const double solved = sunder_i_now();
-    if (!sunder_i_progress(&w->town.rules, 0.8)) return sunder_i_no_memory(err);
-    sunder_report *report = w->report;
-    /* Once more from nothing: the verdict leans on no earlier one. */
-    sunder_i_relations last;
-    memset(&last, 0, sizeof last);
-    status = sunder_i_scene_relate(&w->town, &w->scene, NULL, NULL, &last, err);
+    sunder_i_relations last = {0};
+    sunder_status status = sunder_i_scene_relate(&w->town, &w->scene, NULL, NULL, &last, err);
     if (status) return status;
     sunder_i_free(w->now.pair);
     w->now = last;
@@ -135,61 +105,78 @@ static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const 
     report->summary.seconds_verify = sunder_i_now() - solved;
     sunder_i_count_relations(&w->town, &w->now, &report->summary.after);
     status = sunder_i_report_conflicts(report, &w->town, &w->scene, &w->now, true, err);
-    if (!status) status = sunder_i_job_bound(w, err);
-    if (!status) status = sunder_i_job_prove(w, err);
-    if (!status) status = sunder_i_job_name_blockers(w, err);
+    if (!status) status = sunder_i_report_bound(report, w, err);
+    if (!status) status = sunder_i_report_proofs(report, w, err);
+    if (!status) status = sunder_i_report_blockers(report, w, err);
     if (!status) status = sunder_i_job_is_upheld(w, &report->summary.verified, err);
     if (status) return status;
-    fill_moves(w);
+    sunder_i_report_moves(report, &w->town);
     report->summary.clusters = w->clusters;
-    status = sunder_i_report_renumber(report, w->number, err);
+    return sunder_i_report_renumber(report, w->number, err);
+}
+
+static sunder_status separate(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
+                              sunder_report **report, sunder_error *err)
+{
+    const double began = sunder_i_now();
+    sunder_status status = sunder_i_order_layer(layer, &w->layer, &w->number, err);
+    if (!status) status = start(w, &w->layer, options, report, err);
+    if (!status) status = prepare(w, err);
     if (status) return status;
-    sunder_i_progress(&w->town.rules, 1);
+    if (!sunder_i_progress(&w->town.rules, 0.1)) return sunder_i_no_memory(err);
+    status = solve(w, err);
+    if (status) return status;
+    if (!sunder_i_progress(&w->town.rules, 0.8)) return sunder_i_no_memory(err);
+    status = conclude(w, *report, began, err);
+    if (!status) sunder_i_progress(&w->town.rules, 1);
+    return status;
+}
+
+static sunder_status check(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
+                           sunder_report **report, sunder_error *err)
+{
+    const double began = sunder_i_now();
+    sunder_status status = start(w, layer, options, report, err);
+    if (!status) status = sunder_i_report_conflicts(*report, &w->town, &w->scene, &w->start, false, err);
+    if (status) return status;
+    sunder_layer_summary *s = &(*report)->summary;
+    s->after = s->before;
+    s->verified = true;
+    s->seconds_verify = sunder_i_now() - began;
     return SUNDER_OK;
+}
+
+typedef sunder_status (*run_stages)(sunder_i_job *w, const sunder_layer *layer, const sunder_layer_options *options,
+                                    sunder_report **report, sunder_error *err);
+
+static sunder_status run(run_stages stages, const sunder_layer *layer, const sunder_layer_options *options,
+                         sunder_report **out, sunder_error *err)
+{
+    sunder_i_job w = {0};
+    sunder_i_watch watch;
+    sunder_report *report = NULL;
+    sunder_layer_options o;
+    sunder_layer_options_init(&o);
+    if (options) o = *options;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = stages(&w, layer, &o, &report, err);
+    sunder_i_watch_end(&watch);
+    sunder_i_job_free(&w);
+    if (status)
+        sunder_report_free(report);
+    else
+        *out = report;
+    return status;
 }
 
 sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
                                     sunder_error *err)
 {
-    sunder_i_job w;
-    sunder_i_watch watch;
-    memset(&w, 0, sizeof w);
-    sunder_layer_options o;
-    sunder_layer_options_init(&o);
-    if (options) o = *options;
-    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const sunder_status status = separate(&w, layer, &o, err);
-    if (!status) {
-        *out = w.report;
-        w.report = NULL;
-    }
-    sunder_i_watch_end(&watch);
-    sunder_i_job_free(&w);
-    return status;
+    return run(separate, layer, options, out, err);
 }
 
 sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
                                  sunder_error *err)
 {
-    sunder_i_job w;
-    sunder_i_watch watch;
-    memset(&w, 0, sizeof w);
-    sunder_layer_options o;
-    sunder_layer_options_init(&o);
-    if (options) o = *options;
-    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    const double began = sunder_i_now();
-    sunder_status status = start(&w, layer, &o, err);
-    if (!status) status = sunder_i_report_conflicts(w.report, &w.town, &w.scene, &w.start, false, err);
-    if (!status) {
-        sunder_layer_summary *s = &w.report->summary;
-        s->after = s->before;
-        s->verified = true;
-        s->seconds_verify = sunder_i_now() - began;
-        *out = w.report;
-        w.report = NULL;
-    }
-    sunder_i_watch_end(&watch);
-    sunder_i_job_free(&w);
-    return status;
+    return run(check, layer, options, out, err);
 }

@@ -3,7 +3,7 @@
 #include "run_layer.h"
 #include "upheld.h"
 
-#include "displacement/displacement.h"
+#include "displacement/layer/rounding.h"
 
 #include <math.h>
 #include <setjmp.h>

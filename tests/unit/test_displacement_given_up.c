@@ -1,6 +1,6 @@
 /* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is helped
  * in whatever crowd. */
-#include "displacement/displacement.h"
+#include "displacement/layer/model.h"
 
 #include "random.h"
 #include "run_layer.h"

@@ -1,7 +1,7 @@
 /* The tree of boxes, against looking at every box: as it was built, and as boxes move. */
 #include "random.h"
 
-#include "displacement/displacement.h"
+#include "spatial/rtree.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

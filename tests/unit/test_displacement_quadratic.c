@@ -1,6 +1,6 @@
 /* The quadratic program on constraints that can and that cannot hold together: what is returned is a number, the moves
  * and forces are numbers, and what is missed is what the moves miss. */
-#include "displacement/quadratic.h"
+#include "displacement/programs/quadratic.h"
 #include "random.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ static bool draw(rng *r, program *p)
     const bool contradicts = rng_once_in(r, 2);
     const int n = (int)rng_int(r, 1, MOST / 2);
     for (int k = 0; k < n; k++) {
-        const uint32_t i = rng_once_in(r, 4) ? SUNDER_I_NOBODY : (uint32_t)rng_int(r, 0, BODIES - 1);
+        const uint32_t i = rng_once_in(r, 4) ? SUNDER_I_GROUND : (uint32_t)rng_int(r, 0, BODIES - 1);
         const uint32_t j = (uint32_t)rng_int(r, 0, BODIES - 1);
         const double angle = rng_once_in(r, 3) ? 0 : 6.3 * rng_unit(r), d = size * rng_unit(r);
         const double u[2] = {cos(angle), sin(angle)};

@@ -1,0 +1,332 @@
+/* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
+ *
+ * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair may
+ * stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
+ *
+ *   - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take one
+ *     move, or one coordinate of it, where they are then in nobody's way;
+ *   - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
+ *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
+ *
+ * A place that is taken breaks the rule for no pair, and a body that is pinned stays so, and with all at home nothing
+ * stands worse: the loop ends. */
+#include "displacement/clusters/settle.h"
+#include "displacement/clusters/stages.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/layer/rounding.h"
+
+#include "separation/separation.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Moves are alike that differ by no more than so many units. */
+#define HAIR 16
+/* So many bodies in all may be moved together in vain. */
+#define IN_VAIN 20000
+
+/* ---- The rule ------------------------------------------------------------------------------------------------------
+ */
+
+/* Do the two stand to each other as they did, exactly? */
+static bool stand_as_they_did(const sunder_i_job *w, const sunder_i_relation *r)
+{
+    const sunder_i_stand *a = &w->scene.stand[r->a], *b = &w->scene.stand[r->b];
+    return !w->scene.rounded[r->a] && !w->scene.rounded[r->b] && a->t[0] == b->t[0] && a->t[1] == b->t[1];
+}
+
+sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relation *r, bool *worse, sunder_error *err)
+{
+    const sunder_i_relation *was = sunder_i_relations_find(&w->start, r->a, r->b);
+    *worse = !was || sunder_i_is_at_peace(was);
+    if (*worse || stand_as_they_did(w, r) || (was->contained && r->contained)) return SUNDER_OK;
+    const sunder_feature *feature = w->town.layer->feature;
+    const sunder_i_stand *a = &w->scene.stand[r->a], *b = &w->scene.stand[r->b];
+    const sunder_i_pair before = {feature[r->a].shape, feature[r->b].shape, NULL, NULL},
+                        now = {a->shape, b->shape, a->t, b->t};
+    return sunder_i_is_worse(&before, &now, worse, err);
+}
+
+/* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
+static bool is_listed(const sunder_i_job *w, const sunder_i_relation *r)
+{
+    return !sunder_i_is_at_peace(r) &&
+           (w->town.body_of[r->a] != w->town.body_of[r->b] || (r->overlap && !r->touch));
+}
+
+static sunder_status breaks_rule(const sunder_i_job *w, const sunder_i_relation *r, bool *breaks, sunder_error *err)
+{
+    *breaks = false;
+    return is_listed(w, r) ? sunder_i_job_is_worse(w, r, breaks, err) : SUNDER_OK;
+}
+
+sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *upheld = true;
+    for (size_t k = 0; k < w->now.n && *upheld && !status; k++) {
+        bool breaks;
+        status = breaks_rule(w, &w->now.pair[k], &breaks, err);
+        *upheld = !status && !breaks;
+    }
+    return status;
+}
+
+/* ---- A place nearby ------------------------------------------------------------------------------------------------
+ */
+
+/* Bodies that are to have one move, or one coordinate of it, and where they stood. */
+typedef struct trial {
+    sunder_i_job *job;
+    uint32_t *body;
+    double *stood; /* [2 n] */
+    size_t n, body_capacity, stood_capacity;
+    unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
+    bool *taken;    /* [bodies] where many are asked; else NULL */
+    size_t *budget; /* bodies that may yet be moved in vain */
+    sunder_i_list near;
+    bool well; /* so far */
+} trial;
+
+/* What body k of the trial is to move by, if they are all to move by `to`. */
+static void goal_of(const trial *t, size_t k, const double to[2], double goal[2])
+{
+    for (unsigned c = 0; c < 2; c++) goal[c] = t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
+}
+
+static bool can_move(const sunder_i_job *w, uint32_t b) { return !w->town.body[b].fixed && !w->town.body[b].pinned; }
+
+static bool take(trial *t, uint32_t b)
+{
+    const double *move = t->job->town.move + 2 * (size_t)b;
+    if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
+        !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
+        return false;
+    t->body[t->n] = b;
+    memcpy(t->stood + 2 * t->n++, move, 2 * sizeof *move);
+    return true;
+}
+
+/* Is the pair in no conflict but one that it was in, in no overlap that was ended, and no worse than at the start? */
+static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+{
+    trial *t = context;
+    if (!is_listed(t->job, r)) return SUNDER_OK;
+    const sunder_i_relation *old = sunder_i_relations_find(&t->job->now, r->a, r->b);
+    bool breaks = !old || sunder_i_is_at_peace(old) || (r->overlap && !old->overlap);
+    const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->job, r, &breaks, err);
+    t->well = *on = !breaks;
+    return status;
+}
+
+/* Can all of them go there, exactly and within their limits, and does one of them stand elsewhere? */
+static bool can_go(const trial *t, const double to[2])
+{
+    bool any = false;
+    for (size_t k = 0; k < t->n; k++) {
+        double exact[2], goal[2];
+        goal_of(t, k, to, goal);
+        any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
+        if (!sunder_i_within(goal, t->job->town.body[t->body[k]].limit) ||
+            !sunder_i_round_move(&t->job->town, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
+            exact[1] != goal[1])
+            return false;
+    }
+    return any;
+}
+
+/* Puts the bodies of a trial there, or back where they stood (to: NULL). */
+static sunder_status put(trial *t, const double *to, sunder_error *err)
+{
+    sunder_i_job *w = t->job;
+    sunder_status status = SUNDER_OK;
+    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    for (size_t k = 0; k < t->n && !status; k++) {
+        double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
+        if (to) goal_of(t, k, to, goal);
+        sunder_i_job_place(w, t->body[k], goal);
+        status = sunder_i_scene_place(&w->town, &w->scene, t->body[k], err);
+    }
+    return status;
+}
+
+/* Tries one place for them all: they stay there if all is well, else go back. */
+static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
+{
+    sunder_i_job *w = t->job;
+    t->well = false;
+    if (!can_go(t, to)) return SUNDER_OK;
+    t->well = true;
+    sunder_status status = put(t, to, err);
+    for (size_t k = 0; k < t->n && t->well && !status; k++)
+        status = sunder_i_scene_about(&w->town, &w->scene, t->body[k], &t->near, look_at_pair, t, err);
+    if (status) return status;
+    return t->well ? sunder_i_job_check(w, err) : put(t, NULL, err);
+}
+
+/* The units of what the body may be moved by from where it stands. */
+static void units_of(const sunder_i_job *w, uint32_t b, double unit[2])
+{
+    const double *stood = w->town.move + 2 * (size_t)b;
+    double same[2];
+    for (int c = 0; c < 2; c++) {
+        /* A move of nothing has no unit. */
+        double along[2] = {0, 0};
+        along[c] = stood[c] != 0 ? stood[c] : DBL_MIN;
+        sunder_i_round_move(&w->town, b, along, same, &unit[c]);
+    }
+}
+
+/* The eight places a unit beside its own, and those some units farther: the search lets go of as much. */
+static sunder_status try_nearby(trial *t, sunder_error *err)
+{
+    const double stood[2] = {t->stood[0], t->stood[1]};
+    double unit[2];
+    sunder_status status = SUNDER_OK;
+    units_of(t->job, t->body[0], unit);
+    t->well = false;
+    for (int step = 1; step <= HAIR && !t->well && !status; step *= 4)
+        for (int k = 0; k < 9 && !t->well && !status; k++) {
+            const double to[2] = {stood[0] + step * (k % 3 - 1) * unit[0], stood[1] + step * (k / 3 - 1) * unit[1]};
+            if (k != 4) status = try_place(t, to, err);
+        }
+    return status;
+}
+
+/* ---- All that move as one ------------------------------------------------------------------------------------------
+ */
+
+/* Do the two move alike, as far as the trial asks, up to a few units? */
+static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
+{
+    const double *p = t->job->town.move + 2 * (size_t)b, *q = t->job->town.move + 2 * (size_t)other;
+    for (unsigned c = 0; c < 2; c++)
+        if ((t->along >> c & 1) && !(fabs(p[c] - q[c]) <= hair)) return false;
+    return true;
+}
+
+/* Those about body b who moved as it did. */
+static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error *err)
+{
+    const sunder_i_town *town = &t->job->town;
+    const sunder_i_body *p = &town->body[b];
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = town->member[p->member + m];
+        double box[4];
+        if (!town->present[f]) continue;
+        sunder_i_box_grow(t->job->scene.box + 4 * (size_t)f, town->rules.gap, box);
+        t->near.n = 0;
+        if (!sunder_i_index_query(&t->job->scene.tree, box, &t->near)) return sunder_i_no_memory(err);
+        for (size_t k = 0; k < t->near.n; k++) {
+            const uint32_t other = town->body_of[t->near.item[k]];
+            if (t->taken[other] || !can_move(t->job, other) || !is_alike(t, b, other, hair)) continue;
+            if (!take(t, other)) return sunder_i_no_memory(err);
+            t->taken[other] = true;
+        }
+    }
+    return SUNDER_OK;
+}
+
+/* A row that was pushed along, each of which must not stand worse to the next, has to move as one to the last bit: all
+ * take the move of the one whose coordinates are the coarsest. */
+static sunder_status try_together(trial *t, sunder_error *err)
+{
+    double coarsest = 0, to[2] = {0, 0};
+    sunder_status status = SUNDER_OK;
+    if (!t->taken) t->taken = sunder_i_calloc(t->job->town.bodies, sizeof *t->taken);
+    if (!t->taken) return sunder_i_no_memory(err);
+    t->taken[t->body[0]] = true;
+    for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
+        double unit[2];
+        units_of(t->job, t->body[k], unit);
+        const double coarse = fmax(unit[0], unit[1]);
+        if (coarse > coarsest) {
+            coarsest = coarse;
+            memcpy(to, t->stood + 2 * k, sizeof to);
+        }
+        status = take_alike(t, t->body[k], HAIR * coarsest, err);
+    }
+    for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
+    t->well = false;
+    if (!status && t->n <= *t->budget) status = try_place(t, to, err);
+    if (!t->well) *t->budget -= t->n < *t->budget ? t->n : *t->budget;
+    return status;
+}
+
+/* The ways to mend a pair, the smallest first; what is in common: both coordinates, or one. */
+typedef enum way { NEARBY, PARTNER, TOGETHER } way;
+static const struct {
+    way way;
+    unsigned along;
+} ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
+
+static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, size_t *budget, bool *well, sunder_error *err)
+{
+    const uint32_t pair[2] = {i, j};
+    trial t = {.job = w, .budget = budget};
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
+        for (int e = 0; e < 2 && !t.well && !status; e++) {
+            const double *other = w->town.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
+            t.n = 0;
+            t.along = ways[k].along;
+            if (!can_move(w, pair[e])) continue;
+            if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
+            if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
+            if (!status && ways[k].way == PARTNER) status = try_place(&t, to, err);
+            if (!status && ways[k].way == TOGETHER) status = try_together(&t, err);
+        }
+    *well = t.well;
+    sunder_i_free(t.body);
+    sunder_i_free(t.stood);
+    sunder_i_free(t.taken);
+    sunder_i_free(t.near.item);
+    return status;
+}
+
+/* ---- Staying -------------------------------------------------------------------------------------------------------
+ */
+
+static double cost_of(const sunder_i_job *w, uint32_t b)
+{
+    const double *t = w->town.move + 2 * (size_t)b;
+    return w->town.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+}
+
+/* Pins the one whose move is cheaper, of those that may move and did; either if none did, which cannot be. */
+static sunder_status pin(sunder_i_job *w, uint32_t i, uint32_t j, sunder_error *err)
+{
+    const double home[2] = {0, 0};
+    uint32_t b = can_move(w, i) ? i : j;
+    if (can_move(w, i) && can_move(w, j) && cost_of(w, j) < cost_of(w, i)) b = j;
+    if (can_move(w, i) && can_move(w, j) && cost_of(w, b) == 0) b = b == i ? j : i;
+    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    sunder_i_job_place(w, b, home);
+    const sunder_status status = sunder_i_job_check(w, err);
+    w->town.body[b].pinned = true;
+    return status;
+}
+
+sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    size_t budget = IN_VAIN;
+    for (bool any = w->now.n > 0, pinned; any && !status;) {
+        any = pinned = false;
+        for (size_t k = 0; k < w->now.n && !status; k++) {
+            const sunder_i_relation r = w->now.pair[k];
+            const uint32_t i = w->town.body_of[r.a], j = w->town.body_of[r.b];
+            bool breaks, well = false;
+            status = breaks_rule(w, &r, &breaks, err);
+            if (status || !breaks || (!can_move(w, i) && !can_move(w, j))) continue;
+            any = true;
+            status = mend(w, i, j, &budget, &well, err);
+            if (status || well) continue;
+            pinned = true;
+            status = pin(w, i, j, err);
+        }
+        if (pinned && !status) status = sunder_i_job_settle(w, 0.8, 0.8, err);
+    }
+    return status;
+}

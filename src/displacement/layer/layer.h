@@ -1,0 +1,42 @@
+/* The layer as the caller gives it, the rules that it is to keep, and the order in which it is worked on. */
+#ifndef SUNDER_I_LAYER_H
+#define SUNDER_I_LAYER_H
+
+#include "sunder.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+#define SUNDER_I_NOBODY UINT32_MAX
+
+struct sunder_layer {
+    sunder_feature *feature;
+    size_t n;
+};
+
+/* The options with every default filled in. */
+typedef struct sunder_i_rules {
+    double gap, tolerance;
+    bool joins, list_inside; /* joins: touch and containment make blocks */
+    sunder_containment contained;
+    unsigned threads;
+    sunder_progress progress;     /* NULL: nobody asks how far it is */
+    void *progress_user;
+} sunder_i_rules;
+
+sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
+/* Tells how far it is; false when the caller asked to stop. */
+bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
+
+/* Is the feature there at all (not ignored, not empty)? */
+static inline bool sunder_i_is_present(const sunder_feature *feature)
+{
+    return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
+}
+
+/* ---- order.c ----------------------------------------------------------------------------------------------------- */
+
+/* A copy of the layer in the order that it is worked on in: number[k] is what feature k was. Failure leaves what
+ * sunder_i_free() takes. */
+sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out, size_t **number, sunder_error *err);
+
+#endif

@@ -1,0 +1,70 @@
+/* The order in which features are worked on, which is no matter of how the caller lists them: by where they lie, then by
+ * their corners, then by what is asked of them. All that follows breaks ties by number (of bodies, of pieces, of pairs), so
+ * the same features in another order get the same moves; only twins that are alike in everything are told apart by their
+ * places in the list, and may change roles. Numbers go up with y, whatever else the layer holds: a feature far away changes
+ * the order of no two others. In the end the report speaks of features as the caller
+ * numbered them (report/renumber.c). */
+#include "displacement/layer/layer.h"
+
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct ranked {
+    double box[4];
+    const sunder_feature *feature;
+    size_t number;
+} ranked;
+
+static int by_double(double a, double b) { return a < b ? -1 : a > b; }
+
+static int by_shape(const sunder_shape *a, const sunder_shape *b)
+{
+    if (a == b || !a || !b) return !a - !b;
+    if (a->vertices != b->vertices) return a->vertices < b->vertices ? -1 : 1;
+    int order = 0;
+    for (size_t k = 0; k < 2 * (size_t)a->vertices && order == 0; k++) order = by_double(a->xy[k], b->xy[k]);
+    return order;
+}
+
+static int by_demands(const sunder_feature *a, const sunder_feature *b)
+{
+    int order = by_double(a->weight, b->weight);
+    if (order == 0) order = by_double(a->max_shift, b->max_shift);
+    if (order == 0) order = a->fixed - b->fixed;
+    if (order == 0) order = a->ignored - b->ignored;
+    return order ? order : a->block < b->block ? -1 : a->block > b->block;
+}
+
+static int by_place(const void *x, const void *y)
+{
+    static const int side[4] = {1, 0, 3, 2};
+    const ranked *a = x, *b = y;
+    int order = 0;
+    for (int c = 0; c < 4 && order == 0; c++) order = by_double(a->box[side[c]], b->box[side[c]]);
+    if (order == 0) order = by_shape(a->feature->shape, b->feature->shape);
+    if (order == 0) order = by_demands(a->feature, b->feature);
+    return order ? order : a->number < b->number ? -1 : a->number > b->number;
+}
+
+sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out, size_t **number, sunder_error *err)
+{
+    const size_t n = layer->n;
+    ranked *list = sunder_i_alloc(n, sizeof *list);
+    out->feature = sunder_i_alloc(n, sizeof *out->feature);
+    out->n = n;
+    *number = sunder_i_alloc(n, sizeof **number);
+    const bool ok = list && out->feature && *number;
+    for (size_t k = 0; ok && k < n; k++) {
+        list[k] = (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, &layer->feature[k], k};
+        if (sunder_i_is_present(list[k].feature)) sunder_shape_box(list[k].feature->shape, list[k].box);
+    }
+    if (ok && n) qsort(list, n, sizeof *list, by_place);
+    for (size_t k = 0; ok && k < n; k++) {
+        out->feature[k] = *list[k].feature;
+        (*number)[k] = list[k].number;
+    }
+    sunder_i_free(list);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

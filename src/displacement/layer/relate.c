@@ -1,0 +1,124 @@
+/* What two features are to each other. Every answer is exact.
+ *
+ *   near       their interiors meet, or their distance is less than the gap
+ *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or
+ * their interiors meet and the least translation that takes these apart is no longer than the tolerance contained their
+ * interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of 16 corners in the
+ *              disc whose radius is the tolerance (a point of P may then stand outside Q by the tolerance at most, and
+ * by 0.93 of it in any direction), and the corners of Q + D are taken as the nearest doubles duplicate  each lies in
+ * the other, with no tolerance
+ *
+ * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is positive.
+ */
+#include "displacement/layer/resolution.h"
+
+#include "separation/separation.h"
+
+#include <math.h>
+
+/* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place
+ * cover the four roundings on each side. */
+static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, double reach)
+{
+    double a[4], b[4];
+    sunder_shape_box(p->shape, a);
+    sunder_shape_box(q->shape, b);
+    for (int k = 0; k < 4; k++) {
+        const double tp = p->t[k & 1], tq = q->t[k & 1];
+        const double slack = (fabs(a[k]) + fabs(tp) + fabs(b[k]) + fabs(tq) + reach) * 0x1p-49;
+        const double d = (a[k] + tp) - (b[k] + tq);
+        if ((k < 2 ? -d : d) > reach + slack) return false;
+    }
+    return true;
+}
+
+/* Does P lie in Q up to the tolerance? exact_in: it does with none. */
+static sunder_status lies_in(const sunder_i_stand *p, const sunder_i_stand *q, double tolerance, bool *exact_in,
+                             bool *in, sunder_error *err)
+{
+    *exact_in = *in = false;
+    if (!box_may_lie_in(p, q, tolerance)) return SUNDER_OK;
+    sunder_status status = sunder_i_contained(p->shape, p->t, q->shape, q->t, exact_in, err);
+    if (status) return status;
+    *in = *exact_in;
+    if (*in || !(tolerance > 0)) return SUNDER_OK;
+    sunder_shape *grown = NULL;
+    status = sunder_i_grow_by_tolerance(q->shape, tolerance, &grown, err);
+    if (!status) status = sunder_i_contained(p->shape, p->t, grown, q->t, in, err);
+    sunder_shape_free(grown);
+    return status;
+}
+
+static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
+                                        sunder_i_relation *r, sunder_error *err)
+{
+    bool a_in, a_exact, b_in, b_exact;
+    sunder_status status = lies_in(a, b, rules->tolerance, &a_exact, &a_in, err);
+    if (!status) status = lies_in(b, a, rules->tolerance, &b_exact, &b_in, err);
+    if (status) return status;
+    r->near = r->overlap = true;
+    r->contained = a_in || b_in;
+    r->a_in_b = a_in;
+    r->duplicate = a_exact && b_exact;
+    r->kept = r->contained && sunder_i_may_be_inside(rules);
+    if (!(rules->tolerance > 0) || r->contained) return SUNDER_OK;
+    sunder_separation least;
+    bool beyond = false;
+    status = sunder_i_separate(a->shape, a->t, b->shape, b->t, 0, rules->tolerance, &least, &beyond, err);
+    if (status) return status;
+    sunder_separation_clear(&least);
+    r->touch = !beyond;
+    return SUNDER_OK;
+}
+
+/* The distance of two disjoint sets that may stand translated. */
+static sunder_status distance_between(const sunder_i_stand *a, const sunder_i_stand *b, double *distance,
+                                      sunder_error *err)
+{
+    double on_a[2], on_b[2];
+    if (a->t[0] == 0 && a->t[1] == 0 && b->t[0] == 0 && b->t[1] == 0)
+        return sunder_pair_distance(a->shape, b->shape, distance, on_a, on_b, err);
+    sunder_shape *p = NULL, *q = NULL;
+    bool exact;
+    sunder_status status = sunder_shape_translate(a->shape, a->t[0], a->t[1], &p, &exact, err);
+    if (!status) status = sunder_shape_translate(b->shape, b->t[0], b->t[1], &q, &exact, err);
+    if (!status) status = sunder_pair_distance(p, q, distance, on_a, on_b, err);
+    sunder_shape_free(p);
+    sunder_shape_free(q);
+    return status;
+}
+
+sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
+                              sunder_i_relation *r, sunder_error *err)
+{
+    r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
+    bool overlap = false, apart = true;
+    sunder_status status = sunder_i_overlap(a->shape, a->t, b->shape, b->t, &overlap, err);
+    if (status) return status;
+    if (overlap) return relate_overlapping(rules, a, b, r, err);
+    if (rules->gap > 0) status = sunder_i_apart(a->shape, a->t, b->shape, b->t, rules->gap, &apart, err);
+    if (status) return status;
+    r->near = !apart;
+    /* The tolerance is less than the gap, unless that is 0. */
+    if (apart && rules->gap > 0) return SUNDER_OK;
+    double distance;
+    status = distance_between(a, b, &distance, err);
+    if (status) return status;
+    r->touch = distance <= rules->tolerance;
+    return SUNDER_OK;
+}
+
+const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b)
+{
+    size_t low = 0, high = relations->n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const sunder_i_relation *r = &relations->pair[middle];
+        if (r->a < a || (r->a == a && r->b < b))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < relations->n && relations->pair[low].a == a && relations->pair[low].b == b ? &relations->pair[low]
+                                                                                            : NULL;
+}

@@ -1,0 +1,43 @@
+/* Exact relations of pairs, as they stand. */
+#ifndef SUNDER_I_RELATE_H
+#define SUNDER_I_RELATE_H
+
+#include "displacement/layer/layer.h"
+
+/* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the
+ * shape that is written, with no translation. */
+typedef struct sunder_i_stand {
+    const sunder_shape *shape;
+    double t[2];
+} sunder_i_stand;
+
+typedef struct sunder_i_relation {
+    uint32_t a, b;  /* features, a < b */
+    bool near;      /* not the gap apart */
+    bool overlap;   /* interiors meet */
+    bool contained; /* one lies in the other, up to the tolerance */
+    bool a_in_b;    /* which: a in b */
+    bool duplicate; /* equal sets */
+    bool touch;     /* they touch, or gape or overlap by no more than the tolerance */
+    bool kept;      /* contained, and the rules let such pairs overlap */
+} sunder_i_relation;
+
+/* All questions about one pair, exact. */
+sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
+                              sunder_i_relation *relation, sunder_error *err);
+
+typedef struct sunder_i_relations {
+    sunder_i_relation *pair; /* sorted by (a, b); only pairs that are near, touch or are kept */
+    size_t n, tested;        /* tested: pairs of boxes that were looked at */
+} sunder_i_relations;
+
+const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
+
+/* ---- tolerance.c ------------------------------------------------------------------------------------------------- */
+
+/* Q + D as a shape, where D is a polygon of 16 corners in the disc whose radius is the tolerance (> 0); its corners are
+ * the nearest doubles. */
+sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance, sunder_shape **out,
+                                         sunder_error *err);
+
+#endif

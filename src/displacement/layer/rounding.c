@@ -1,0 +1,126 @@
+/* Moves that doubles can hold.
+ *
+ * x + t is a double, exactly, when it is a multiple of the unit in the last place of its binade. x is a multiple of its
+ * own unit, so if x + t lies in no higher a binade than x and t is a multiple of x's unit, the sum is exact. For a body
+ * t must do so for every coordinate of every member: a multiple of the coarsest unit among them, old places and new.
+ * That fails only where a coordinate climbs into a higher binade and has bits below the unit there: then no move of
+ * about that length is exact, and the feature is written rounded.
+ *
+ * Coordinates are those given (raw), since these are written, repeated and collinear vertices too. */
+#include "displacement/layer/rounding.h"
+
+#include "shape/shape.h"
+
+#include <float.h>
+#include <math.h>
+
+/* Exponent of the unit in the last place of v: |v| = m * 2^e with 2^52 <= m < 2^53, or the least for tiny ones. */
+static int unit_exponent(double v)
+{
+    if (fabs(v) < DBL_MIN) return DBL_MIN_EXP - DBL_MANT_DIG;
+    int e;
+    frexp(v, &e);
+    return e - DBL_MANT_DIG;
+}
+
+static bool sum_is_exact(double x, double t)
+{
+    /* The rounding error of a sum is itself a double [Knuth, TAOCP 2, 4.2.2; Dekker 1971]. */
+    const double s = x + t, b = s - x, e = (x - (s - b)) + (t - b);
+    return isfinite(s) && e == 0;
+}
+
+static size_t raw_vertices(const sunder_shape *shape)
+{
+    if (shape->raw_polygons == 0) return 0;
+    const size_t rings = shape->raw_poly_end[shape->raw_polygons - 1];
+    return rings ? shape->raw_ring_end[rings - 1] : 0;
+}
+
+/* The coarsest unit of one coordinate (0 or 1) of the body's corners, where they are and after t. */
+static int coarsest(const sunder_i_town *town, const sunder_i_body *body, size_t c, double t)
+{
+    double largest = fabs(t);
+    for (uint32_t k = 0; k < body->members; k++) {
+        const sunder_shape *shape = town->layer->feature[town->member[body->member + k]].shape;
+        if (!shape) continue;
+        const size_t n = raw_vertices(shape);
+        for (size_t v = 0; v < n; v++) {
+            const double x = shape->raw_xy[2 * v + c];
+            largest = fmax(largest, fmax(fabs(x), fabs(x + t)));
+        }
+    }
+    return unit_exponent(largest);
+}
+
+static bool all_exact(const sunder_i_town *town, const sunder_i_body *body, const double t[2])
+{
+    for (uint32_t k = 0; k < body->members; k++) {
+        const sunder_shape *shape = town->layer->feature[town->member[body->member + k]].shape;
+        if (!shape) continue;
+        const size_t n = raw_vertices(shape);
+        for (size_t v = 0; v < 2 * n; v++)
+            if (!sum_is_exact(shape->raw_xy[v], t[v & 1])) return false;
+    }
+    return true;
+}
+
+bool sunder_i_within(const double t[2], double limit)
+{
+    if (limit == INFINITY) return true;
+    /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and
+     * underflow. */
+    const double a = t[0] * t[0] + t[1] * t[1], b = limit * limit;
+    if (a > 0x1p-900 && a < 0x1p900 && b > 0x1p-900 && b < 0x1p900) {
+        if (a < b * (1 - 0x1p-48)) return true;
+        if (a > b * (1 + 0x1p-48)) return false;
+    }
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    int e[3], least = INT32_MAX;
+    sunder_i_big m[3];
+    const double value[3] = {t[0], t[1], limit};
+    for (int k = 0; k < 3; k++) {
+        m[k] = sunder_i_big_double(&arena, value[k], &e[k]);
+        if (sunder_i_big_sign(m[k]) && e[k] < least) least = e[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        if (sunder_i_big_sign(m[k])) m[k] = sunder_i_big_shl(&arena, m[k], (unsigned long)(e[k] - least));
+        m[k] = sunder_i_big_mul(&arena, m[k], m[k]);
+    }
+    const bool within = sunder_i_big_cmp(sunder_i_big_add(&arena, m[0], m[1]), m[2]) <= 0;
+    const bool failed = arena.failed;
+    sunder_i_arena_free(&arena);
+    return within && !failed; /* without memory for the proof the longer move is refused */
+}
+
+bool sunder_i_round_move(const sunder_i_town *town, uint32_t b, const double move[2], double out[2], double *unit)
+{
+    const sunder_i_body *body = &town->body[b];
+    double u[2];
+    for (size_t c = 0; c < 2; c++) {
+        u[c] = 0;
+        out[c] = 0;
+        if (move[c] == 0) continue;
+        /* Rounding may carry a coordinate into the next binade: then once more with the unit there. */
+        for (int again = 0; again < 2; again++) {
+            u[c] = ldexp(1, coarsest(town, body, c, again ? out[c] : move[c]));
+            out[c] = u[c] * rint(move[c] / u[c]);
+            if (!isfinite(out[c])) out[c] = move[c];
+        }
+    }
+    if (unit) *unit = fmax(u[0], u[1]);
+    if (!sunder_i_within(out, body->limit))
+        for (size_t c = 0; c < 2; c++) {
+            if (move[c] == 0) continue;
+            out[c] = u[c] * trunc(move[c] / u[c]);
+        }
+    /* A move that still is too long came in too long; shrink it towards zero by whole units. */
+    for (int k = 0; k < 64 && !sunder_i_within(out, body->limit); k++) {
+        const double length = hypot(out[0], out[1]), shrink = body->limit / length * (1 - ldexp(1, k - 52));
+        for (size_t c = 0; c < 2; c++)
+            if (move[c] != 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
+    }
+    if (!sunder_i_within(out, body->limit)) out[0] = out[1] = 0;
+    return all_exact(town, body, out);
+}

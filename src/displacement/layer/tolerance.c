@@ -1,0 +1,70 @@
+/* A shape grown by the tolerance: Q + D as a shape, for a polygon D in the disc whose radius is the tolerance. */
+#include "displacement/layer/relate.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+/* D: corners at multiples of a 32nd of the power of two below the tolerance, cut towards the centre, so that they lie
+ * in the disc. Few bits keep the sum's lattice narrow. With a radius of 32 units or more the sides are never nearer to
+ * the centre than cos(pi / 16) - sqrt(2) / 32 of it, which is 0.93. */
+static sunder_status small_disc(double tolerance, sunder_shape **out, sunder_error *err)
+{
+    enum { CORNERS = 16 };
+    int exponent;
+    frexp(tolerance, &exponent);
+    const double unit = ldexp(1, exponent - 6), r = tolerance / unit;
+    /* Cosines of multiples of pi / 8, a little less than the true ones. */
+    static const double cosine[5] = {1, 0.9238, 0.7071, 0.3826, 0};
+    double xy[2 * CORNERS];
+    for (int k = 0; k < CORNERS; k++) {
+        const int quarter = k / 4, i = k % 4;
+        const double x = floor(r * cosine[i]) * unit, y = floor(r * cosine[4 - i]) * unit;
+        xy[2 * k] = quarter == 0 ? x : quarter == 1 ? -y : quarter == 2 ? -x : y;
+        xy[2 * k + 1] = quarter == 0 ? y : quarter == 1 ? x : quarter == 2 ? -y : -x;
+    }
+    const size_t ring_end = CORNERS, poly_end = 1;
+    return sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, out, err);
+}
+
+sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance, sunder_shape **out, sunder_error *err)
+{
+    sunder_shape *disc = NULL;
+    sunder_sum *sum = NULL;
+    sunder_status status = small_disc(tolerance, &disc, err);
+    if (!status) status = sunder_minkowski_sum(q, disc, NULL, &sum, err);
+    sunder_shape_free(disc);
+    if (status) return status;
+    sunder_sum_size size;
+    sunder_sum_get_size(sum, &size);
+    size_t rings = 0, corners = 0;
+    for (size_t p = 0; p < size.polygons; p++)
+        for (size_t r = 0; r < sunder_sum_rings(sum, p); r++, rings++) {
+            size_t n;
+            sunder_sum_ring(sum, p, r, &n);
+            corners += n;
+        }
+    double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
+    size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end),
+           *poly_end = sunder_i_alloc(size.polygons, sizeof *poly_end);
+    if (xy && ring_end && poly_end) {
+        size_t v = 0, k = 0;
+        for (size_t p = 0; p < size.polygons; p++) {
+            for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
+                size_t n;
+                const uint32_t *ring = sunder_sum_ring(sum, p, r, &n);
+                for (size_t i = 0; i < n; i++, v++) sunder_sum_vertex(sum, ring[i], xy + 2 * v);
+                ring_end[k++] = v;
+            }
+            poly_end[p] = k;
+        }
+        status = sunder_shape_from_rings(xy, ring_end, poly_end, size.polygons, SUNDER_VALIDITY_EVEN_ODD, out, err);
+    } else {
+        status = sunder_i_no_memory(err);
+    }
+    sunder_i_free(xy);
+    sunder_i_free(ring_end);
+    sunder_i_free(poly_end);
+    sunder_sum_free(sum);
+    return status;
+}

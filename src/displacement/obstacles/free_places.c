@@ -1,0 +1,304 @@
+/* Places outside a union of open convex polygons, nearest first.
+ *
+ * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and
+ * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
+ * walls. So these are all the candidates; they are taken by distance, and each is tested against all obstacles. Walls
+ * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
+ * walls left are farther than the places found.
+ *
+ * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
+#include "displacement/obstacles/free_places.h"
+
+#include "base/memory.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Round corners are cut by tangents so that normals turn by at most this: the place proposed keeps at most 2 % more
+ * than the gap. */
+#define TURN (3.14159265358979323846 / 8)
+/* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block
+ * stands amid hundreds of neighbours. */
+#define MOST_CROSSED 1500
+
+void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
+{
+    sunder_i_free(obstacles->obstacle);
+    sunder_i_free(obstacles->wall);
+    memset(obstacles, 0, sizeof *obstacles);
+}
+
+/* ---- Building ------------------------------------------------------------------------------------------------- */
+
+/* A wall with normal n through the corner c, ends to be filled in. */
+static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
+{
+    if (o->failed || !sunder_i_reserve(&o->wall, &o->wall_capacity, o->walls + 1, sizeof *o->wall)) {
+        o->failed = true;
+        return;
+    }
+    sunder_i_wall *w = &o->wall[o->walls++];
+    memset(w, 0, sizeof *w);
+    w->n[0] = n[0];
+    w->n[1] = n[1];
+    w->h = n[0] * c[0] + n[1] * c[1] + gap;
+    w->from[0] = c[0]; /* for now the corner that this wall starts at; close_walls() moves it out */
+    w->from[1] = c[1];
+    w->obstacle = (uint32_t)o->n;
+}
+
+/* The normals between those of two edges that meet in c. */
+static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
+{
+    const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
+    const double angle =
+        turn < -1e-3 ? turn + 2 * 3.14159265358979323846 : turn; /* a flat piece turns by half a circle */
+    const int steps = (int)ceil(angle / TURN);
+    for (int k = 1; k < steps; k++) {
+        const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
+        add_normal(o, t, c, gap);
+    }
+}
+
+/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along
+ * the bisector of the normals. */
+static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
+{
+    const size_t n = o->walls - first;
+    sunder_i_obstacle *obstacle = &o->obstacle[o->n];
+    obstacle->wall = (uint32_t)first;
+    obstacle->walls = (uint32_t)n;
+    obstacle->box[0] = obstacle->box[1] = INFINITY;
+    obstacle->box[2] = obstacle->box[3] = -INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        sunder_i_wall *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
+        const double s = gap / (1 + w->n[0] * before->n[0] + w->n[1] * before->n[1]);
+        const double c[2] = {w->from[0] + s * (w->n[0] + before->n[0]), w->from[1] + s * (w->n[1] + before->n[1])};
+        for (int i = 0; i < 2; i++) {
+            w->from[i] = before->to[i] = c[i];
+            obstacle->box[i] = fmin(obstacle->box[i], c[i]);
+            obstacle->box[i + 2] = fmax(obstacle->box[i + 2], c[i]);
+        }
+    }
+    o->n++;
+}
+
+void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, double gap)
+{
+    const size_t first = o->walls;
+    if (o->failed || !sunder_i_reserve(&o->obstacle, &o->obstacle_capacity, o->n + 1, sizeof *o->obstacle)) {
+        o->failed = true;
+        return;
+    }
+    double before[2] = {0, 0}, first_normal[2] = {0, 0};
+    const double *first_corner = d;
+    bool any = false;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
+        const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
+        if (!(length > 0)) continue;
+        const double m[2] = {ey / length, -ex / length};
+        if (any && gap > 0) add_round(o, before, m, p, gap);
+        add_normal(o, m, p, gap);
+        if (!any) {
+            memcpy(first_normal, m, sizeof m);
+            first_corner = p;
+        }
+        memcpy(before, m, sizeof m);
+        any = true;
+    }
+    if (any && gap > 0) add_round(o, before, first_normal, first_corner, gap);
+    if (o->failed) return;
+    if (o->walls - first < 3) {
+        o->walls = first; /* no area, no gap: no obstacle */
+        return;
+    }
+    close_walls(o, first, gap);
+}
+
+/* ---- Searching --------------------------------------------------------------------------------------------------- */
+
+static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
+{
+    const double *b = obstacle->box;
+    if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
+    /* Places are computed on walls: within this of one counts as on it. */
+    const double slack = 1e-12 * (b[2] - b[0] + b[3] - b[1]);
+    for (uint32_t k = 0; k < obstacle->walls; k++) {
+        const sunder_i_wall *w = &o->wall[obstacle->wall + k];
+        if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
+    }
+    return true;
+}
+
+/* order: the obstacles, those that are hit often move to the front. */
+static bool free_at(const sunder_i_obstacles *o, const double x[2], uint32_t *order)
+{
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = order[k];
+        if (!inside(o, &o->obstacle[hit], x)) continue;
+        order[k] = order[k / 2];
+        order[k / 2] = hit;
+        return false;
+    }
+    return true;
+}
+
+static int by_distance(const void *a, const void *b)
+{
+    const sunder_i_wall *v = a, *w = b;
+    if (v->distance != w->distance) return v->distance < w->distance ? -1 : 1;
+    if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle ? -1 : 1;
+    if (v->n[0] != w->n[0]) return v->n[0] < w->n[0] ? -1 : 1;
+    return v->n[1] < w->n[1] ? -1 : v->n[1] > w->n[1];
+}
+
+/* The point of the wall nearest to x. */
+static void nearest_on(const sunder_i_wall *w, const double x[2], double out[2])
+{
+    const double ex = w->to[0] - w->from[0], ey = w->to[1] - w->from[1], square = ex * ex + ey * ey;
+    double s = square > 0 ? ((x[0] - w->from[0]) * ex + (x[1] - w->from[1]) * ey) / square : 0;
+    s = s < 0 ? 0 : s > 1 ? 1 : s;
+    out[0] = w->from[0] + s * ex;
+    out[1] = w->from[1] + s * ey;
+}
+
+typedef struct harvest {
+    const sunder_i_obstacles *obstacles;
+    const double *target;
+    double limit, spread;
+    size_t most, n;
+    uint32_t *order;
+    double (*place)[2];
+    double *distance;
+    uint64_t work; /* done so far, in constraints looked at */
+} harvest;
+
+/* n obstacles, or walls, are looked at; most of them briefly. */
+static bool work(harvest *h, size_t n)
+{
+    h->work += 1 + n / 2;
+    return sunder_i_steps(1 + n / 16);
+}
+
+/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
+ * nearer stays. */
+static void offer(harvest *h, const double x[2])
+{
+    const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+    if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
+    if (!work(h, h->obstacles->n)) return;
+    for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
+        if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
+    if (!free_at(h->obstacles, x, h->order)) return;
+    size_t k = 0;
+    while (k < h->n && h->distance[k] <= d) k++;
+    /* Those behind that are too near the new one go. */
+    size_t out = k;
+    for (size_t i = k; i < h->n; i++)
+        if (hypot(x[0] - h->place[i][0], x[1] - h->place[i][1]) > h->spread) {
+            memmove(h->place[out], h->place[i], sizeof h->place[i]);
+            h->distance[out++] = h->distance[i];
+        }
+    h->n = out;
+    if (h->n == h->most) h->n--;
+    for (size_t i = h->n; i > k; i--) {
+        memcpy(h->place[i], h->place[i - 1], sizeof h->place[i]);
+        h->distance[i] = h->distance[i - 1];
+    }
+    h->place[k][0] = x[0];
+    h->place[k][1] = x[1];
+    h->distance[k] = d;
+    h->n++;
+}
+
+static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
+
+/* Crossings of wall w with every wall before it. */
+static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
+{
+    const sunder_i_wall *a = &wall[w];
+    h->work += w;
+    for (size_t v = 0; v < w; v++) {
+        const sunder_i_wall *b = &wall[v];
+        if (a->obstacle == b->obstacle) continue;
+        const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h,
+                     d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
+        if ((d1 > 0) == (d2 > 0)) continue;
+        const double e1 = a->n[0] * b->from[0] + a->n[1] * b->from[1] - a->h,
+                     e2 = a->n[0] * b->to[0] + a->n[1] * b->to[1] - a->h;
+        if ((e1 > 0) == (e2 > 0)) continue;
+        const double s = d1 / (d1 - d2),
+                     x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
+        offer(h, x);
+    }
+}
+
+/* Does one obstacle hold the whole wall? Most walls are deep inside the union. */
+static bool is_covered(const harvest *h, const sunder_i_wall *w)
+{
+    const sunder_i_obstacles *o = h->obstacles;
+    const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2};
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = h->order[k];
+        const sunder_i_obstacle *obstacle = &o->obstacle[hit];
+        if (!inside(o, obstacle, middle) || !inside(o, obstacle, w->from) || !inside(o, obstacle, w->to)) continue;
+        h->order[k] = h->order[k / 2];
+        h->order[k / 2] = hit;
+        return true;
+    }
+    return false;
+}
+
+/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle.
+ */
+static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
+{
+    size_t bare = 0;
+    for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
+        double x[2];
+        if (!work(h, h->obstacles->n)) return;
+        if (is_covered(h, &sorted[k])) continue;
+        nearest_on(&sorted[k], h->target, x);
+        offer(h, x);
+        sorted[bare++] = sorted[k];
+    }
+    for (size_t k = 0; k < bare && k < MOST_CROSSED && sorted[k].distance <= reach_of(h); k++)
+        offer_crossings(h, sorted, k);
+}
+
+size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
+                            size_t most, double (*places)[2], uint64_t *steps, bool *failed)
+{
+    enum { MOST = 16 };
+    double distance[MOST];
+    uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
+    sunder_i_wall *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
+    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance, 0};
+    if (!order || !sorted || o->failed) {
+        *failed = true;
+    } else if (h.most) {
+        for (size_t k = 0; k < o->n; k++) order[k] = (uint32_t)k;
+        offer(&h, target);
+        if (h.n == 0) {
+            size_t walls = 0;
+            for (size_t k = 0; k < o->walls; k++) {
+                sunder_i_wall *w = &sorted[walls];
+                double x[2];
+                *w = o->wall[k];
+                nearest_on(w, target, x);
+                w->distance = hypot(x[0] - target[0], x[1] - target[1]);
+                if (w->distance <= limit) walls++;
+            }
+            if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
+            search(&h, sorted, walls);
+        }
+        *failed = *failed || sunder_i_stopped();
+    }
+    *steps += h.work + 2 * o->walls;
+    sunder_i_free(order);
+    sunder_i_free(sorted);
+    return h.n;
+}

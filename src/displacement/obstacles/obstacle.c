@@ -1,0 +1,117 @@
+/* Two convex pieces: their obstacle A + (-B), and the support line of it that serves best as a constraint.
+ *
+ * B + u misses the interior of A exactly when u lies outside the interior of A + (-B). For every unit vector n,
+ *     n.u >= h_A(n) + h_B(-n) + gap
+ * keeps B + u at least the gap from A, wherever u is [Li and Milenkovic 1995]: it is a *global* constraint, and the
+ * only choice is that of n. Chosen where u stands now, as the direction of the nearest point, it is tight there, so
+ * that a feasible u stays feasible. */
+#include "displacement/obstacles/obstacle.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+static double *reserve(sunder_i_scratch *scratch, size_t n)
+{
+    if (scratch->failed || !sunder_i_reserve(&scratch->xy, &scratch->capacity, 2 * n, sizeof(double))) {
+        scratch->failed = true;
+        return NULL;
+    }
+    return scratch->xy;
+}
+
+/* Least (sign +1) or greatest (sign -1) corner by y, then x. */
+static size_t extreme(const double *p, size_t n, double sign)
+{
+    size_t best = 0;
+    for (size_t k = 1; k < n; k++) {
+        const double dy = sign * (p[2 * k + 1] - p[2 * best + 1]), dx = sign * (p[2 * k] - p[2 * best]);
+        if (dy < 0 || (dy == 0 && dx < 0)) best = k;
+    }
+    return best;
+}
+
+/* The edge of p's corner k, or (sign -1) its opposite; returns the next corner. */
+static size_t edge_at(const double *p, size_t n, size_t k, double sign, double out[2])
+{
+    const size_t next = k + 1 < n ? k + 1 : 0;
+    out[0] = sign * (p[2 * next] - p[2 * k]);
+    out[1] = sign * (p[2 * next + 1] - p[2 * k + 1]);
+    return next;
+}
+
+/* Does u come before v, turning from direction 0 to 2 pi? Upper half-plane first; within a half the cross product tells. */
+static bool turns_first(const double u[2], const double v[2])
+{
+    const bool a = u[1] > 0 || (u[1] == 0 && u[0] > 0), b = v[1] > 0 || (v[1] == 0 && v[0] > 0);
+    return a != b ? a : u[0] * v[1] - u[1] * v[0] >= 0;
+}
+
+size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
+                           sunder_i_scratch *scratch)
+{
+    double *d = reserve(scratch, na + nb);
+    if (!d) return 0;
+    size_t i = extreme(a, na, 1), j = extreme(b, nb, -1), left_a = na, left_b = nb, n = 0;
+    double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];
+    i = edge_at(a, na, i, 1, u);
+    j = edge_at(b, nb, j, -1, v);
+    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by turning. */
+    while (left_a + left_b) {
+        const bool take_a = left_b == 0 || (left_a && turns_first(u, v));
+        d[2 * n] = x;
+        d[2 * n++ + 1] = y;
+        x += take_a ? u[0] : v[0];
+        y += take_a ? u[1] : v[1];
+        if (take_a) {
+            i = edge_at(a, na, i, 1, u);
+            left_a--;
+        } else {
+            j = edge_at(b, nb, j, -1, v);
+            left_b--;
+        }
+    }
+    return n;
+}
+
+size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_edge *edge)
+{
+    size_t edges = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
+        const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
+        if (length > 0) edge[edges++] = (sunder_i_edge){{p[0], p[1]}, {ey / length, -ex / length}, length};
+    }
+    return edges;
+}
+
+sunder_i_support sunder_i_support_at(const sunder_i_edge *edge, size_t n, const double u[2])
+{
+    sunder_i_support best = {{1, 0}, 0, -INFINITY}, corner = {{1, 0}, 0, INFINITY};
+    double nearest = INFINITY, perimeter = 0;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        perimeter += e->length;
+        if (s > best.distance) best = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
+        if (s < 0) continue;
+        /* In front of this edge: either its inside or one of its ends is nearest. */
+        const double along = wy * e->n[0] - wx * e->n[1];
+        if (along >= 0 && along <= e->length) {
+            if (s < nearest) {
+                nearest = s;
+                corner = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
+            }
+            continue;
+        }
+        const double *c = along < 0 ? e->from : edge[k + 1 < n ? k + 1 : 0].from;
+        const double cx = u[0] - c[0], cy = u[1] - c[1], far = sqrt(cx * cx + cy * cy);
+        if (far < nearest) {
+            nearest = far;
+            corner = (sunder_i_support){{cx / far, cy / far}, (cx * c[0] + cy * c[1]) / far, far};
+        }
+    }
+    /* Very near a corner the direction to it is noise; an edge's normal serves as well there. */
+    if (best.distance <= 0 || !(nearest < INFINITY) || nearest < 1e-9 * perimeter) return best;
+    return corner;
+}

@@ -1,0 +1,36 @@
+/* The obstacle A + (-B) of two convex pieces, and its support lines; see obstacle.c. */
+#ifndef SUNDER_I_OBSTACLE_H
+#define SUNDER_I_OBSTACLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Scratch memory of one thread; grows, and remembers a failure. */
+typedef struct sunder_i_scratch {
+    double *xy;
+    size_t capacity;
+    bool failed;
+} sunder_i_scratch;
+
+/* The obstacle A + (-B) of two convex polygons: corners counter-clockwise in scratch->xy. Returns how many, 0 if memory
+ * is out. */
+size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
+                           sunder_i_scratch *scratch);
+
+/* A support constraint n.u >= support + gap, valid for every u outside the obstacle on that side. */
+typedef struct sunder_i_support {
+    double n[2], support;
+    double distance; /* of u to the obstacle: negative inside, then of the shallowest side */
+} sunder_i_support;
+
+/* An edge of an obstacle: where it begins, its outer normal, its length. */
+typedef struct sunder_i_edge {
+    double from[2], n[2], length;
+} sunder_i_edge;
+
+/* The edges of the convex polygon d of n corners, those without length left out, in edge[n]; returns how many. */
+size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_edge *edge);
+/* The support line of the convex polygon of these edges that is farthest below u. */
+sunder_i_support sunder_i_support_at(const sunder_i_edge *edge, size_t n, const double u[2]);
+
+#endif

@@ -1,0 +1,198 @@
+/* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dostal, Optimal
+ * Quadratic Programming Algorithms, Springer 2009, algorithm 5.8].
+ *
+ * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the forces that are positive it takes conjugate gradient steps;
+ * where such a step would make one negative it stops there and takes a short projected gradient step instead; where the
+ * zero forces ask for more than the positive ones are out of balance it lets them in. Each constraint is scaled so that
+ * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
+ * each constraint. */
+#include "displacement/programs/methods.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct dual {
+    sunder_i_quadratic *p;
+    size_t n;
+    double softness;
+    double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
+    double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
+    double *t;                 /* [2 * bodies] */
+} dual;
+
+/* out = G v */
+static void multiply(dual *q, const double *v, double *out)
+{
+    const sunder_i_quadratic *p = q->p;
+    memset(q->t, 0, 2 * p->bodies * sizeof *q->t);
+    for (size_t k = 0; k < q->n; k++)
+        if (v[k] != 0) sunder_i_push(p, &p->constraint[k], v[k] / q->scale[k], q->t);
+    for (size_t k = 0; k < q->n; k++)
+        out[k] = q->scale[k] > 0 ? sunder_i_stretch(&p->constraint[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
+    q->p->work += 2 * q->n;
+}
+
+static void gradient(dual *q)
+{
+    multiply(q, q->f, q->g);
+    for (size_t k = 0; k < q->n; k++)
+        if (q->scale[k] > 0) q->g[k] -= q->p->constraint[k].d / q->scale[k];
+}
+
+/* A little above the largest eigenvalue of G, by powers. */
+static double largest(dual *q)
+{
+    double value = 1;
+    for (size_t k = 0; k < q->n; k++) q->step[k] = q->scale[k] > 0 ? 1 + (double)(k % 7) / 8 : 0;
+    for (int round = 0; round < 12; round++) {
+        multiply(q, q->step, q->gs);
+        double norm = 0, before = 0;
+        for (size_t k = 0; k < q->n; k++) {
+            norm += q->gs[k] * q->gs[k];
+            before += q->step[k] * q->step[k];
+        }
+        if (!(norm > 0)) break;
+        value = sqrt(norm / before);
+        for (size_t k = 0; k < q->n; k++) q->step[k] = q->gs[k] / sqrt(norm);
+    }
+    return 1.2 * value;
+}
+
+static double dot(const double *a, const double *b, size_t n)
+{
+    double v = 0;
+    for (size_t k = 0; k < n; k++) v += a[k] * b[k];
+    return v;
+}
+
+/* The curvature along the step, or 0 where it is nothing but rounding. Constraints that contradict each other make such
+ * a direction, and the dual falls along it without end: a step there could have any length, and be no number at last.
+ * The diagonal of G is 1, so sums of n terms are wrong by n 2^-53 of the step's square at most; a chain of n contacts
+ * has a curvature of 5 / n^2 of it at least. Between the two there is room up to 100,000 contacts. */
+static double curvature_of(const dual *q)
+{
+    const double value = dot(q->step, q->gs, q->n);
+    return value > 0x1p-44 * dot(q->step, q->step, q->n) ? value : 0;
+}
+
+/* The gradient among the positive forces is the next direction. */
+static void restart(dual *q)
+{
+    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? q->g[k] : 0;
+}
+
+/* Sizes of the imbalance: of positive forces (twice, once cut where it would make them negative), of those at zero; and
+ * the worst, as a length. */
+typedef struct imbalance {
+    double cut, zero, worst;
+} imbalance;
+
+static imbalance look(const dual *q, double short_step)
+{
+    imbalance i = {0, 0, 0};
+    for (size_t k = 0; k < q->n; k++) {
+        if (q->f[k] > 0) {
+            const double cut = fmin(q->f[k] / short_step, q->g[k]);
+            i.cut += cut * q->g[k];
+            i.worst = fmax(i.worst, fabs(q->g[k]) * q->scale[k]);
+        } else if (q->g[k] < 0) {
+            i.zero += q->g[k] * q->g[k];
+            i.worst = fmax(i.worst, -q->g[k] * q->scale[k]);
+        }
+    }
+    return i;
+}
+
+/* One step among the positive forces; false where it leads nowhere. */
+static bool step_within(dual *q, double short_step)
+{
+    multiply(q, q->step, q->gs);
+    const double curvature = curvature_of(q);
+    if (!(curvature > 0)) {
+        restart(q);
+        return false;
+    }
+    const double length = dot(q->g, q->step, q->n) / curvature;
+    double feasible = INFINITY;
+    for (size_t k = 0; k < q->n; k++)
+        if (q->step[k] > 0) feasible = fmin(feasible, q->f[k] / q->step[k]);
+    const double taken = fmin(length, feasible);
+    for (size_t k = 0; k < q->n; k++) {
+        q->f[k] = fmax(0, q->f[k] - taken * q->step[k]);
+        q->g[k] -= taken * q->gs[k];
+    }
+    if (length <= feasible) {
+        double along = 0;
+        for (size_t k = 0; k < q->n; k++)
+            if (q->f[k] > 0) along += q->g[k] * q->gs[k];
+        along /= curvature;
+        for (size_t k = 0; k < q->n; k++) q->step[k] = (q->f[k] > 0 ? q->g[k] : 0) - along * q->step[k];
+        return true;
+    }
+    for (size_t k = 0; k < q->n; k++)
+        if (q->f[k] > 0) q->f[k] = fmax(0, q->f[k] - short_step * q->g[k]);
+    gradient(q);
+    restart(q);
+    return true;
+}
+
+/* Lets in the zero forces that are called for; false where that leads nowhere. */
+static bool step_in(dual *q)
+{
+    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : fmin(q->g[k], 0);
+    multiply(q, q->step, q->gs);
+    const double curvature = curvature_of(q);
+    if (curvature > 0) {
+        const double length = dot(q->g, q->step, q->n) / curvature;
+        for (size_t k = 0; k < q->n; k++) {
+            q->f[k] -= length * q->step[k];
+            q->g[k] -= length * q->gs[k];
+        }
+    }
+    restart(q);
+    return curvature > 0;
+}
+
+static void iterate(dual *q, double tolerance, unsigned steps)
+{
+    gradient(q);
+    const double short_step = 1.9 / largest(q);
+    restart(q);
+    /* Nowhere along a direction made of earlier ones, and then nowhere along the gradient itself: this is the end. */
+    int nowhere = 0;
+    for (unsigned k = 0; k < steps && nowhere < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
+        const imbalance i = look(q, short_step);
+        if (i.worst <= tolerance) break;
+        const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
+        nowhere = somewhere ? 0 : nowhere + 1;
+        if (k % 64 == 63) gradient(q); /* the running gradient gathers rounding */
+    }
+}
+
+bool sunder_i_quadratic_gradient(sunder_i_quadratic *p, double softness, double tolerance, unsigned steps)
+{
+    if (p->n == 0) return true;
+    double *memory = sunder_i_calloc(5 * p->n + 2 * p->bodies, sizeof *memory);
+    if (!memory) return false;
+    dual q = {.p = p,
+              .n = p->n,
+              .softness = softness,
+              .scale = memory,
+              .f = memory + p->n,
+              .g = memory + 2 * p->n,
+              .step = memory + 3 * p->n,
+              .gs = memory + 4 * p->n,
+              .t = memory + 5 * p->n};
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        q.scale[k] = sqrt(sunder_i_mass(p, c->i) + sunder_i_mass(p, c->j));
+        q.f[k] = q.scale[k] * c->force;
+    }
+    iterate(&q, tolerance / 2, steps);
+    for (size_t k = 0; k < p->n; k++)
+        if (q.scale[k] > 0) p->constraint[k].force = q.f[k] / q.scale[k];
+    sunder_i_free(memory);
+    return true;
+}

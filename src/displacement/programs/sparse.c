@@ -1,0 +1,290 @@
+/* Sparse Cholesky: minimum degree order, left-looking factorisation.
+ *
+ * Who is in contact with few goes first. Bodies in a plane touch few others, and an outline that holds hundreds of
+ * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [George and Liu, Computer
+ * Solution of Large Sparse Positive Definite Systems, 1981, chapter 5]. Eliminating a node joins its neighbours to each
+ * other; the lists of neighbours at that moment are the columns of the factor. */
+#include "displacement/programs/sparse.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_sparse_free(sunder_i_sparse *m)
+{
+    sunder_i_free(m->rank);
+    sunder_i_free(m->column);
+    sunder_i_free(m->row);
+    sunder_i_free(m->diagonal);
+    sunder_i_free(m->block);
+    sunder_i_free(m->first);
+    sunder_i_free(m->link);
+    sunder_i_free(m->at);
+    sunder_i_free(m->y);
+    memset(m, 0, sizeof *m);
+}
+
+/* ---- The order -------------------------------------------------------------------------------------------------- */
+
+/* The graph as it is eliminated: sorted lists of neighbours that are still there, and nodes by their degrees in
+ * doubly linked lists. */
+#define END UINT32_MAX
+
+typedef struct graph {
+    size_t n;
+    sunder_i_list *near;
+    uint32_t *head, *next, *prev; /* [n] of each degree, and of each node; END ends a list */
+    sunder_i_list merged;
+} graph;
+
+static void unlist(graph *g, uint32_t v)
+{
+    if (g->prev[v] != END)
+        g->next[g->prev[v]] = g->next[v];
+    else
+        g->head[g->near[v].n] = g->next[v];
+    if (g->next[v] != END) g->prev[g->next[v]] = g->prev[v];
+}
+
+static void enlist(graph *g, uint32_t v)
+{
+    uint32_t *head = &g->head[g->near[v].n];
+    g->prev[v] = END;
+    g->next[v] = *head;
+    if (*head != END) g->prev[*head] = v;
+    *head = v;
+}
+
+static bool append(sunder_i_list *list, uint32_t v)
+{
+    if (!sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof *list->item)) return false;
+    list->item[list->n++] = v;
+    return true;
+}
+
+static bool graph_init(graph *g, size_t n, const sunder_i_couple *couple, size_t couples)
+{
+    memset(g, 0, sizeof *g);
+    g->n = n;
+    g->near = sunder_i_calloc(n, sizeof *g->near);
+    g->head = sunder_i_alloc(n, sizeof *g->head);
+    g->next = sunder_i_alloc(n, sizeof *g->next);
+    g->prev = sunder_i_alloc(n, sizeof *g->prev);
+    if (!g->near || !g->head || !g->next || !g->prev) return false;
+    for (size_t k = 0; k < couples; k++)
+        if (!append(&g->near[couple[k].a], couple[k].b) || !append(&g->near[couple[k].b], couple[k].a)) return false;
+    for (size_t v = 0; v < n; v++) {
+        sunder_i_list *near = &g->near[v];
+        near->n = sunder_i_set_make(near->item, near->n);
+        g->head[v] = END;
+    }
+    /* Backwards, so that of equal degrees the lowest number comes first. */
+    for (size_t v = n; v-- > 0;) enlist(g, (uint32_t)v);
+    return true;
+}
+
+static void graph_free(graph *g)
+{
+    for (size_t v = 0; g->near && v < g->n; v++) sunder_i_free(g->near[v].item);
+    sunder_i_free(g->near);
+    sunder_i_free(g->head);
+    sunder_i_free(g->next);
+    sunder_i_free(g->prev);
+    sunder_i_free(g->merged.item);
+}
+
+/* The neighbours of v become neighbours of u; v is no longer there. */
+static bool join_neighbours(graph *g, uint32_t u, uint32_t v)
+{
+    const sunder_i_list *a = &g->near[u], *b = &g->near[v];
+    sunder_i_list *out = &g->merged;
+    if (!sunder_i_reserve(&out->item, &out->capacity, a->n + b->n, sizeof *out->item)) return false;
+    out->n = 0;
+    size_t i = 0, j = 0;
+    while (i < a->n || j < b->n) {
+        uint32_t w;
+        if (j == b->n || (i < a->n && a->item[i] < b->item[j]))
+            w = a->item[i++];
+        else {
+            w = b->item[j++];
+            if (i < a->n && a->item[i] == w) i++;
+        }
+        if (w != u && w != v) out->item[out->n++] = w;
+    }
+    unlist(g, u);
+    const sunder_i_list swap = g->near[u];
+    g->near[u] = *out;
+    *out = swap;
+    enlist(g, u);
+    return true;
+}
+
+/* Eliminates all nodes; g->near[v] is left as the neighbours that v had when its turn came. */
+static bool eliminate(graph *g, uint32_t *rank)
+{
+    size_t degree = 0;
+    for (size_t turn = 0; turn < g->n; turn++) {
+        /* The least degree falls by one at most with each node. */
+        if (degree) degree--;
+        while (g->head[degree] == END) degree++;
+        const uint32_t v = g->head[degree];
+        unlist(g, v);
+        rank[v] = (uint32_t)turn;
+        for (size_t k = 0; k < g->near[v].n; k++)
+            if (!join_neighbours(g, g->near[v].item[k], v)) return false;
+    }
+    return true;
+}
+
+/* Columns from the neighbours, by rank. */
+static bool fill_columns(sunder_i_sparse *m, const graph *g)
+{
+    size_t entries = 0;
+    for (size_t v = 0; v < m->n; v++) entries += g->near[v].n;
+    m->row = sunder_i_alloc(entries, sizeof *m->row);
+    m->block = sunder_i_alloc(4 * entries, sizeof *m->block);
+    if (!m->row || !m->block) return false;
+    for (size_t v = 0; v < m->n; v++) m->column[m->rank[v] + 1] = g->near[v].n;
+    m->column[0] = 0;
+    for (size_t r = 0; r < m->n; r++) m->column[r + 1] += m->column[r];
+    for (size_t v = 0; v < m->n; v++) {
+        uint32_t *row = m->row + m->column[m->rank[v]];
+        const size_t n = g->near[v].n;
+        for (size_t k = 0; k < n; k++) row[k] = m->rank[g->near[v].item[k]];
+        if (n) qsort(row, n, sizeof *row, sunder_i_by_number);
+        m->work += n * (n + 1) / 2;
+    }
+    return true;
+}
+
+bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_couple *couple, size_t couples)
+{
+    memset(m, 0, sizeof *m);
+    m->n = n;
+    m->rank = sunder_i_alloc(n, sizeof *m->rank);
+    m->column = sunder_i_calloc(n + 1, sizeof *m->column);
+    m->diagonal = sunder_i_alloc(4 * n, sizeof *m->diagonal);
+    m->first = sunder_i_alloc(n, sizeof *m->first);
+    m->link = sunder_i_alloc(n, sizeof *m->link);
+    m->at = sunder_i_alloc(2 * n, sizeof *m->at);
+    m->y = sunder_i_alloc(2 * n, sizeof *m->y);
+    if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y) return false;
+    graph g;
+    const bool ok = graph_init(&g, n, couple, couples) && eliminate(&g, m->rank) && fill_columns(m, &g);
+    graph_free(&g);
+    return ok;
+}
+
+/* ---- Entries ---------------------------------------------------------------------------------------------------- */
+
+void sunder_i_sparse_clear(sunder_i_sparse *m)
+{
+    memset(m->diagonal, 0, 4 * m->n * sizeof *m->diagonal);
+    memset(m->block, 0, 4 * m->column[m->n] * sizeof *m->block);
+}
+
+double *sunder_i_sparse_diagonal(sunder_i_sparse *m, uint32_t a) { return m->diagonal + 4 * (size_t)m->rank[a]; }
+
+double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *transposed)
+{
+    const uint32_t ra = m->rank[a], rb = m->rank[b], low = ra < rb ? ra : rb, high = ra < rb ? rb : ra;
+    const uint32_t *row = m->row + m->column[low];
+    const uint32_t *found = bsearch(&high, row, m->column[low + 1] - m->column[low], sizeof *row, sunder_i_by_number);
+    *transposed = ra < rb;
+    return m->block + 4 * (size_t)(found - m->row);
+}
+
+/* ---- The factor ---------------------------------------------------------------------------------------------------
+ */
+
+/* c -= a b' */
+static inline void subtract_product(double *c, const double *a, const double *b)
+{
+    c[0] -= a[0] * b[0] + a[1] * b[1];
+    c[1] -= a[0] * b[2] + a[1] * b[3];
+    c[2] -= a[2] * b[0] + a[3] * b[1];
+    c[3] -= a[2] * b[2] + a[3] * b[3];
+}
+
+/* Column k waits for the next row in which it has an entry, if there is one from position `from` on. */
+static void wait_for_next(sunder_i_sparse *m, uint32_t k, size_t from)
+{
+    m->at[m->n + k] = from;
+    if (from == m->column[k + 1]) return;
+    const uint32_t r = m->row[from];
+    m->link[k] = m->first[r];
+    m->first[r] = k;
+}
+
+static bool finish_column(sunder_i_sparse *m, uint32_t j)
+{
+    double *d = m->diagonal + 4 * (size_t)j;
+    if (!(d[0] > 0)) return false;
+    d[0] = sqrt(d[0]);
+    d[2] /= d[0];
+    d[3] -= d[2] * d[2];
+    if (!(d[3] > 0)) return false;
+    d[3] = sqrt(d[3]);
+    for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
+        double *b = m->block + 4 * p;
+        for (int r = 0; r < 4; r += 2) {
+            b[r] /= d[0];
+            b[r + 1] = (b[r + 1] - b[r] * d[2]) / d[3];
+        }
+    }
+    return true;
+}
+
+bool sunder_i_sparse_factor(sunder_i_sparse *m)
+{
+    for (size_t r = 0; r < m->n; r++) m->first[r] = END;
+    for (uint32_t j = 0; j < m->n; j++) {
+        for (size_t p = m->column[j]; p < m->column[j + 1]; p++) m->at[m->row[p]] = p;
+        double *d = m->diagonal + 4 * (size_t)j;
+        for (uint32_t k = m->first[j], after; k != END; k = after) {
+            after = m->link[k];
+            const size_t p = m->at[m->n + k];
+            const double *b = m->block + 4 * p;
+            subtract_product(d, b, b);
+            /* Whatever column k has below row j, column j has too. */
+            for (size_t q = p + 1; q < m->column[k + 1]; q++)
+                subtract_product(m->block + 4 * m->at[m->row[q]], m->block + 4 * q, b);
+            wait_for_next(m, k, p + 1);
+        }
+        if (!finish_column(m, j)) return false;
+        wait_for_next(m, j, m->column[j]);
+    }
+    return true;
+}
+
+void sunder_i_sparse_solve(sunder_i_sparse *m, double *x)
+{
+    double *y = m->y;
+    for (size_t v = 0; v < m->n; v++) memcpy(y + 2 * (size_t)m->rank[v], x + 2 * v, 2 * sizeof *y);
+    for (size_t j = 0; j < m->n; j++) {
+        const double *d = m->diagonal + 4 * j;
+        double *s = y + 2 * j;
+        s[0] /= d[0];
+        s[1] = (s[1] - d[2] * s[0]) / d[3];
+        for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
+            const double *b = m->block + 4 * p;
+            double *t = y + 2 * (size_t)m->row[p];
+            t[0] -= b[0] * s[0] + b[1] * s[1];
+            t[1] -= b[2] * s[0] + b[3] * s[1];
+        }
+    }
+    for (size_t j = m->n; j-- > 0;) {
+        const double *d = m->diagonal + 4 * j;
+        double *s = y + 2 * j;
+        for (size_t p = m->column[j]; p < m->column[j + 1]; p++) {
+            const double *b = m->block + 4 * p, *t = y + 2 * (size_t)m->row[p];
+            s[0] -= b[0] * t[0] + b[2] * t[1];
+            s[1] -= b[1] * t[0] + b[3] * t[1];
+        }
+        s[1] /= d[3];
+        s[0] = (s[0] - d[2] * s[1]) / d[0];
+    }
+    for (size_t v = 0; v < m->n; v++) memcpy(x + 2 * v, y + 2 * (size_t)m->rank[v], 2 * sizeof *y);
+}

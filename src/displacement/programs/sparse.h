@@ -1,0 +1,33 @@
+/* A symmetric positive definite matrix of 2 x 2 blocks with few entries, and its Cholesky factor. */
+#ifndef SUNDER_I_SPARSE_H
+#define SUNDER_I_SPARSE_H
+
+#include "base/list.h"
+
+typedef struct sunder_i_sparse {
+    size_t n;               /* rows and columns of blocks */
+    uint32_t *rank;         /* [n] when each is eliminated */
+    size_t *column;         /* [n + 1] by rank: where the entries below the diagonal start */
+    uint32_t *row;          /* ranks, ascending in each column; fill-in included */
+    double *diagonal;       /* [4 * n] by rank, row by row */
+    double *block;          /* [4 * column[n]] */
+    uint32_t *first, *link; /* [n] of the factorisation: columns by the row that they come to next */
+    size_t *at;             /* [2 * n] */
+    double *y;              /* [2 * n] */
+    uint64_t work;          /* products of blocks in one factorisation */
+} sunder_i_sparse;
+
+/* The structure: entries (a, b) and (b, a) for each couple of different numbers below n, and the diagonal. False if
+ * memory is out; free it all the same. */
+bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_couple *couple, size_t couples);
+void sunder_i_sparse_free(sunder_i_sparse *matrix);
+void sunder_i_sparse_clear(sunder_i_sparse *matrix);
+/* The block of entry (a, b), a != b, which is one of the couples; *transposed: it holds that of (b, a). */
+double *sunder_i_sparse_block(sunder_i_sparse *matrix, uint32_t a, uint32_t b, bool *transposed);
+double *sunder_i_sparse_diagonal(sunder_i_sparse *matrix, uint32_t a);
+/* In place. False if the matrix is not positive definite, as far as doubles can tell. */
+bool sunder_i_sparse_factor(sunder_i_sparse *matrix);
+/* x: two doubles a row; the right-hand side in, the solution out. */
+void sunder_i_sparse_solve(sunder_i_sparse *matrix, double *x);
+
+#endif

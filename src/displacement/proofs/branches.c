@@ -1,0 +1,226 @@
+/* The branches of an inquiry: by which way a pair parts, and which of its cases are void.
+ *
+ * Depth first. A node whose program contradicts itself is a leaf. Else the candidate shows pairs of pieces that are
+ * nearer than they owe; one of them is chosen, and each of its ways (ways.c) is a case: beyond this line, and behind
+ * those before it. If the proof of a case does not use what the case says, it is a proof of the node as well, and the
+ * other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
+ * [conflict- directed backjumping; Prosser 1993]. */
+#include "displacement/proofs/branching.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Only overlaps of at least this share of the deepest are weighed: shallow ones tell little. */
+#define DEEP 0.5
+#define TURN 6.28318530717958647692
+
+/* ---- Which pair next -----------------------------------------------------------------------------------------------
+ */
+
+/* A convex polygon, counter-clockwise. */
+enum { CORNERS = 96, DISC_SIDES = 16 };
+typedef struct area {
+    size_t n;
+    double xy[2 * CORNERS];
+} area;
+
+/* Keeps what has n.u >= d; a cut that would make too many corners is left out. */
+static void cut(area *p, const double n[2], double d)
+{
+    area out = {.n = 0};
+    for (size_t k = 0; k < p->n; k++) {
+        const double *u = p->xy + 2 * k, *v = p->xy + 2 * (k + 1 < p->n ? k + 1 : 0);
+        const double su = n[0] * u[0] + n[1] * u[1] - d, sv = n[0] * v[0] + n[1] * v[1] - d;
+        if (out.n + 2 > CORNERS) return;
+        if (su >= 0) memcpy(out.xy + 2 * out.n++, u, 2 * sizeof *u);
+        if ((su > 0 && sv < 0) || (su < 0 && sv > 0)) {
+            const double s = su / (su - sv);
+            out.xy[2 * out.n] = u[0] + s * (v[0] - u[0]);
+            out.xy[2 * out.n++ + 1] = u[1] + s * (v[1] - u[1]);
+        }
+    }
+    *p = out;
+}
+
+/* What limits and steps leave of the relative moves of a pair, roughly. */
+static area room_of(const sunder_i_inquiry *c, uint32_t i, uint32_t j)
+{
+    area room = {.n = DISC_SIDES};
+    const double r = (c->limit[i] + c->limit[j]) / cos(TURN / (2 * DISC_SIDES));
+    for (int k = 0; k < DISC_SIDES; k++) {
+        room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);
+        room.xy[2 * k + 1] = r * sin(TURN * k / DISC_SIDES);
+    }
+    for (size_t k = 0; k < c->steps; k++) {
+        const sunder_i_claim *s = &c->step[k];
+        const double behind[2] = {-s->n[0], -s->n[1]};
+        if (s->i == i && s->j == j) cut(&room, s->n, s->d);
+        if (s->i == j && s->j == i) cut(&room, behind, s->d);
+    }
+    return room;
+}
+
+/* How many ways are open to a pair, roughly, at most `most`. */
+static size_t count_ways(const sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t ways, size_t most)
+{
+    const area room = room_of(c, i, j);
+    size_t open = 0;
+    for (size_t k = 0; k < ways && open < most; k++) {
+        double best = -INFINITY;
+        for (size_t v = 0; v < room.n; v++)
+            best = fmax(best, c->scratch[k].n[0] * room.xy[2 * v] + c->scratch[k].n[1] * room.xy[2 * v + 1]);
+        open += best >= c->scratch[k].d;
+    }
+    return open;
+}
+
+/* The one with the fewest ways open; its ways are then in c->scratch. */
+static size_t choose(sunder_i_inquiry *c, const sunder_i_meeting *deepest, size_t n, size_t *ways)
+{
+    size_t best = 0, fewest = SIZE_MAX;
+    for (size_t k = 0; k < n && fewest && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
+        const uint32_t i = sunder_i_inquiry_place(c, deepest[k].p), j = sunder_i_inquiry_place(c, deepest[k].q);
+        *ways = sunder_i_inquiry_ways(c, &deepest[k]);
+        if (c->failed) return 0;
+        const size_t open = count_ways(c, i, j, *ways, fewest);
+        c->looked += *ways * 4;
+        if (open >= fewest) continue;
+        fewest = open;
+        best = k;
+    }
+    *ways = sunder_i_inquiry_ways(c, &deepest[best]);
+    return best;
+}
+
+/* ---- The tree ------------------------------------------------------------------------------------------------------
+ */
+
+static void add_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] |= UINT64_C(1) << level % 64; }
+static void drop_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] &= ~(UINT64_C(1) << level % 64); }
+static bool has_level(const sunder_i_levels *s, unsigned level) { return s->bit[level / 64] >> level % 64 & 1; }
+
+static sunder_i_node *add_node(sunder_i_inquiry *c)
+{
+    if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
+    sunder_i_node *node = &c->node[c->nodes++];
+    *node = (sunder_i_node){.way = c->ways, .force = c->forces};
+    return node;
+}
+
+/* A node for the contradiction that the steps' forces prove. */
+static bool add_leaf(sunder_i_inquiry *c, sunder_i_levels *levels, size_t *root)
+{
+    *root = c->nodes;
+    memset(levels, 0, sizeof *levels);
+    sunder_i_node *node = add_node(c);
+    if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->steps, sizeof *c->force)) return false;
+    for (size_t k = 0; k < c->steps; k++) {
+        const sunder_i_claim *s = &c->step[k];
+        if (!(s->force > 0)) continue;
+        add_level(levels, s->level);
+        c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
+        node->forces++;
+    }
+    return true;
+}
+
+/* A node for the ways in c->scratch out of a meeting. */
+static bool add_branch(sunder_i_inquiry *c, const sunder_i_meeting *o, size_t ways, size_t *root)
+{
+    *root = c->nodes;
+    sunder_i_node *node = add_node(c);
+    if (!node || !sunder_i_reserve(&c->way, &c->way_capacity, c->ways + ways, sizeof *c->way)) return false;
+    node->a = o->a->feature;
+    node->b = o->b->feature;
+    node->part_a = o->a;
+    node->part_b = o->b;
+    node->clearance = o->clearance;
+    node->ways = ways;
+    memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
+    c->ways += ways;
+    return true;
+}
+
+static bool push(sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind, unsigned level)
+{
+    if (!sunder_i_reserve(&c->step, &c->step_capacity, c->steps + 1, sizeof *c->step)) return false;
+    const sunder_i_way *w = &c->way[way];
+    const double sign = behind ? -1 : 1;
+    c->step[c->steps++] = (sunder_i_claim){.i = i,
+                                          .j = j,
+                                          .n = {sign * w->n[0], sign * w->n[1]},
+                                          .d = sign * w->d,
+                                          .node = node,
+                                          .way = way,
+                                          .behind = behind,
+                                          .level = level};
+    return true;
+}
+
+/* The cases of a node, one after the other, from the candidate that is there. */
+static sunder_status search_cases(sunder_i_inquiry *c, const sunder_i_meeting *o, size_t node, unsigned level,
+                                  sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    const uint32_t i = sunder_i_inquiry_place(c, o->p), j = sunder_i_inquiry_place(c, o->q);
+    const size_t first = c->node[node].way, end = first + c->node[node].ways, steps = c->steps, bodies = c->bodies;
+    double *t = sunder_i_alloc(2 * bodies, sizeof *t);
+    if (!t) return sunder_i_no_memory(err);
+    memcpy(t, c->t, 2 * bodies * sizeof *t);
+    sunder_status status = SUNDER_OK;
+    memset(levels, 0, sizeof *levels);
+    *root = node;
+    *verdict = SUNDER_I_INSOLUBLE;
+    for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INSOLUBLE; way++) {
+        sunder_i_levels used;
+        size_t below = 0;
+        memset(c->t, 0, 2 * c->bodies * sizeof *c->t);
+        memcpy(c->t, t, 2 * bodies * sizeof *t);
+        const size_t before = c->steps;
+        bool ok = push(c, i, j, node, way, false, level);
+        const bool dead = ok && sunder_i_inquiry_is_dead(c);
+        if (dead)
+            ok = add_leaf(c, &used, &below);
+        else if (ok)
+            status = sunder_i_inquiry_search(c, level + 1, verdict, &used, &below, err);
+        if (!ok) status = sunder_i_no_memory(err);
+        if (status || *verdict != SUNDER_I_INSOLUBLE) break;
+        c->way[way].next = below;
+        if (!has_level(&used, level)) {
+            *root = below;
+            *levels = used;
+            break;
+        }
+        for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
+        /* What comes now is behind this line; one beyond everybody's limits need not be said to be so. */
+        c->steps = before;
+        if (!dead && !push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
+    }
+    drop_level(levels, level);
+    c->steps = steps;
+    sunder_i_free(t);
+    return status;
+}
+
+sunder_status sunder_i_inquiry_search(sunder_i_inquiry *c, unsigned level, sunder_i_verdict *verdict,
+                                      sunder_i_levels *levels, size_t *root, sunder_error *err)
+{
+    sunder_i_outcome outcome;
+    *verdict = SUNDER_I_UNKNOWN;
+    sunder_status status = sunder_i_inquiry_solve(c, &outcome, err);
+    if (status || outcome == SUNDER_I_UNDECIDED) return status;
+    if (outcome == SUNDER_I_VOID) {
+        *verdict = SUNDER_I_INSOLUBLE;
+        return add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+    }
+    sunder_i_meeting deepest[SUNDER_I_CHOICES];
+    size_t n = sunder_i_inquiry_meetings(c, deepest);
+    while (n == 0 && !c->failed && !sunder_i_inquiry_is_over(c) && sunder_i_inquiry_widen(c))
+        n = sunder_i_inquiry_meetings(c, deepest);
+    if (n == 0 && !c->failed) *verdict = SUNDER_I_SOLVED;
+    if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_inquiry_is_over(c))
+        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    size_t ways, node;
+    const size_t best = choose(c, deepest, n, &ways);
+    if (c->failed || !add_branch(c, &deepest[best], ways, &node)) return sunder_i_no_memory(err);
+    return search_cases(c, &deepest[best], node, level, verdict, levels, root, err);
+}

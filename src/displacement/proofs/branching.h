@@ -1,0 +1,128 @@
+/* The state of a branch and bound over a few bodies (feasibility.c), and its parts: one node's program, what its candidate
+ * violates, the branches, the record of the proof. */
+#ifndef SUNDER_I_BRANCHING_H
+#define SUNDER_I_BRANCHING_H
+
+#include "displacement/proofs/feasibility.h"
+#include "displacement/proofs/ways.h"
+#include "displacement/programs/quadratic.h"
+
+/* No deeper than this. */
+#define SUNDER_I_LEVELS 192
+
+/* Overlaps of a candidate that are weighed against each other. */
+#define SUNDER_I_CHOICES 8
+
+/* A set of levels. */
+typedef struct sunder_i_levels {
+    uint64_t bit[SUNDER_I_LEVELS / 64];
+} sunder_i_levels;
+
+/* What a branch of the tree says: that a pair is beyond a line, or behind it. */
+typedef struct sunder_i_claim {
+    uint32_t i, j;  /* places in sunder_i_inquiry.body */
+    double n[2], d; /* n.(t_j - t_i) >= d */
+    double force;   /* in the last program */
+    size_t node, way;
+    bool behind;
+    unsigned level; /* of the branch that says so */
+} sunder_i_claim;
+
+/* A tangent of a body's limit. */
+typedef struct sunder_i_tangent {
+    uint32_t body;
+    double n[2], force;
+} sunder_i_tangent;
+
+/* A node of the tree, as of sunder_proof_node; its parts are pieces of the town. */
+typedef struct sunder_i_node {
+    uint32_t a, b; /* features */
+    const sunder_i_piece *part_a, *part_b;
+    double clearance;
+    size_t way, ways, force, forces;
+} sunder_i_node;
+
+typedef struct sunder_i_inquiry {
+    const sunder_i_question *question;
+    const sunder_i_town *town;
+    /* Those that take part so far, in the order in which they came in. */
+    uint32_t *body;
+    double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
+    size_t bodies;
+    size_t body_capacity, limit_capacity, mass_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
+    double longest;  /* limit */
+    double hair;     /* a length far below the limits, and far above rounding */
+    uint64_t looked; /* work done besides the programs' */
+    sunder_i_claim *step;
+    size_t steps, step_capacity;
+    sunder_i_tangent *tangent;
+    size_t tangents, tangent_capacity;
+    sunder_i_quadratic program;
+    /* The record. */
+    sunder_i_node *node;
+    size_t nodes, node_capacity;
+    sunder_i_way *way;
+    size_t ways, way_capacity;
+    sunder_proof_force *force;
+    size_t forces, force_capacity;
+    sunder_i_way *scratch;
+    size_t scratch_capacity;
+    sunder_i_list near;
+    bool failed; /* memory is out */
+} sunder_i_inquiry;
+
+/* Work done so far, and whether that, or who takes part, is more than was allowed. */
+static inline uint64_t sunder_i_inquiry_work(const sunder_i_inquiry *c) { return c->looked + c->program.work; }
+
+static inline bool sunder_i_inquiry_is_over(const sunder_i_inquiry *c)
+{
+    return sunder_i_inquiry_work(c) > c->question->effort || c->bodies > c->question->most;
+}
+
+/* ---- participants.c ---------------------------------------------------------------------------------------------- */
+
+/* The place of a body among those that take part; it is taken in if it was not there. */
+uint32_t sunder_i_inquiry_place(sunder_i_inquiry *inquiry, uint32_t body);
+/* Takes in those of the reserve that could meet one that takes part; false if there are none. */
+bool sunder_i_inquiry_widen(sunder_i_inquiry *inquiry);
+/* What features f and g of two bodies owe each other; false if nothing. */
+bool sunder_i_inquiry_owe(const sunder_i_inquiry *inquiry, uint32_t f, uint32_t g, double *clearance);
+
+/* ---- program.c --------------------------------------------------------------------------------------------------- */
+
+typedef enum sunder_i_outcome {
+    SUNDER_I_VOID,      /* what the steps say contradicts the limits, proved by their forces */
+    SUNDER_I_CANDIDATE, /* t is as the steps say, up to a hair */
+    SUNDER_I_UNDECIDED  /* too near to call */
+} sunder_i_outcome;
+
+sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *inquiry, sunder_i_outcome *outcome, sunder_error *err);
+/* Is the last step alone more than the limits allow? Then the forces are set to say so. */
+bool sunder_i_inquiry_is_dead(sunder_i_inquiry *inquiry);
+
+/* ---- violations.c ------------------------------------------------------------------------------------------------ */
+
+/* Two convex pieces that the candidate has nearer than they owe. */
+typedef struct sunder_i_meeting {
+    uint32_t p, q; /* bodies; p takes part */
+    const sunder_i_piece *a, *b;
+    double clearance, depth;
+} sunder_i_meeting;
+
+/* The deepest of the candidate's, one of each pair of bodies, deepest first; returns how many. */
+size_t sunder_i_inquiry_meetings(sunder_i_inquiry *inquiry, sunder_i_meeting deepest[SUNDER_I_CHOICES]);
+/* The ways out of one, nearest to the candidate first: into inquiry->scratch. Returns how many. */
+size_t sunder_i_inquiry_ways(sunder_i_inquiry *inquiry, const sunder_i_meeting *meeting);
+
+/* ---- branches.c -------------------------------------------------------------------------------------------------- */
+
+/* Goes through the branches below the steps as they are. levels: of those that the proof needs; *root: its node. */
+sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, unsigned level, sunder_i_verdict *verdict,
+                                      sunder_i_levels *levels, size_t *root, sunder_error *err);
+
+/* ---- proof.c ----------------------------------------------------------------------------------------------------- */
+
+/* The part of the record below a node, by itself. NULL if memory is out. */
+sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *inquiry, size_t root);
+
+#endif

@@ -1,0 +1,54 @@
+/* A few bodies with limits: a proof that there is no solution, or one; see feasibility.c. */
+#ifndef SUNDER_I_FEASIBILITY_H
+#define SUNDER_I_FEASIBILITY_H
+
+#include "displacement/layer/model.h"
+
+typedef enum sunder_i_verdict {
+    SUNDER_I_UNKNOWN,   /* the effort ran out, or a limit is infinite */
+    SUNDER_I_INSOLUBLE, /* proved: no moves within the limits give every pair what it is owed */
+    SUNDER_I_SOLVED     /* the solution does, up to a hair; what it did not meet is not heeded */
+} sunder_i_verdict;
+
+/* Two features, a < b, that need not be parted, and what they are held to: a clearance as of ways.h; -INFINITY: to
+ * nothing. */
+typedef struct sunder_i_held {
+    uint32_t a, b;
+    double clearance;
+} sunder_i_held;
+
+typedef struct sunder_i_question {
+    const sunder_i_town *town;
+    const uint32_t *body; /* the bodies to begin with; those that they run into are asked about as well */
+    size_t bodies;
+    const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
+    size_t reserves;
+    double farthest; /* their longest limit that is finite */
+    uint32_t a, b;             /* features, a < b, that owe the gap, held or not; or SUNDER_I_NOBODY */
+    const sunder_i_held *held; /* sorted */
+    size_t held_n;
+    const uint32_t *feature; /* NULL, or the only features to be heeded, ascending */
+    size_t features;
+    uint64_t effort; /* in constraints looked at */
+    size_t most;     /* it ends where more bodies than these take part */
+} sunder_i_question;
+
+typedef struct sunder_i_solution {
+    uint32_t *body; /* those asked about, and what they met */
+    double *move;   /* [2 * bodies] */
+    size_t bodies;
+} sunder_i_solution;
+
+typedef struct sunder_i_answer {
+    sunder_i_verdict verdict;
+    sunder_i_solution solution; /* if SUNDER_I_SOLVED */
+    sunder_proof *proof;        /* if SUNDER_I_INSOLUBLE */
+    uint64_t work;
+} sunder_i_answer;
+
+/* The answer is to be cleared, also on failure. */
+sunder_status sunder_i_certify(const sunder_i_question *question, sunder_i_answer *answer, sunder_error *err);
+void sunder_i_answer_clear(sunder_i_answer *answer);
+void sunder_i_proof_free(sunder_proof *proof);
+
+#endif

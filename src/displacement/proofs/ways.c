@@ -1,0 +1,168 @@
+/* Half-planes of which one holds whatever parts A from B + u, proved in doubles.
+ *
+ * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a clearance
+ * g exactly when u is not in that of K grown by the disc of radius g; call it O. Take any half-planes n.u >= d such
+ * that each point of the boundary of O lies in one, and let T be what lies in none of them. T is convex, so connected,
+ * and misses that boundary; so if one point of T is in O, all of T is, and whoever is outside O is in one of the
+ * half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ, as long as d is
+ * no more than n.P and n.Q, and even the order in which edges of A and B are merged may err where they are parallel but
+ * for rounding: the boundary is then another closed curve in K around the same point.
+ *
+ *              n2    n'
+ *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1 and n2 of two
+ *      ________Q____ n1      edges, each w of length 1 has n'.w >= c for c the less of n'.n1 and n'.n2, so the arc
+ *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
+ *              |
+ *
+ * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a clearance,
+ * has all of u + v in it, then u is not such; so the half-planes move inward by s.
+ *
+ * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less their
+ * origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
+ * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
+ * length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's offset
+ * up to a share of its square, an arc's up to its own size. */
+#include "displacement/proofs/ways.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#define UNIT 0x1p-50
+
+/* Corners that turn by less than this cosine tells are within an edge's own rounding. */
+#define STRAIGHT (1 - 0x1p-51)
+/* Up to these one line, or two, go round a corner, else four. */
+#define SLIGHT 0.92
+#define SQUARE -0.01
+
+typedef struct side {
+    double n[2], tilt;
+} side;
+
+typedef struct walk {
+    const sunder_i_parting *parting;
+    sunder_i_way *way;
+    size_t n;
+    double slack, size;
+    double inner[2]; /* a point of the interior of K */
+    bool holds;      /* it is in T so far */
+} walk;
+
+static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+
+/* Adds the half-plane n.u >= base - slack + off. */
+static void add(walk *w, const double n[2], double base, double off)
+{
+    const double d = base - w->slack;
+    if (!(dot(n, w->inner) < d - w->slack)) w->holds = false;
+    w->way[w->n++] = (sunder_i_way){.n = {n[0], n[1]}, .d = d + off};
+}
+
+static void add_edge(walk *w, const side *s, const double p[2], const double q[2])
+{
+    const double g = w->parting->clearance;
+    const double off = g >= 0 ? g * fmax(0, 1 - 2 * UNIT - s->tilt * s->tilt) : g * (1 + 2 * UNIT);
+    add(w, s->n, fmin(dot(s->n, p), dot(s->n, q)), off);
+}
+
+static void bisect(const double n1[2], const double n2[2], double out[2])
+{
+    const bool acute = dot(n1, n2) > 0;
+    out[0] = acute ? n1[0] + n2[0] : n2[1] - n1[1];
+    out[1] = acute ? n1[1] + n2[1] : n1[0] - n2[0];
+    const double length = sqrt(dot(out, out));
+    out[0] /= length;
+    out[1] /= length;
+}
+
+/* Lines round corner q, in 2^halvings parts of the turn from n1 to n2. */
+static void add_arc(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt, int halvings)
+{
+    double n[2];
+    bisect(n1, n2, n);
+    if (halvings) {
+        add_arc(w, q, n1, n, tilt, halvings - 1);
+        add_arc(w, q, n, n2, tilt, halvings - 1);
+        return;
+    }
+    const double c = fmin(dot(n, n1), dot(n, n2)) - 2 * UNIT - tilt;
+    add(w, n, dot(n, q), w->parting->clearance * fmax(0, c));
+}
+
+static void turn(walk *w, const double q[2], const side *from, const side *to)
+{
+    const double cosine = dot(from->n, to->n), sine = from->n[0] * to->n[1] - from->n[1] * to->n[0];
+    if (!(w->parting->clearance > 0) || sine <= 0 || cosine >= STRAIGHT) return;
+    add_arc(w, q, from->n, to->n, from->tilt + to->tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
+}
+
+/* Least (sign +1) or greatest (sign -1) corner by y, then x. */
+static size_t extreme(const double *p, size_t n, double sign)
+{
+    size_t best = 0;
+    for (size_t k = 1; k < n; k++) {
+        const double dy = sign * (p[2 * k + 1] - p[2 * best + 1]), dx = sign * (p[2 * k] - p[2 * best]);
+        if (dy < 0 || (dy == 0 && dx < 0)) best = k;
+    }
+    return best;
+}
+
+static void measure(walk *w)
+{
+    const sunder_i_parting *p = w->parting;
+    w->size = p->vague;
+    for (size_t c = 0; c < 2; c++) {
+        double a = 0, b = 0, mean_a = 0, mean_b = 0;
+        for (size_t k = 0; k < p->na; k++) a = fmax(a, fabs(p->a[2 * k + c])), mean_a += p->a[2 * k + c];
+        for (size_t k = 0; k < p->nb; k++) b = fmax(b, fabs(p->b[2 * k + c])), mean_b += p->b[2 * k + c];
+        w->size += a + b + fabs(p->offset[c]);
+        w->inner[c] = mean_a / (double)p->na - mean_b / (double)p->nb - p->offset[c];
+    }
+    w->slack = UNIT * w->size;
+}
+
+static void corner(const sunder_i_parting *p, size_t a, size_t b, double out[2])
+{
+    for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
+}
+
+/* Does edge u of A come before edge v of -B? Upper half-plane first; within a half the cross product tells. */
+static bool is_before(const double u[2], const double v[2])
+{
+    const bool up = u[1] > 0 || (u[1] == 0 && u[0] > 0), vp = v[1] > 0 || (v[1] == 0 && v[0] > 0);
+    return up != vp ? up : u[0] * v[1] - u[1] * v[0] >= 0;
+}
+
+size_t sunder_i_ways_between(const sunder_i_parting *p, sunder_i_way *out)
+{
+    walk w = {.parting = p, .way = out, .holds = true};
+    measure(&w);
+    /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
+    const size_t a0 = extreme(p->a, p->na, 1), b0 = extreme(p->b, p->nb, -1);
+    side first = {.tilt = -1}, last = first;
+    double start[2] = {0, 0}, from[2], to[2];
+    corner(p, a0, b0, from);
+    for (size_t i = 0, j = 0; i < p->na || j < p->nb; from[0] = to[0], from[1] = to[1]) {
+        const size_t a = (a0 + i) % p->na, a1 = (a + 1) % p->na, b = (b0 + j) % p->nb, b1 = (b + 1) % p->nb;
+        const double u[2] = {p->a[2 * a1] - p->a[2 * a], p->a[2 * a1 + 1] - p->a[2 * a + 1]};
+        const double v[2] = {p->b[2 * b] - p->b[2 * b1], p->b[2 * b + 1] - p->b[2 * b1 + 1]};
+        const bool take_a = j == p->nb || (i < p->na && is_before(u, v));
+        const double *e = take_a ? u : v, length = sqrt(dot(e, e));
+        i += take_a;
+        j += !take_a;
+        corner(p, (a0 + i) % p->na, (b0 + j) % p->nb, to);
+        if (!(length > 0)) continue;
+        const side now = {{e[1] / length, -e[0] / length}, w.slack / length};
+        if (last.tilt >= 0) {
+            turn(&w, from, &last, &now);
+        } else {
+            first = now;
+            start[0] = from[0];
+            start[1] = from[1];
+        }
+        add_edge(&w, &now, from, to);
+        last = now;
+    }
+    if (first.tilt >= 0) turn(&w, start, &last, &first);
+    return w.holds ? w.n : 0;
+}

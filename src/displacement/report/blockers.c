@@ -1,0 +1,100 @@
+/* What stands in the way of a conflict: the features of the proof that it has no room; where there is no proof, those
+ * that the two rest against, as they stand. */
+#include "displacement/layer/inclusion.h"
+#include "displacement/report/report.h"
+
+#include "separation/separation.h"
+
+#include <math.h>
+
+static bool append(sunder_i_list *list, uint32_t item)
+{
+    if (!sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof *list->item)) return false;
+    list->item[list->n++] = item;
+    return true;
+}
+
+/* Features of other blocks within the gap, and a hair, of feature f. */
+static sunder_status find_around(const sunder_i_job *w, const sunder_conflict *c, uint32_t f, sunder_i_list *near,
+                                 sunder_i_list *blockers, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    const sunder_i_scene *scene = &w->scene;
+    const double *own = scene->box + 4 * (size_t)f, size = hypot(own[2] - own[0], own[3] - own[1]);
+    const double reach = town->rules.gap + fmax(town->rules.gap, size) * 0x1p-20;
+    double box[4];
+    sunder_i_box_grow(own, reach, box);
+    near->n = 0;
+    if (!sunder_i_index_query(&scene->tree, box, near)) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < near->n; k++) {
+        const uint32_t g = near->item[k], other = town->body_of[g];
+        if (other == town->body_of[c->a] || other == town->body_of[c->b] || sunder_i_is_kept(town, f, g)) continue;
+        bool apart;
+        const sunder_status status = sunder_i_apart(scene->stand[f].shape, scene->stand[f].t, scene->stand[g].shape,
+                                                    scene->stand[g].t, reach, &apart, err);
+        if (status) return status;
+        if (!apart && !append(blockers, g)) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status find_blockers(const sunder_i_job *w, const sunder_conflict *c, sunder_i_list *near,
+                                   sunder_i_list *blockers, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    const size_t pair[2] = {c->a, c->b};
+    for (int e = 0; e < 2; e++) {
+        const sunder_i_body *body = &town->body[town->body_of[pair[e]]];
+        for (uint32_t m = 0; m < body->members; m++) {
+            const uint32_t f = town->member[body->member + m];
+            if (!town->present[f]) continue;
+            const sunder_status status = find_around(w, c, f, near, blockers, err);
+            if (status) return status;
+        }
+    }
+    return SUNDER_OK;
+}
+
+static bool take_from_proof(const sunder_conflict *c, const sunder_proof *proof, sunder_i_list *blockers)
+{
+    for (size_t k = 0; k < proof->nodes; k++) {
+        const sunder_proof_node *node = &proof->node[k];
+        const size_t pair[2] = {node->a, node->b};
+        for (int e = 0; e < 2 && node->ways; e++)
+            if (pair[e] != c->a && pair[e] != c->b && !append(blockers, (uint32_t)pair[e])) return false;
+    }
+    return true;
+}
+
+sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_job *w, sunder_error *err)
+{
+    sunder_i_list blockers = {0}, near = {0};
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < report->conflicts && !status; k++) {
+        sunder_conflict *c = &report->conflict[k];
+        const size_t first = blockers.n;
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        if (!report->proof[k])
+            status = find_blockers(w, c, &near, &blockers, err);
+        else if (!take_from_proof(c, report->proof[k], &blockers))
+            status = sunder_i_no_memory(err);
+        if (blockers.n == first) continue; /* nobody to name, and perhaps no list yet */
+        c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);
+        blockers.n = first + c->n_blocked_by;
+    }
+    if (!status) {
+        report->blocker = sunder_i_alloc(blockers.n, sizeof *report->blocker);
+        if (!report->blocker) status = sunder_i_no_memory(err);
+    }
+    if (!status) {
+        size_t next = 0;
+        for (size_t i = 0; i < blockers.n; i++) report->blocker[i] = blockers.item[i];
+        for (size_t k = 0; k < report->conflicts; k++) {
+            report->conflict[k].blocked_by = report->blocker + next;
+            next += report->conflict[k].n_blocked_by;
+        }
+    }
+    sunder_i_free(blockers.item);
+    sunder_i_free(near.item);
+    return status;
+}

@@ -1,0 +1,97 @@
+/* Which pairs the lower bound stands on, and how far apart each has to go. */
+#include "displacement/clusters/settle.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/report/report.h"
+
+#include "base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct measuring {
+    const sunder_i_town *town;
+    sunder_bound_pair *pair;
+} measuring;
+
+static sunder_status measure_pairs(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const measuring *m = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_peace peace;
+        const sunder_status status =
+            sunder_i_make_peace(&m->town->rules, m->town->layer->feature[m->pair[k].a].shape,
+                                m->town->layer->feature[m->pair[k].b].shape, INFINITY, &peace, err);
+        if (status) return status;
+        m->pair[k].least = peace.least;
+    }
+    return SUNDER_OK;
+}
+
+typedef struct key_pair {
+    uint64_t bodies;
+    size_t at;
+} key_pair;
+
+static int by_bodies(const void *a, const void *b)
+{
+    const key_pair *p = a, *q = b;
+    if (p->bodies != q->bodies) return p->bodies < q->bodies ? -1 : 1;
+    return p->at < q->at ? -1 : p->at > q->at;
+}
+
+static uint64_t bodies_of(const sunder_i_town *town, size_t a, size_t b)
+{
+    const uint32_t i = town->body_of[a], j = town->body_of[b];
+    return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
+}
+
+/* Is it still in conflict? */
+static bool is_left(const sunder_i_job *w, const sunder_i_relation *r)
+{
+    const sunder_i_relation *now = sunder_i_relations_find(&w->now, r->a, r->b);
+    return now && !sunder_i_is_at_peace(now);
+}
+
+/* Of each pair of blocks the pair of members that is hardest to bring to peace; of those that were. */
+sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_job *w, sunder_error *err)
+{
+    const sunder_i_town *town = &w->town;
+    size_t n = 0;
+    key_pair *key = sunder_i_alloc(w->start.n, sizeof *key);
+    report->bound_pair = sunder_i_calloc(w->start.n, sizeof *report->bound_pair);
+    sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        for (size_t k = 0; k < w->start.n; k++) {
+            const sunder_i_relation *r = &w->start.pair[k];
+            if (!sunder_i_job_is_conflict(town, r) || is_left(w, r)) continue;
+            report->bound_pair[n].a = r->a;
+            report->bound_pair[n++].b = r->b;
+        }
+        measuring m = {town, report->bound_pair};
+        status = sunder_i_parallel(town->rules.threads, n, 8, measure_pairs, &m, err);
+    }
+    if (!status) {
+        for (size_t k = 0; k < n; k++)
+            key[k] = (key_pair){bodies_of(town, report->bound_pair[k].a, report->bound_pair[k].b), k};
+        qsort(key, n, sizeof *key, by_bodies);
+        /* Keep the hardest of each run; a pair that is dropped gets least < 0. */
+        for (size_t k = 1; k < n; k++) {
+            if (key[k].bodies != key[k - 1].bodies) continue;
+            sunder_bound_pair *p = &report->bound_pair[key[k - 1].at], *q = &report->bound_pair[key[k].at];
+            if (p->least > q->least) {
+                const size_t swap = key[k].at;
+                key[k].at = key[k - 1].at;
+                key[k - 1].at = swap;
+                p = q;
+            }
+            p->least = -1;
+        }
+        size_t out = 0;
+        for (size_t k = 0; k < n; k++)
+            if (report->bound_pair[k].least > 0) report->bound_pair[out++] = report->bound_pair[k];
+        report->bound_pairs = out;
+        status = sunder_i_bound(town, report->bound_pair, out, &report->summary.lower_bound, err);
+    }
+    sunder_i_free(key);
+    return status;
+}

@@ -1,0 +1,263 @@
+/* Conflicts as they are reported: what kind, how bad, and why they remain. */
+#include "displacement/layer/inclusion.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/report/report.h"
+
+#include "base/parallel.h"
+#include "base/watch.h"
+#include "separation/separation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Which pairs, and of what kind -------------------------------------------------------------------------- */
+
+static bool is_inside(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    return town->body_of[r->a] == town->body_of[r->b];
+}
+
+static sunder_conflict_kind kind_of(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
+    /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
+    if (is_inside(town, r)) return SUNDER_CONFLICT_OVERLAP;
+    return r->duplicate ? SUNDER_CONFLICT_DUPLICATE : r->contained ? SUNDER_CONFLICT_CONTAINED : SUNDER_CONFLICT_OVERLAP;
+}
+
+/* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
+static bool is_listed(const sunder_i_town *town, const sunder_i_relation *r)
+{
+    return !sunder_i_is_at_peace(r) && (!is_inside(town, r) || town->rules.list_inside || (r->overlap && !r->touch));
+}
+
+void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
+                              sunder_conflict_counts *counts)
+{
+    memset(counts, 0, sizeof *counts);
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        if (sunder_i_is_at_peace(r)) continue;
+        const sunder_conflict c = {.kind = kind_of(town, r), .inside_block = is_inside(town, r)};
+        sunder_i_count(counts, &c);
+    }
+}
+
+/* ---- How bad ------------------------------------------------------------------------------------------------------
+ */
+
+/* The shapes as they stand, as shapes. */
+static sunder_status settle(const sunder_i_stand *stand, sunder_shape **out, sunder_error *err)
+{
+    bool exact;
+    return sunder_shape_translate(stand->shape, stand->t[0], stand->t[1], out, &exact, err);
+}
+
+/* The part of convex polygon p (n corners) on the left of the line from a to b; in place of `out`, at most n + 1
+ * corners. */
+static size_t clip(const double *p, size_t n, const double *a, const double *b, double *out)
+{
+    size_t m = 0;
+    const double ex = b[0] - a[0], ey = b[1] - a[1];
+    for (size_t k = 0; k < n; k++) {
+        const double *u = p + 2 * k, *v = p + 2 * (k + 1 < n ? k + 1 : 0);
+        const double su = ex * (u[1] - a[1]) - ey * (u[0] - a[0]), sv = ex * (v[1] - a[1]) - ey * (v[0] - a[0]);
+        if (su >= 0) {
+            out[2 * m] = u[0];
+            out[2 * m++ + 1] = u[1];
+        }
+        if ((su > 0 && sv < 0) || (su < 0 && sv > 0)) {
+            const double s = su / (su - sv);
+            out[2 * m] = u[0] + s * (v[0] - u[0]);
+            out[2 * m++ + 1] = u[1] + s * (v[1] - u[1]);
+        }
+    }
+    return m;
+}
+
+/* The corners of one convex piece, relative to an origin. */
+static size_t corners_of(const sunder_shape *shape, uint32_t piece, const double origin[2], double *out)
+{
+    const uint32_t from = piece ? shape->piece_end[piece - 1] : 0;
+    size_t n = 0;
+    for (uint32_t k = from; k < shape->piece_end[piece]; k++, n++)
+        for (uint32_t c = 0; c < 2; c++) out[2 * n + c] = shape->xy[2 * shape->piece_vertex[k] + c] - origin[c];
+    return n;
+}
+
+static size_t most_corners(const sunder_shape *shape)
+{
+    size_t most = 0;
+    uint32_t from = 0;
+    for (uint32_t p = 0; p < shape->pieces; from = shape->piece_end[p++])
+        if (shape->piece_end[p] - from > most) most = shape->piece_end[p] - from;
+    return most;
+}
+
+static double area_of(const double *p, size_t n)
+{
+    double area = 0;
+    for (size_t k = 1; k + 1 < n; k++)
+        area += (p[2 * k] - p[0]) * (p[2 * k + 3] - p[1]) - (p[2 * k + 1] - p[1]) * (p[2 * k + 2] - p[0]);
+    return area / 2;
+}
+
+/* A point inside the overlap, to draw from: the mean corner of the largest common part of a convex piece of each. */
+static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b, double point[2], sunder_error *err)
+{
+    const size_t na = most_corners(a), nb = most_corners(b), room = na + 2 * nb + 2;
+    double *p = sunder_i_alloc(2 * room, sizeof *p), *q = sunder_i_alloc(2 * room, sizeof *q),
+           *c = sunder_i_alloc(2 * nb, sizeof *c);
+    double box[4], best = -1;
+    sunder_shape_box(a, box);
+    const double origin[2] = {box[0], box[1]};
+    sunder_shape_anchor(b, point);
+    if (!p || !q || !c) {
+        sunder_i_free(p);
+        sunder_i_free(q);
+        sunder_i_free(c);
+        return sunder_i_no_memory(err);
+    }
+    for (uint32_t j = 0; j < b->pieces; j++) {
+        const size_t sides = corners_of(b, j, origin, c);
+        for (uint32_t i = 0; i < a->pieces && sunder_i_steps(4); i++) {
+            size_t n = corners_of(a, i, origin, p);
+            for (size_t k = 0; k < sides && n; k++) {
+                n = clip(p, n, c + 2 * k, c + 2 * (k + 1 < sides ? k + 1 : 0), q);
+                double *swap = p;
+                p = q;
+                q = swap;
+            }
+            const double area = n > 2 ? area_of(p, n) : 0;
+            if (!(area > 0) || area <= best) continue;
+            best = area;
+            double x = 0, y = 0;
+            for (size_t k = 0; k < n; k++) {
+                x += p[2 * k];
+                y += p[2 * k + 1];
+            }
+            point[0] = origin[0] + x / (double)n;
+            point[1] = origin[1] + y / (double)n;
+        }
+    }
+    sunder_i_free(p);
+    sunder_i_free(q);
+    sunder_i_free(c);
+    return sunder_i_stopped() ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
+static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,
+                             sunder_error *err)
+{
+    if (!overlap) return sunder_pair_distance(a, b, &c->distance, c->from, c->to, err);
+    sunder_separation least;
+    bool beyond;
+    const double none[2] = {0, 0};
+    sunder_status status = sunder_i_separate(a, none, b, none, 0, INFINITY, &least, &beyond, err);
+    if (status) return status;
+    c->depth = least.distance;
+    const double d[2] = {least.dx, least.dy};
+    sunder_separation_clear(&least);
+    status = inside_overlap(a, b, c->from, err);
+    c->to[0] = c->from[0] + d[0];
+    c->to[1] = c->from[1] + d[1];
+    return status;
+}
+
+/* ---- Why
+ * -------------------------------------------------------------------------------------------------------------- */
+
+static double limit_of(const sunder_i_town *town, size_t f)
+{
+    const sunder_i_body *body = &town->body[town->body_of[f]];
+    return body->fixed ? 0 : body->limit;
+}
+
+static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict *c, sunder_reason *reason,
+                               sunder_error *err)
+{
+    const double la = limit_of(town, c->a), lb = limit_of(town, c->b);
+    if (la == 0 && lb == 0) {
+        *reason = SUNDER_REASON_FIXED;
+        return SUNDER_OK;
+    }
+    *reason = SUNDER_REASON_UNRESOLVED;
+    if (la + lb == INFINITY) return SUNDER_OK;
+    /* Too far for the two limits together? The pair by itself, as it stood, tells. */
+    sunder_i_peace peace;
+    const sunder_status status =
+        sunder_i_make_peace(&town->rules, town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
+                            nextafter(la + lb, INFINITY), &peace, err);
+    if (!status && peace.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
+    return status;
+}
+
+/* ---- The list
+ * ------------------------------------------------------------------------------------------------------------ */
+
+typedef struct describing {
+    const sunder_i_town *town;
+    const sunder_i_scene *scene;
+    sunder_conflict *conflict;
+    const bool *overlap;
+    bool reasons;
+} describing;
+
+static sunder_status describe(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const describing *d = context;
+    const sunder_i_town *town = d->town;
+    for (size_t k = begin; k < end; k++) {
+        sunder_conflict *c = &d->conflict[k];
+        sunder_shape *a = NULL, *b = NULL;
+        sunder_status status = settle(&d->scene->stand[c->a], &a, err);
+        if (!status) status = settle(&d->scene->stand[c->b], &b, err);
+        if (!status) status = measure(a, b, d->overlap[k], c, err);
+        sunder_shape_free(a);
+        sunder_shape_free(b);
+        if (status) return status;
+        c->before = c->distance;
+        if (c->inside_block) {
+            c->reason = SUNDER_REASON_SAME_BLOCK;
+        } else if (d->reasons) {
+            if (sunder_i_is_kept(town, (uint32_t)c->a, (uint32_t)c->b))
+                c->reason = SUNDER_REASON_KEPT;
+            else
+                status = reason_of(town, c, &c->reason, err);
+            if (status) return status;
+            double on_a[2], on_b[2];
+            status = sunder_pair_distance(town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
+                                          &c->before, on_a, on_b, err);
+            if (status) return status;
+        }
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
+                                        const sunder_i_relations *relations, bool reasons, sunder_error *err)
+{
+    size_t n = 0, k = 0;
+    for (size_t i = 0; i < relations->n; i++) n += is_listed(town, &relations->pair[i]);
+    report->conflict = sunder_i_calloc(n, sizeof *report->conflict);
+    bool *overlap = sunder_i_alloc(n, sizeof *overlap);
+    if (!report->conflict || !overlap) {
+        sunder_i_free(overlap);
+        return sunder_i_no_memory(err);
+    }
+    for (size_t i = 0; i < relations->n; i++) {
+        const sunder_i_relation *r = &relations->pair[i];
+        if (!is_listed(town, r)) continue;
+        overlap[k] = r->overlap;
+        report->conflict[k].a = r->a;
+        report->conflict[k].b = r->b;
+        report->conflict[k].kind = kind_of(town, r);
+        report->conflict[k].required = town->rules.gap;
+        report->conflict[k++].inside_block = is_inside(town, r);
+    }
+    report->conflicts = n;
+    describing d = {town, scene, report->conflict, overlap, reasons};
+    sunder_status status = sunder_i_parallel(town->rules.threads, n, 8, describe, &d, err);
+    sunder_i_free(overlap);
+    return status;
+}

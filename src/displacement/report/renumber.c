@@ -1,0 +1,121 @@
+/* The report on a layer in the order of work, told in the numbers that the caller gave its features. */
+#include "displacement/report/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A conflict and its proof, which have to be sorted together. */
+typedef struct listed {
+    sunder_conflict conflict;
+    sunder_proof *proof;
+} listed;
+
+static int by_pair(const void *x, const void *y)
+{
+    const sunder_conflict *p = &((const listed *)x)->conflict, *q = &((const listed *)y)->conflict;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
+}
+
+static int by_number(const void *x, const void *y)
+{
+    const size_t a = *(const size_t *)x, b = *(const size_t *)y;
+    return a < b ? -1 : a > b;
+}
+
+/* The pair with the lesser first. The link of two that are apart runs from the one to the other; where they overlap it is
+ * a translation of the second, of which the opposite does for the first. */
+static void turn(sunder_conflict *c)
+{
+    const size_t a = c->a;
+    c->a = c->b;
+    c->b = a;
+    for (int k = 0; k < 2; k++) {
+        const double from = c->from[k], to = c->to[k];
+        c->from[k] = c->depth > 0 ? from : to;
+        c->to[k] = c->depth > 0 ? from - (to - from) : from;
+    }
+}
+
+static void number_proof(sunder_proof *proof, const size_t *number)
+{
+    sunder_proof_node *node = (sunder_proof_node *)proof->node; /* the report's own */
+    for (size_t k = 0; k < proof->nodes; k++) {
+        if (node[k].ways == 0) continue;
+        node[k].a = number[node[k].a];
+        node[k].b = number[node[k].b];
+    }
+}
+
+static sunder_status number_conflicts(sunder_report *report, const size_t *number, sunder_error *err)
+{
+    const size_t n = report->conflicts;
+    listed *list = sunder_i_alloc(n, sizeof *list);
+    if (!list) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < n; k++) {
+        list[k] = (listed){report->conflict[k], report->proof ? report->proof[k] : NULL};
+        sunder_conflict *c = &list[k].conflict;
+        size_t *blocker = report->blocker + (c->n_blocked_by ? c->blocked_by - report->blocker : 0);
+        c->a = number[c->a];
+        c->b = number[c->b];
+        if (c->a > c->b) turn(c);
+        for (size_t i = 0; i < c->n_blocked_by; i++) blocker[i] = number[blocker[i]];
+        if (c->n_blocked_by) qsort(blocker, c->n_blocked_by, sizeof *blocker, by_number);
+        if (list[k].proof) number_proof(list[k].proof, number);
+    }
+    if (n) qsort(list, n, sizeof *list, by_pair);
+    for (size_t k = 0; k < n; k++) {
+        report->conflict[k] = list[k].conflict;
+        if (report->proof) report->proof[k] = list[k].proof;
+    }
+    sunder_i_free(list);
+    return SUNDER_OK;
+}
+
+/* Blocks by their first members. */
+static sunder_status number_blocks(int64_t *block, size_t n, size_t blocks, sunder_error *err)
+{
+    int64_t *to = sunder_i_alloc(blocks, sizeof *to), next = 0;
+    if (!to) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < blocks; k++) to[k] = -1;
+    for (size_t f = 0; f < n; f++) {
+        if (block[f] < 0) continue;
+        if (to[block[f]] < 0) to[block[f]] = next++;
+        block[f] = to[block[f]];
+    }
+    sunder_i_free(to);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err)
+{
+    const size_t n = report->n;
+    double *move = sunder_i_alloc(2 * n, sizeof *move);
+    sunder_feature_status *standing = sunder_i_alloc(n, sizeof *standing);
+    int64_t *block = sunder_i_alloc(n, sizeof *block);
+    sunder_status status = move && standing && block ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) {
+        for (size_t k = 0; k < n; k++) {
+            memcpy(move + 2 * number[k], report->move + 2 * k, 2 * sizeof *move);
+            standing[number[k]] = report->status[k];
+            block[number[k]] = report->block[k];
+        }
+        if (n) memcpy(report->move, move, 2 * n * sizeof *move);
+        if (n) memcpy(report->status, standing, n * sizeof *standing);
+        if (n) memcpy(report->block, block, n * sizeof *block);
+        status = number_blocks(report->block, n, report->summary.blocks, err);
+    }
+    if (!status) status = number_conflicts(report, number, err);
+    for (size_t k = 0; !status && k < report->bound_pairs; k++) {
+        sunder_bound_pair *p = &report->bound_pair[k];
+        const size_t a = number[p->a], b = number[p->b];
+        p->a = a < b ? a : b;
+        p->b = a < b ? b : a;
+    }
+    if (!status && report->summary.max_feature != SIZE_MAX)
+        report->summary.max_feature = number[report->summary.max_feature];
+    sunder_i_free(move);
+    sunder_i_free(standing);
+    sunder_i_free(block);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* The report: what was done, feature by feature, and what remains. */
+#include "displacement/report/report.h"
+#include "displacement/proofs/feasibility.h"
+
+#include <math.h>
+
+sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err)
+{
+    const size_t n = town->features;
+    sunder_report *r = sunder_i_calloc(1, sizeof *r);
+    if (!r) return sunder_i_no_memory(err);
+    r->n = n;
+    r->move = sunder_i_calloc(2 * n, sizeof *r->move);
+    r->status = sunder_i_calloc(n, sizeof *r->status);
+    r->block = sunder_i_calloc(n, sizeof *r->block);
+    if (!r->move || !r->status || !r->block) {
+        sunder_report_free(r);
+        return sunder_i_no_memory(err);
+    }
+    /* Bodies are numbered by their first members, so one pass over them numbers the blocks as promised. */
+    int64_t blocks = 0;
+    for (size_t b = 0; b < town->bodies; b++) {
+        const sunder_i_body *body = &town->body[b];
+        const int64_t number = body->members > 1 ? blocks++ : -1;
+        for (uint32_t k = 0; k < body->members; k++) r->block[town->member[body->member + k]] = number;
+    }
+    r->summary.features = n;
+    r->summary.blocks = (size_t)blocks;
+    r->summary.max_feature = SIZE_MAX;
+    for (size_t f = 0; f < n; f++) {
+        const sunder_feature *feature = &town->layer->feature[f];
+        if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
+        const bool fixed = town->body[town->body_of[f]].fixed;
+        r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
+        if (feature->ignored) r->summary.skipped++;
+    }
+    *out = r;
+    return SUNDER_OK;
+}
+
+void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town)
+{
+    sunder_layer_summary *s = &report->summary;
+    for (size_t f = 0; f < town->features; f++) {
+        const double *t = town->move + 2 * (size_t)town->body_of[f];
+        if (t[0] == 0 && t[1] == 0) continue;
+        report->move[2 * f] = t[0];
+        report->move[2 * f + 1] = t[1];
+        const double length = hypot(t[0], t[1]);
+        report->status[f] = SUNDER_FEATURE_MOVED;
+        s->moved++;
+        s->total += length;
+        s->cost += town->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
+        if (length > s->max) {
+            s->max = length;
+            s->max_feature = f;
+        }
+        if (town->inexact[f]) s->rounded++;
+    }
+    if (s->moved) s->mean = s->total / (double)s->moved;
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        const size_t pair[2] = {c->a, c->b};
+        for (int e = 0; e < 2; e++)
+            if (!town->body[town->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
+    }
+    for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
+}
+
+void sunder_report_free(sunder_report *r)
+{
+    if (!r) return;
+    sunder_i_free(r->move);
+    sunder_i_free(r->status);
+    sunder_i_free(r->block);
+    sunder_i_free(r->conflict);
+    sunder_i_free(r->blocker);
+    for (size_t k = 0; r->proof && k < r->conflicts; k++) sunder_i_proof_free(r->proof[k]);
+    sunder_i_free(r->proof);
+    sunder_i_free(r->bound_pair);
+    sunder_i_free(r);
+}
+
+void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)
+{
+    if (conflict->inside_block) {
+        counts->inside_blocks++;
+        return;
+    }
+    switch (conflict->kind) {
+    case SUNDER_CONFLICT_OVERLAP:
+        counts->overlap++;
+        break;
+    case SUNDER_CONFLICT_TOO_CLOSE:
+        counts->too_close++;
+        break;
+    case SUNDER_CONFLICT_BARRIER:
+        counts->barrier++;
+        break;
+    case SUNDER_CONFLICT_CONTAINED:
+        counts->contained++;
+        break;
+    case SUNDER_CONFLICT_DUPLICATE:
+        counts->duplicate++;
+        break;
+    }
+}
+
+void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary) { *summary = report->summary; }
+
+void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy)
+{
+    *dx = report->move[2 * feature];
+    *dy = report->move[2 * feature + 1];
+}
+
+sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature)
+{
+    return report->status[feature];
+}
+
+int64_t sunder_report_block(const sunder_report *report, size_t feature) { return report->block[feature]; }
+
+const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n)
+{
+    *n = report->conflicts;
+    return report->conflict;
+}
+
+const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n)
+{
+    *n = report->bound_pairs;
+    return report->bound_pair;
+}
+
+const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)
+{
+    return report->proof && k < report->conflicts ? report->proof[k] : NULL;
+}

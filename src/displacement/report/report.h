@@ -1,0 +1,65 @@
+/* The report: what was done, feature by feature, what remains, and what is proved of it. */
+#ifndef SUNDER_I_REPORT_H
+#define SUNDER_I_REPORT_H
+
+#include "displacement/clusters/solver.h"
+
+/* ---- report.c ---------------------------------------------------------------------------------------------------- */
+
+struct sunder_report {
+    size_t n;
+    double *move;                  /* [2 * n] */
+    sunder_feature_status *status; /* [n] */
+    int64_t *block;                /* [n] */
+    sunder_conflict *conflict;
+    size_t conflicts;
+    size_t *blocker;      /* what all blocked_by point into */
+    sunder_proof **proof; /* [conflicts] NULL: there is none; the array too */
+    sunder_bound_pair *bound_pair;
+    size_t bound_pairs;
+    sunder_layer_summary summary;
+};
+
+sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err);
+/* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
+ * features were listed. */
+void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town);
+/* Adds one to the count of the conflict's kind. */
+void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);
+
+/* ---- renumber.c -------------------------------------------------------------------------------------------------- */
+
+/* The report on a layer in the order of work, as one on the layer as it was given: number[k] is what feature k was. */
+sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *number, sunder_error *err);
+
+/* ---- conflicts.c ------------------------------------------------------------------------------------------------- */
+
+/* Fills the report's conflicts from the relations as the features stand. start: the relations and scene before anything
+ * moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far as it shows
+ * in the pair by itself. */
+sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
+                                        const sunder_i_relations *relations, bool reasons, sunder_error *err);
+/* Counts what the relations amount to, without listing it. */
+void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
+                              sunder_conflict_counts *counts);
+
+/* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
+
+/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get none.
+ */
+sunder_status sunder_i_bound(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n, double *bound,
+                             sunder_error *err);
+/* Fills the report's pairs for the lower bound, and the bound. */
+sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+
+/* ---- no_room.c --------------------------------------------------------------------------------------------------- */
+
+/* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+
+/* ---- blockers.c -------------------------------------------------------------------------------------------------- */
+
+/* Fills the conflicts' blocked_by. */
+sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+
+#endif

@@ -1,0 +1,259 @@
+/* Where there is room in a cluster as it stands: for one of a pair beside the other, for a body among all. */
+#include "displacement/obstacles/free_places.h"
+#include "displacement/search/stages.h"
+
+#include "base/watch.h"
+#include "separation/separation.h"
+
+#include <math.h>
+#include <string.h>
+
+/* More pairs of pieces than this are too many to make an obstacle of each. */
+#define MANY_PAIRS 1500
+/* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
+#define MANY_AROUND 5000
+
+/* ---- Where there is room -------------------------------------------------------------------------------------------
+ */
+
+/* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
+static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
+
+static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_body *body, bool coarse, uint32_t k)
+{
+    return coarse ? &town->outline[town->member[body->member + k]] : &town->piece[body->piece + k];
+}
+
+static void add_wall(sunder_i_search *s, const sunder_i_part *part, void *context)
+{
+    sunder_i_obstacles *o = context;
+    double gap;
+    const size_t n = sunder_i_search_obstacle(s, part, &gap);
+    if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, fmax(gap, 0) + 2 * s->tolerance);
+}
+
+/* The walls of either that keep the other inside. */
+static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
+                      const double offset[2], const double v[2], double reach, bool torn)
+{
+    const sunder_i_town *town = s->town;
+    sunder_i_part part = {.offset = {offset[0], offset[1]}, .torn = torn};
+    const double back[2] = {-v[0], -v[1]};
+    if (p->walls)
+        sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, add_wall, o);
+    if (q->walls)
+        sunder_i_search_visit(s, town->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
+}
+
+static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+
+/* Might they, or what a truce shifts, be within r of each other at v? No least translation is longer than the boxes. */
+static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
+{
+    const double far = r + extent(p->box) + extent(q->box);
+    const double box[4] = {p->box[0] - v[0] - far, p->box[1] - v[1] - far, p->box[2] - v[0] + far,
+                           p->box[3] - v[1] + far};
+    return sunder_i_box_meet(box, q->box);
+}
+
+/* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
+static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
+                          const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
+                          double reach)
+{
+    const sunder_i_town *town = s->town;
+    double shift;
+    const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
+    if (!are_near(p, q, v, reach + s->gap)) return;
+    const bool torn = sunder_i_search_is_torn(s, (uint32_t)(p - town->body), (uint32_t)(q - town->body), &shift);
+    const double r = reach + s->gap + shift;
+    const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
+    if ((p->walls || q->walls) && (torn || town->kept_n)) add_walls(s, o, p, q, offset, v, r, torn);
+    for (uint32_t k = 0; k < np; k++) {
+        const sunder_i_piece *a = part_of(town, p, coarse_p, k);
+        const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
+        if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < nq; l++) {
+            const sunder_i_piece *b = part_of(town, q, coarse_q, l);
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature))
+                continue;
+            const sunder_i_truce *truce = torn ? sunder_i_search_truce(s, a, b) : NULL;
+            if (truce && truce->inside) continue;
+            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
+                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+            if (n == 0) {
+                s->failed = true;
+                return;
+            }
+            s->steps += 16;
+            const double gap =
+                truce ? fmin(s->gap, sunder_i_search_shift(truce, b->feature, s->scratch.xy, n)) : s->gap;
+            /* A little more room than is asked, so that no rounding makes a clash of it. */
+            sunder_i_obstacles_add(o, s->scratch.xy, n, gap + 2 * s->tolerance);
+        }
+    }
+}
+
+/* Beyond everything, in the four directions: always free, for when all else is full. */
+static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
+{
+    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, best = INFINITY;
+    for (size_t k = 0; k < o->n; k++)
+        for (int c = 0; c < 2; c++) {
+            all[c] = fmin(all[c], o->obstacle[k].box[c]);
+            all[c + 2] = fmax(all[c + 2], o->obstacle[k].box[c + 2]);
+        }
+    for (int c = 0; c < 4; c++) {
+        const double d = fabs(all[c] - target[c & 1]);
+        if (!(d < best) || d > limit) continue;
+        best = d;
+        place[c & 1] = all[c];
+        place[1 - (c & 1)] = target[1 - (c & 1)];
+    }
+    return best < INFINITY;
+}
+
+/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts
+ * from is cut to few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
+static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
+                              double limit, double place[2])
+{
+    const double none[2] = {0, 0};
+    double from[2];
+    for (int c = 0; c < 2; c++) {
+        int exponent;
+        frexp(fmax(fabs(p->box[c]), fabs(p->box[c + 2])), &exponent);
+        const double unit = ldexp(1, exponent - 44);
+        from[c] = unit > 0 ? unit * rint(target[c] / unit) : target[c];
+    }
+    sunder_separation least;
+    bool beyond;
+    const sunder_status status = sunder_i_separate(p, none, q, from, 0, limit, &least, &beyond, NULL);
+    if (status == SUNDER_ENOMEM || status == SUNDER_ECANCEL) s->failed = true;
+    if (status) return false;
+    place[0] = from[0] + least.dx;
+    place[1] = from[1] + least.dy;
+    sunder_separation_clear(&least);
+    return !beyond && isfinite(place[0]) && isfinite(place[1]);
+}
+
+size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
+                                 size_t most, double (*places)[2])
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
+    const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
+    double shift;
+    const bool torn = sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift);
+    /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
+    const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
+    if (many && most == 1 && town->kept_n == 0 && !torn && ps && qs &&
+        free_pair_exactly(s, ps, qs, target, shallow, places[0]))
+        return 1;
+    const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
+    for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
+        sunder_i_obstacles o;
+        memset(&o, 0, sizeof o);
+        add_obstacles(s, &o, p, many, q, many, offset, target, reach);
+        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
+        if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
+        s->failed = s->failed || o.failed;
+        sunder_i_obstacles_free(&o);
+        if (n || s->failed) return n;
+        if (reach > all) return 0;
+    }
+}
+
+/* Bodies of the town that stand near a box (relative to body p's origin, at the start), those of this search apart;
+ * appended to hits once each. */
+static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
+{
+    const sunder_i_town *town = s->town;
+    double where[4];
+    for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
+    if (!sunder_i_index_query(town->standing, where, hits)) return false;
+    for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
+    hits->n = sunder_i_set_make(hits->item, hits->n);
+    size_t out = 0;
+    for (size_t k = 0; k < hits->n; k++) {
+        const uint32_t b = hits->item[k];
+        if (sunder_i_set_has(s->body, s->own, b) || sunder_i_set_has(s->body + s->own, s->n - s->own, b)) continue;
+        hits->item[out++] = b;
+    }
+    hits->n = out;
+    return true;
+}
+
+/* How many pieces of others lie within reach of body i, by their boxes. */
+static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach,
+                             const sunder_i_list *foreign)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]];
+    uint64_t n = 0;
+    for (size_t k = 0; k < s->n + foreign->n; k++) {
+        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
+        const sunder_i_body *q = &town->body[body];
+        if (k == i || q->pieces == 0 || (k < s->n && s->away[k])) continue;
+        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        double box[4];
+        for (int c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
+                     (c < 2 ? -1 : 1) * (reach + s->gap);
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, town->piece[q->piece + l].box);
+    }
+    return n;
+}
+
+/* Obstacles for body i from all the others, within reach of place `at`. */
+static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
+                     const sunder_i_list *foreign)
+{
+    const sunder_i_town *town = s->town;
+    const sunder_i_body *p = &town->body[s->body[i]];
+    const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
+    for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
+        if (k == i || (k < s->n && s->away[k])) continue;
+        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
+        const sunder_i_body *q = &town->body[body];
+        if (q->pieces == 0) continue;
+        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
+        const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
+        add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
+    }
+}
+
+bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
+{
+    const sunder_i_body *p = &s->town->body[s->body[i]];
+    const double home[2] = {0, 0};
+    const sunder_i_index *tree = s->town->standing;
+    const double all = 4 * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
+    const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
+    for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
+        if (reach > limit) reach = limit;
+        sunder_i_list foreign = {0};
+        sunder_i_obstacles o;
+        memset(&o, 0, sizeof o);
+        const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
+        if (!strangers(s, p, box, &foreign)) s->failed = true;
+        surround(s, &o, i, home, reach, &foreign);
+        double best[1][2];
+        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);
+        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
+        s->failed = s->failed || o.failed;
+        sunder_i_obstacles_free(&o);
+        sunder_i_free(foreign.item);
+        if (n) {
+            place[0] = best[0][0];
+            place[1] = best[0][1];
+        }
+        if (!sunder_i_look()) s->failed = true;
+        if (n || s->failed) return n != 0 && !s->failed;
+        if (reach >= limit || reach > all) return false;
+    }
+}

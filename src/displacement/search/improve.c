@@ -1,0 +1,271 @@
+/* Better sides: from a free start, cheaper places of single bodies and other sides of pairs, while they are found. */
+#include "displacement/search/neighbourhood.h"
+#include "displacement/search/stages.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
+ * milliseconds. */
+#define EFFORT 1200000u
+/* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
+ * nothing was ever gained below. */
+#define FAR 1.5
+/* Where more bodies than MANY may move, a change is tried with no more than ABOUT of them. */
+#define MANY 64
+#define ABOUT 32
+/* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
+#define PATIENCE 10000
+
+typedef struct rank {
+    double cost;
+    uint32_t index, other;
+} rank;
+
+static int by_cost(const void *a, const void *b)
+{
+    const rank *p = a, *q = b;
+    if (p->cost != q->cost) return p->cost > q->cost ? -1 : 1;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    return p->other < q->other ? -1 : p->other > q->other;
+}
+
+static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
+
+bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
+{
+    const size_t size = 2 * s->n * sizeof *best;
+    s->hope = *cost;
+    const bool free_now = sunder_i_search_descend(s);
+    s->hope = INFINITY;
+    const double now = sunder_i_search_cost(s, s->t);
+    if (!s->failed && free_now && now < *cost * (1 - 1e-6)) {
+        memcpy(best, s->t, size);
+        *cost = now;
+        return true;
+    }
+    memcpy(s->t, best, size);
+    return false;
+}
+
+/* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with them. */
+static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
+{
+    if (!s->vicinity) return sunder_i_search_attempt(s, best, cost);
+    const double gain = sunder_i_vicinity_descend(s->vicinity, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
+    if (gain > 0) memcpy(best, s->t, 2 * s->n * sizeof *best);
+    *cost -= gain;
+    return gain > 0;
+}
+
+/* The longest move, and the power of two below it. */
+static double longest_move(const sunder_i_search *s, double *below)
+{
+    double longest = 0;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) longest = fmax(longest, hypot(s->t[2 * k], s->t[2 * k + 1]));
+    int exponent;
+    frexp(longest, &exponent);
+    *below = ldexp(1, exponent - 1);
+    return longest;
+}
+
+/* Once more from where everything came from, with no move longer than the power of two below the longest. Where sides
+ * contradict each other the search ends elsewhere then: bodies that were sent far are kept near if that is possible.
+ * Only where one has gone much farther than any pair was in conflict by is there anything to be gained. */
+static void try_near(sunder_i_search *s, double *best, double *cost)
+{
+    double below;
+    const double longest = longest_move(s, &below);
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
+    if (longest > FAR * sunder_i_search_look(s, s->t) && !s->failed) {
+        s->cap = below;
+        s->patience = s->steps + s->program.work + PATIENCE + (s->steps + s->program.work) / 4;
+        s->program.n = 0;
+        const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
+        s->cap = INFINITY;
+        s->patience = UINT64_MAX;
+        if (found && sunder_i_search_attempt(s, best, cost)) return;
+    }
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+}
+
+/* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
+static void try_places(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    size_t n = 0;
+    for (uint32_t k = 0; k < s->n; k++) {
+        const double c =
+            s->mass[k] > 0 ? (s->t[2 * k] * s->t[2 * k] + s->t[2 * k + 1] * s->t[2 * k + 1]) / s->mass[k] : 0;
+        if (c > 0) order[n++] = (rank){c, k, 0};
+    }
+    qsort(order, n, sizeof *order, by_cost);
+    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
+        const uint32_t i = order[k].index;
+        const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
+        double place[2];
+        if (!sunder_i_search_free_body(s, i, 0.98 * length, place)) continue;
+        memcpy(s->t + 2 * i, place, sizeof place);
+        attempt_about(s, i, i, best, cost);
+    }
+}
+
+static int by_places(const void *a, const void *b)
+{
+    const rank *p = a, *q = b;
+    if (p->index != q->index) return p->index < q->index ? -1 : 1;
+    if (p->other != q->other) return p->other < q->other ? -1 : 1;
+    return p->cost < q->cost ? -1 : p->cost > q->cost;
+}
+
+/* The pairs in contact, those that press hardest first. NULL if memory is out. */
+static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
+{
+    rank *order = sunder_i_alloc(program->n, sizeof *order);
+    size_t contacts = 0;
+    *n = 0;
+    if (!order) return NULL;
+    for (size_t k = 0; k < program->n; k++) {
+        const sunder_i_constraint *c = &program->constraint[k];
+        if (!(c->force > 0) || c->i == SUNDER_I_GROUND || c->j == SUNDER_I_GROUND) continue;
+        order[contacts++] = (rank){c->force * c->d, c->i, c->j};
+    }
+    if (contacts) qsort(order, contacts, sizeof *order, by_places);
+    for (size_t k = 0; k < contacts; k++) {
+        if (*n && order[*n - 1].index == order[k].index && order[*n - 1].other == order[k].other)
+            order[*n - 1].cost += order[k].cost;
+        else
+            order[(*n)++] = order[k];
+    }
+    if (*n) qsort(order, *n, sizeof *order, by_cost);
+    return order;
+}
+
+/* Pairs in contact put to their other sides. */
+static void try_sides(sunder_i_search *s, double *best, double *cost)
+{
+    sunder_i_search_descend(s); /* for the forces */
+    memcpy(s->t, best, 2 * s->n * sizeof *best);
+    size_t n;
+    rank *order = rank_contacts(&s->program, &n);
+    s->failed = s->failed || !order;
+    for (size_t k = 0; k < n && has_time(s) && !s->failed; k++) {
+        const uint32_t i = order[k].index, j = order[k].other;
+        const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
+        const double length = hypot(u[0], u[1]);
+        double places[4][2];
+        const size_t found = sunder_i_search_free_pair(s, i, j, home, 0.3 * length, 4, places);
+        for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
+            if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < 0.3 * length) continue;
+            /* The lighter goes farther. */
+            const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
+            for (int c = 0; c < 2; c++) {
+                const double change = places[p][c] - u[c];
+                s->t[2 * j + (uint32_t)c] += share * change;
+                s->t[2 * i + (uint32_t)c] -= (1 - share) * change;
+            }
+            if (attempt_about(s, i, j, best, cost)) break;
+        }
+    }
+    sunder_i_free(order);
+}
+
+/* One round of both. */
+static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    sunder_i_vicinity about = {0};
+    size_t moving = 0;
+    for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
+    if (moving > MANY) s->vicinity = &about;
+    if (s->vicinity && !sunder_i_vicinity_init(&about, s)) s->failed = true;
+    if (!s->failed) try_places(s, order, best, cost);
+    if (!s->failed) try_sides(s, best, cost);
+    if (s->vicinity && !s->failed) sunder_i_search_attempt(s, best, cost);
+    s->vicinity = NULL;
+    sunder_i_vicinity_free(&about);
+}
+
+/* Places and sides in turn, until a round of both gains little. */
+static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
+{
+    for (int round = 0; round < 4 && has_time(s) && !s->failed; round++) {
+        const double start = *cost;
+        try_once(s, order, best, cost);
+        if (!(*cost < start * (1 - 1e-3))) break;
+    }
+}
+
+/* Does it stand without clashes? What rounding took of the margin is made good first. */
+static bool is_free_start(sunder_i_search *s)
+{
+    const double missed = sunder_i_search_look(s, s->t);
+    return missed <= s->tolerance || (missed <= 8 * s->tolerance && !s->failed && sunder_i_search_descend(s));
+}
+
+/* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
+static void improve(sunder_i_search *s, rank *order, double *best, double *near)
+{
+    const size_t size = 2 * s->n * sizeof *best;
+    memcpy(best, s->t, size);
+    double cost = sunder_i_search_cost(s, s->t);
+    sunder_i_search_attempt(s, best, &cost); /* what the first solution left when it was good enough */
+    /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
+    memcpy(near, best, size);
+    double near_cost = cost;
+    const double start = cost;
+    try_all(s, order, best, &cost);
+    memcpy(s->t, near, size);
+    try_near(s, near, &near_cost);
+    if (near_cost < start) try_all(s, order, near, &near_cost);
+    if (near_cost < cost) {
+        memcpy(best, near, size);
+        cost = near_cost;
+    }
+    memcpy(s->t, best, size);
+    const double ordered = cost;
+    sunder_i_search_reorder(s, best, &cost);
+    if (cost < ordered) try_all(s, order, best, &cost);
+}
+
+sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+                                       sunder_error *err)
+{
+    uint32_t *body = NULL;
+    double *all = NULL, *best = NULL, *near = NULL;
+    size_t n = 0;
+    rank *order = NULL;
+    sunder_i_search s;
+    memset(&s, 0, sizeof s);
+    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
+    if (ok) {
+        best = sunder_i_alloc(2 * n, sizeof *best);
+        near = sunder_i_alloc(2 * n, sizeof *near);
+        order = sunder_i_alloc(n, sizeof *order);
+        ok = best && near && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+    }
+    if (ok) {
+        s.settled = 1e-5;
+        s.effort = EFFORT * (uint64_t)cluster->n;
+        s.own = cluster->n;
+        /* Strangers stay. */
+        for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
+        const double before = sunder_i_search_cost(&s, s.t);
+        if (is_free_start(&s)) {
+            improve(&s, order, best, near);
+            memcpy(s.t, best, 2 * n * sizeof *best);
+            const bool cheaper = sunder_i_search_cost(&s, best) < before;
+            s.n = cluster->n;
+            if (cheaper && !s.failed) sunder_i_search_round(&s, move);
+        }
+        ok = !s.failed;
+    }
+    sunder_i_search_free(&s);
+    sunder_i_free(body);
+    sunder_i_free(all);
+    sunder_i_free(best);
+    sunder_i_free(near);
+    sunder_i_free(order);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

@@ -1,0 +1,67 @@
+/* Who is in the way, and not in conflict.
+ *
+ * What stands about a cluster and is not of it stands still while better sides are looked for, and a body may have been sent
+ * far because a neighbour, who could have moved a little, stood where it would have gone. So the nearest place of each body is
+ * looked for once as if they were not there; whoever clashes with it there joins the cluster. */
+#include "displacement/search/stages.h"
+
+#include <math.h>
+
+/* Only bodies that have this part of the cluster's cost, and for places this much nearer. */
+#define COSTLY 0.1
+#define NEARER 0.9
+
+static bool can_move(const sunder_i_town *town, uint32_t body)
+{
+    return !town->body[body].fixed && !town->body[body].pinned;
+}
+
+/* Bodies that clash with the cluster's body i at that place. */
+static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i, const double place[2])
+{
+    for (uint32_t j = (uint32_t)cluster->n; j < s->n && !s->failed; j++) {
+        if (!s->away[j]) continue;
+        const double u[2] = {s->t[2 * j] - place[0], s->t[2 * j + 1] - place[1]};
+        bool yields;
+        if (!(sunder_i_search_pair(s, i, j, u, &yields) > s->tolerance)) continue;
+        if (!sunder_i_reserve(&cluster->guest, &cluster->guest_capacity, cluster->guests + 1, sizeof *cluster->guest))
+            s->failed = true;
+        else
+            cluster->guest[cluster->guests++] = (sunder_i_couple){s->body[i], s->body[j]};
+    }
+}
+
+static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
+{
+    s->own = cluster->n;
+    for (size_t k = cluster->n; k < s->n; k++) {
+        s->away[k] = can_move(s->town, s->body[k]);
+        s->mass[k] = 0;
+    }
+    const double cost = sunder_i_search_cost(s, s->t);
+    for (uint32_t i = 0; i < cluster->n && !s->failed; i++) {
+        const double *t = s->t + 2 * i, square = t[0] * t[0] + t[1] * t[1];
+        double place[2];
+        if (!(s->mass[i] > 0) || !(square > COSTLY * cost * 2 * s->mass[i])) continue;
+        if (sunder_i_search_free_body(s, i, NEARER * sqrt(square), place)) invite_for(s, cluster, i, place);
+    }
+}
+
+bool sunder_i_cluster_invite(const sunder_i_town *town, sunder_i_cluster *cluster, const double *move)
+{
+    uint32_t *body = NULL;
+    double *all = NULL;
+    size_t n = 0;
+    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n), any = false;
+    for (size_t k = cluster->n; ok && k < n; k++) any = any || can_move(town, body[k]);
+    if (ok && any) {
+        sunder_i_search s;
+        ok = sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        if (ok) invite(&s, cluster);
+        ok = ok && !s.failed;
+        sunder_i_search_free(&s);
+    }
+    sunder_i_free(body);
+    sunder_i_free(all);
+    return ok;
+}

@@ -1,0 +1,237 @@
+/* A few bodies of a cluster by themselves: they move, those about them stand, nobody else is looked at.
+ *
+ * Where one pair is tried anew in a cluster of hundreds, most of it has no say. So the pair is tried with the bodies that
+ * it could run into, and those that they could, until there are as many as the caller allows. Whoever stands farther off is
+ * not known to that search; so what moved is looked at among all before it is believed. */
+#include "displacement/search/neighbourhood.h"
+#include "displacement/search/stages.h"
+
+#include <string.h>
+
+/* What a descent among so many bodies may take, in constraints looked at: so much, and so much for each of them. */
+#define PATIENCE 200000u
+#define PATIENCE_EACH 1500u
+/* ... where it is only to make a solution cheaper. */
+#define SHORT 20000u
+#define SHORT_EACH 600u
+
+static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
+{
+    const sunder_i_body *b = &s->town->body[s->body[i]], *first = &s->town->body[s->body[0]];
+    for (uint32_t c = 0; c < 4; c++)
+        box[c] = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] +
+                 (c < 2 ? -grown : grown);
+}
+
+bool sunder_i_vicinity_init(sunder_i_vicinity *v, sunder_i_search *s)
+{
+    memset(v, 0, sizeof *v);
+    v->all = s;
+    double *box = sunder_i_alloc(4 * s->n, sizeof *box);
+    bool *present = sunder_i_alloc(s->n, sizeof *present);
+    v->place = sunder_i_alloc(s->n, sizeof *v->place);
+    v->moves = sunder_i_calloc(s->n, sizeof *v->moves);
+    v->body = sunder_i_alloc(s->n, sizeof *v->body);
+    v->t = sunder_i_alloc(2 * s->n, sizeof *v->t);
+    bool ok = box && present && v->place && v->moves && v->body && v->t;
+    for (uint32_t i = 0; i < s->n && ok; i++) {
+        box_at(s, i, 0, box + 4 * i);
+        present[i] = s->town->body[s->body[i]].pieces > 0;
+    }
+    ok = ok && !sunder_i_index_build(box, present, s->n, &v->tree, NULL);
+    sunder_i_free(box);
+    sunder_i_free(present);
+    return ok;
+}
+
+void sunder_i_vicinity_free(sunder_i_vicinity *v)
+{
+    sunder_i_index_free(&v->tree);
+    sunder_i_free(v->place);
+    sunder_i_free(v->moves);
+    sunder_i_free(v->body);
+    sunder_i_free(v->t);
+    sunder_i_free(v->near.item);
+    memset(v, 0, sizeof *v);
+}
+
+/* Who stands within reach of body i, in order of number: into v->near. */
+static bool look_about(sunder_i_vicinity *v, uint32_t i, double reach)
+{
+    double box[4];
+    box_at(v->all, i, reach, box);
+    v->near.n = 0;
+    if (!sunder_i_index_query(&v->tree, box, &v->near)) return false;
+    v->near.n = sunder_i_set_make(v->near.item, v->near.n);
+    return true;
+}
+
+static void take_in(sunder_i_vicinity *v, uint32_t i)
+{
+    if (v->moves[i] || !(v->all->mass[i] > 0)) return;
+    v->moves[i] = true;
+    v->place[v->n++] = i;
+}
+
+/* The pair, those that they could run into, and those that these could, up to `most` that move; then those that stand
+ * about them. v->wider: there would have been more. */
+static bool gather(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    v->n = 0;
+    v->wider = false;
+    take_in(v, i);
+    take_in(v, j);
+    for (size_t at = 0; at < v->n && !v->wider; at++) {
+        if (!look_about(v, v->place[at], reach)) return false;
+        for (size_t k = 0; k < v->near.n && !v->wider; k++) {
+            v->wider = v->n >= most && !v->moves[v->near.item[k]] && v->all->mass[v->near.item[k]] > 0;
+            if (!v->wider) take_in(v, v->near.item[k]);
+        }
+    }
+    v->moving = v->n;
+    for (size_t at = 0; at < v->moving; at++) {
+        if (!look_about(v, v->place[at], reach)) return false;
+        for (size_t k = 0; k < v->near.n; k++) {
+            const uint32_t who = v->near.item[k];
+            if (v->moves[who]) continue;
+            v->moves[who] = true; /* it is listed */
+            v->place[v->n++] = who;
+        }
+    }
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = k < v->moving;
+    return true;
+}
+
+/* The search among those gathered; what was given up so far is lent by that of the whole. */
+static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
+{
+    sunder_i_search *s = v->all;
+    sunder_i_set_make(v->place, v->n);
+    for (size_t k = 0; k < v->n; k++) {
+        v->body[k] = s->body[v->place[k]];
+        memcpy(v->t + 2 * k, s->t + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
+    }
+    /* Places go by number up to s->own, and again from there: bodies are ascending in both, and so they are here. */
+    if (!sunder_i_search_init(part, s->town, v->body, v->n, s->gap - s->town->rules.gap, v->t)) return false;
+    part->own = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        part->own += v->place[k] < s->own;
+        if (!v->moves[v->place[k]]) part->mass[k] = 0;
+    }
+    part->tolerance = s->tolerance;
+    part->extent = s->extent;
+    part->truces = s->truces;
+    part->ended = s->ended;
+    part->ended_n = s->ended_n;
+    part->shelf = s->shelf; /* and goes back there */
+    memset(&s->shelf, 0, sizeof s->shelf);
+    part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+    return true;
+}
+
+static void end(sunder_i_vicinity *v, sunder_i_search *part)
+{
+    v->all->steps += part->steps + part->program.work;
+    v->all->failed = v->all->failed || part->failed;
+    memset(&part->truces, 0, sizeof part->truces);
+    part->ended = NULL;
+    if (part->shelf.slots) v->all->shelf = part->shelf;
+    memset(&part->shelf, 0, sizeof part->shelf);
+    sunder_i_search_free(part);
+    for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
+}
+
+/* Are those that moved in nobody's way, wherever he stands? */
+static bool is_free(sunder_i_vicinity *v)
+{
+    sunder_i_search *s = v->all;
+    for (size_t m = 0; m < v->n && !s->failed; m++) {
+        const uint32_t i = v->place[m];
+        if (!v->moves[i]) continue;
+        if (!look_about(v, i, s->gap)) s->failed = true;
+        for (size_t k = 0; k < v->near.n && !s->failed; k++) {
+            const uint32_t j = v->near.item[k], p = i < j ? i : j, q = i < j ? j : i;
+            const double u[2] = {s->t[2 * q] - s->t[2 * p], s->t[2 * q + 1] - s->t[2 * p + 1]};
+            bool yields;
+            if (i != j && sunder_i_search_pair(s, p, q, u, &yields) > s->tolerance) return false;
+        }
+    }
+    return !s->failed;
+}
+
+/* Puts those that move there: a place for each of v->place. */
+static void put(sunder_i_vicinity *v, const double *t)
+{
+    for (size_t k = 0; k < v->n; k++) {
+        double box[4];
+        if (!v->moves[v->place[k]]) continue;
+        memcpy(v->all->t + 2 * (size_t)v->place[k], t + 2 * k, 2 * sizeof *t);
+        box_at(v->all, v->place[k], 0, box);
+        if (v->all->town->body[v->body[k]].pieces) sunder_i_index_move(&v->tree, v->place[k], box);
+    }
+}
+
+/* Begins with the pair and those about it as they stand. On failure it has ended. */
+static bool open_part(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach, sunder_i_search *part)
+{
+    memset(part, 0, sizeof *part);
+    if (gather(v, i, j, most, reach) && begin(v, part)) return true;
+    part->failed = true;
+    end(v, part);
+    return false;
+}
+
+bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach)
+{
+    sunder_i_search part;
+    if (!open_part(v, i, j, most, reach, &part)) return false;
+    bool done = v->moving > 0 && sunder_i_search_descend(&part);
+    if (!done && v->moving && !part.failed && sunder_i_search_jump(&part)) {
+        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+        done = sunder_i_search_descend(&part);
+    }
+    if (done && !part.failed) {
+        put(v, part.t);
+        done = is_free(v);
+        if (!done) put(v, v->t);
+    }
+    end(v, &part);
+    return done && !v->all->failed;
+}
+
+/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for each of
+ * all. */
+static double costs_more(const sunder_i_vicinity *v, const double *t, const double *best)
+{
+    double sum = 0;
+    for (size_t k = 0; k < v->n; k++) {
+        const uint32_t i = v->place[k];
+        const double *to = t + 2 * k, *from = best + 2 * (size_t)i;
+        if (v->moves[i])
+            sum += (to[0] * to[0] + to[1] * to[1] - from[0] * from[0] - from[1] * from[1]) / (2 * v->all->mass[i]);
+    }
+    return sum;
+}
+
+double sunder_i_vicinity_descend(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach,
+                                 const double *best, double least)
+{
+    sunder_i_search part;
+    double gain = 0;
+    if (!open_part(v, i, j, most, reach, &part)) return 0;
+    for (size_t k = 0; k < v->n; k++) memcpy(v->t + 2 * k, best + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
+    part.settled = v->all->settled;
+    part.patience = part.steps + SHORT + SHORT_EACH * (uint64_t)v->n;
+    part.hope = sunder_i_search_cost(&part, v->t);
+    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
+    if (gain > least) {
+        put(v, part.t);
+        if (!is_free(v)) gain = 0;
+    }
+    if (!(gain > least)) {
+        put(v, v->t);
+        gain = 0;
+    }
+    end(v, &part);
+    return gain;
+}

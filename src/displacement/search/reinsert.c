@@ -1,0 +1,224 @@
+/* Other orders of putting bodies back.
+ *
+ * The sides that a solution stands on are mostly a matter of who came first. So a few bodies that stand about one of which
+ * the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it came from, in
+ * another order; all go down from there, and what is cheaper is kept. In doubt are those that overlapped another by much,
+ * for which another side is not much farther, and those that went much farther than any pair was in conflict by. */
+#include "displacement/search/stages.h"
+
+#include "base/random.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An overlap is deep from this part of the smaller body's extent on ... */
+#define DEEP 0.125
+/* ... and a move is long from so many times the worst conflict on. */
+#define LONG 1.5
+/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was tried
+ * before counts as so many; of clusters in which no more than so many may move; and for no more than this part of the work
+ * that was done before. */
+#define MOST_ORDERS 64
+#define MOST_USELESS 32
+#define KNOWN 4
+#define SHARE 1
+#define MOST_MOVING 32
+/* The same where nobody's sides are in doubt: all of them are put back then, if they are no more than so many. */
+#define SURE_USELESS 3
+#define SURE_SHARE 4
+#define SURE_MOVING 16
+/* From 2 to so many are taken out. */
+#define MOST_OUT 6
+/* Those who stand in the way may share what the place costs, so it may be so many times as far as the limit, or as a move
+ * that costs as much as all do now. */
+#define BEYOND_LIMIT 2
+#define BEYOND_COST 1.5
+
+/* A body, and what it is sorted by. */
+typedef struct ranked {
+    double by;
+    uint32_t index;
+} ranked;
+
+static int by_rank(const void *a, const void *b)
+{
+    const ranked *p = a, *q = b;
+    if (p->by != q->by) return p->by < q->by ? -1 : 1;
+    return p->index < q->index ? -1 : p->index > q->index;
+}
+
+typedef struct reordering {
+    sunder_i_search *search;
+    ranked *doubtful, *near; /* [doubtfuls], the costliest first; [moving] */
+    size_t doubtfuls, moving;
+    uint32_t *out; /* those that are taken out */
+    double tried[MOST_ORDERS]; /* costs of what was begun with: the same again would end where it did */
+    size_t tries;
+    double *best, cost;
+} reordering;
+
+/* ---- Whose sides are in doubt --------------------------------------------------------------------------------------
+ */
+
+static double extent(const sunder_i_search *s, uint32_t i)
+{
+    const double *box = s->town->body[s->body[i]].box;
+    return fmin(box[2] - box[0], box[3] - box[1]);
+}
+
+static bool find_doubtful(reordering *r)
+{
+    sunder_i_search *s = r->search;
+    double *home = sunder_i_alloc(2 * s->n, sizeof *home), worst = 0;
+    bool *deep = sunder_i_calloc(s->n, sizeof *deep);
+    if (home && deep) {
+        for (size_t k = 0; k < 2 * s->n; k++) home[k] = s->mass[k / 2] > 0 ? 0 : s->t[k];
+        sunder_i_search_look(s, home);
+        for (size_t k = 0; k < s->clashes; k++) {
+            const sunder_i_clash *c = &s->clash[k];
+            worst = fmax(worst, c->violation);
+            if (c->violation - s->gap > DEEP * fmin(extent(s, c->i), extent(s, c->j))) deep[c->i] = deep[c->j] = true;
+        }
+        for (uint32_t k = 0; k < s->n; k++) {
+            const double x = s->t[2 * k], y = s->t[2 * k + 1];
+            if (s->mass[k] > 0 && (deep[k] || hypot(x, y) > LONG * worst))
+                r->doubtful[r->doubtfuls++] = (ranked){-(x * x + y * y) / s->mass[k], k};
+        }
+        if (r->doubtfuls) qsort(r->doubtful, r->doubtfuls, sizeof *r->doubtful, by_rank);
+    }
+    const bool ok = home && deep;
+    sunder_i_free(home);
+    sunder_i_free(deep);
+    return ok;
+}
+
+/* ---- Out, and in again ---------------------------------------------------------------------------------------------
+ */
+
+/* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
+static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
+{
+    const sunder_i_body *p = &s->town->body[s->body[i]], *q = &s->town->body[s->body[j]];
+    double d[2];
+    for (uint32_t c = 0; c < 2; c++) {
+        const double offset = q->origin[c] - p->origin[c] + share * (s->t[2 * j + c] - s->t[2 * i + c]);
+        d[c] = fmax(0, fmax(q->box[c] + offset - p->box[c + 2], p->box[c] - q->box[c + 2] - offset));
+    }
+    return hypot(d[0], d[1]);
+}
+
+/* That body, and those that stand, or stood, nearest to it: n in all. */
+static void choose(reordering *r, uint32_t first, size_t n)
+{
+    const sunder_i_search *s = r->search;
+    size_t m = 0;
+    for (uint32_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0)
+            r->near[m++] = (ranked){k == first ? -1 : fmin(apart(s, first, k, 0), apart(s, first, k, 1)), k};
+    qsort(r->near, m, sizeof *r->near, by_rank);
+    for (size_t k = 0; k < n; k++) r->out[k] = r->near[k].index;
+}
+
+/* Shuffled by a sequence that is always the same (xorshift). */
+static void shuffle(uint32_t *order, size_t n, uint64_t *state)
+{
+    for (size_t k = n; k-- > 1;) {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        sunder_i_shuffle_step(order, k + 1, sizeof *order, *state);
+    }
+}
+
+static bool is_known(const reordering *r, double cost)
+{
+    for (size_t k = 0; k < r->tries; k++)
+        if (fabs(r->tried[k] - cost) <= 1e-9 * cost) return true;
+    return false;
+}
+
+/* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at home, for
+ * all of them to make room. Returns how much of no use that was. */
+static size_t put_back(reordering *r, size_t n)
+{
+    sunder_i_search *s = r->search;
+    for (size_t k = 0; k < n; k++) {
+        s->away[r->out[k]] = true;
+        s->t[2 * r->out[k]] = s->t[2 * r->out[k] + 1] = 0;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = r->out[k];
+        const double farthest =
+            fmin(BEYOND_LIMIT * sunder_i_search_limit(s, i), BEYOND_COST * sqrt(2 * s->mass[i] * r->cost));
+        double place[2];
+        if (sunder_i_search_free_body(s, i, farthest, place))
+            memcpy(s->t + 2 * i, place, sizeof place);
+        s->away[i] = false;
+    }
+    const double start = sunder_i_search_cost(s, s->t), before = r->cost;
+    const bool known = is_known(r, start);
+    s->program.n = 0; /* the forces belong to places that are left */
+    if (!known) {
+        r->tried[r->tries++] = start;
+        sunder_i_search_attempt(s, r->best, &r->cost);
+    }
+    memcpy(s->t, r->best, 2 * s->n * sizeof *r->best);
+    return known ? KNOWN : !(r->cost < before);
+}
+
+static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program.work; }
+
+/* About what it takes to look for room for all that may move, in pairs of pieces. */
+static uint64_t search_work(const sunder_i_search *s)
+{
+    uint64_t own = 0, all = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const uint64_t pieces = s->town->body[s->body[k]].pieces;
+        all += pieces;
+        if (s->mass[k] > 0) own += pieces;
+    }
+    return 4 * own * all;
+}
+
+/* A number of orders, from one doubtful body to the next; n: so many are taken out, or 0: first few, then more. */
+static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t most_work)
+{
+    sunder_i_search *s = r->search;
+    uint64_t state = UINT64_C(0x9e3779b97f4a7c15), last = search_work(s);
+    size_t useless = 0;
+    for (size_t k = 0; k < MOST_ORDERS && useless < most_useless && !s->failed; k++) {
+        const uint64_t before = work_of(s);
+        const size_t out = n ? n : 2 + k / r->doubtfuls % (MOST_OUT - 1);
+        if (before + last >= most_work) break;
+        const size_t taken = out < r->moving ? out : r->moving;
+        choose(r, r->doubtful[k % r->doubtfuls].index, taken);
+        shuffle(r->out, taken, &state);
+        const size_t in_vain = put_back(r, taken);
+        useless = in_vain ? useless + in_vain : 0;
+        last = work_of(s) - before;
+    }
+}
+
+void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
+{
+    reordering r = {.search = s, .best = best, .cost = *cost};
+    const uint64_t work = work_of(s);
+    for (size_t k = 0; k < s->n; k++) r.moving += s->mass[k] > 0;
+    if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
+    r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);
+    r.near = sunder_i_alloc(r.moving, sizeof *r.near);
+    r.out = sunder_i_alloc(r.moving, sizeof *r.out);
+    if (!r.doubtful || !r.near || !r.out || !find_doubtful(&r)) s->failed = true;
+    if (r.doubtfuls) {
+        try_orders(&r, 0, MOST_USELESS, work + work / SHARE);
+    } else if (!s->failed && r.moving <= SURE_MOVING) {
+        for (uint32_t k = 0; k < s->n; k++)
+            if (s->mass[k] > 0) r.doubtful[r.doubtfuls++] = (ranked){0, k};
+        try_orders(&r, r.moving, SURE_USELESS, work + work / SURE_SHARE);
+    }
+    *cost = r.cost;
+    sunder_i_free(r.doubtful);
+    sunder_i_free(r.near);
+    sunder_i_free(r.out);
+}

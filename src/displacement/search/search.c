@@ -1,0 +1,69 @@
+/* One cluster as the search sees it: its bodies, where they stand, and what that costs. */
+#include "displacement/search/search.h"
+
+#include <math.h>
+#include <string.h>
+
+bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const uint32_t *body, size_t n, double margin,
+                          const double *move)
+{
+    memset(s, 0, sizeof *s);
+    s->town = town;
+    s->body = body;
+    s->n = s->own = n;
+    s->gap = town->rules.gap + margin;
+    s->tolerance = margin / 4;
+    s->settled = 1e-3;
+    s->cap = INFINITY;
+    s->patience = UINT64_MAX;
+    s->hope = INFINITY;
+    s->mass = sunder_i_alloc(n, sizeof *s->mass);
+    s->away = sunder_i_calloc(n, sizeof *s->away);
+    s->t = sunder_i_alloc(2 * n, sizeof *s->t);
+    s->next = sunder_i_alloc(2 * n, sizeof *s->next);
+    s->box = sunder_i_alloc(4 * n, sizeof *s->box);
+    s->order = sunder_i_alloc(n, sizeof *s->order);
+    if (!s->mass || !s->away || !s->t || !s->next || !s->box || !s->order) return false;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *b = &town->body[body[k]];
+        s->mass[k] = b->fixed || b->pinned ? 0 : 0.5 / b->weight;
+        if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
+    }
+    memcpy(s->t, move, 2 * n * sizeof *s->t);
+    s->program.bodies = n;
+    s->program.mass = s->mass;
+    s->program.t = s->next;
+    return true;
+}
+
+void sunder_i_search_free(sunder_i_search *s)
+{
+    sunder_i_free(s->mass);
+    sunder_i_free(s->away);
+    sunder_i_free(s->t);
+    sunder_i_free(s->next);
+    sunder_i_free(s->box);
+    sunder_i_free(s->order);
+    sunder_i_free(s->program.constraint);
+    sunder_i_free(s->old);
+    sunder_i_free(s->clash);
+    sunder_i_truces_free(&s->truces);
+    sunder_i_free(s->ended);
+    sunder_i_free(s->scratch.xy);
+    sunder_i_shelf_free(&s->shelf);
+    sunder_i_free(s->shifted);
+    memset(s, 0, sizeof *s);
+}
+
+double sunder_i_search_limit(const sunder_i_search *s, uint32_t i)
+{
+    return fmin(s->cap, s->town->body[s->body[i]].limit);
+}
+
+double sunder_i_search_cost(const sunder_i_search *s, const double *t)
+{
+    double cost = 0;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * s->mass[k]);
+    return cost;
+}

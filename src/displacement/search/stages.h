@@ -1,0 +1,58 @@
+/* The stages of the search for the moves of one cluster. */
+#ifndef SUNDER_I_STAGES_H
+#define SUNDER_I_STAGES_H
+
+#include "displacement/search/search.h"
+
+/* ---- free_positions.c: where there is room ----------------------------------------------------------------------- */
+
+/* Free relative positions of j to i, nearest to target first. */
+size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
+                                 size_t most, double (*places)[2]);
+/* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
+bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
+
+/* ---- descend.c: down from a position ----------------------------------------------------------------------------- */
+
+/* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
+ * compromise. */
+bool sunder_i_search_descend(sunder_i_search *search);
+
+/* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
+
+/* Shortens moves to their limits. */
+void sunder_i_search_clip(sunder_i_search *search);
+/* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
+bool sunder_i_search_jump(sunder_i_search *search);
+
+/* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
+
+/* From where the search ended, with clashes, to where the pairs that clashed at the start are under a truce and nothing
+ * clashes; then down from there. The new truces are in search->truces. */
+void sunder_i_search_yield(sunder_i_search *search);
+/* Down from a position without clashes, or stay there. */
+void sunder_i_search_lower(sunder_i_search *search);
+/* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
+sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
+
+/* ---- solve.c: how a search ends ---------------------------------------------------------------------------------- */
+
+/* Rounds the moves of its bodies. */
+void sunder_i_search_round(const sunder_i_search *search, double *move);
+/* What became of pairs in conflict goes to the cluster. */
+void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluster);
+
+/* ---- retry.c ----------------------------------------------------------------------------------------------------- */
+
+/* From a free position, pairs under a truce are asked for peace, or at least not to overlap. What came of it is in
+ * search->ended and search->truces. */
+void sunder_i_search_retry(sunder_i_search *search, const sunder_i_suit *suit, size_t n);
+
+/* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
+
+/* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
+bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
+/* Tries other orders of putting bodies back, from best, which is free and costs *cost; both become what was found. */
+void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost);
+
+#endif
