@@ -10,7 +10,7 @@
 #include <math.h>
 
 /* The boundary edges of one operand near the other, by their tails. */
-static uint32_t *edges_near(sunder_i_pairing *g, int side, double reach, uint32_t *n)
+static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32_t *n)
 {
     const sunder_shape *s = g->shape[side];
     uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, s->vertices, sizeof *list);
@@ -40,7 +40,7 @@ static double end_square(const double p[2], const double a[2], const double b[2]
 typedef enum nearness { FAR, NEAR, IN_DOUBT } nearness;
 
 /* Is a point of edge i of P nearer than `units` to one of edge j of Q? The interiors are disjoint. In doubles. */
-static nearness edges_near_each_other(const sunder_i_pairing *g, uint32_t i, uint32_t j, double units)
+static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, uint32_t j, double units)
 {
     const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
     const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * in, *c = g->xy[1] + 2 * j, *d = g->xy[1] + 2 * jn;
@@ -55,7 +55,7 @@ static nearness edges_near_each_other(const sunder_i_pairing *g, uint32_t i, uin
     return distance + doubt < units ? NEAR : distance - doubt > units ? FAR : IN_DOUBT;
 }
 
-static bool exactly_near(sunder_i_pairing *g, uint32_t i, uint32_t j, int64_t gap)
+static bool exactly_near(sunder_i_operands *g, uint32_t i, uint32_t j, int64_t gap)
 {
     const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
     return sunder_i_segment_distance_cmp(&g->placed.lattice, g->at[0][i], g->at[0][in], g->at[1][j], g->at[1][jn],
@@ -63,7 +63,7 @@ static bool exactly_near(sunder_i_pairing *g, uint32_t i, uint32_t j, int64_t ga
 }
 
 /* Is any edge of P nearer than the gap to one of Q? Without `gap` (on the lattice) in doubles, and perhaps in doubt. */
-static nearness any_near(sunder_i_pairing *g, double units, const int64_t *gap)
+static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
 {
     uint32_t m, n;
     const double reach = units + 16 * g->error + 0x1p-50 * units;
@@ -83,13 +83,13 @@ static nearness any_near(sunder_i_pairing *g, double units, const int64_t *gap)
 
 /* With the gap on the lattice, which may have to be a finer one for it. */
 static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
-                                   const sunder_i_pairing_options *options, double gap, bool *apart, sunder_error *err)
+                                   const sunder_i_operands_options *options, double gap, bool *apart, sunder_error *err)
 {
-    sunder_i_pairing_options with_gap = *options;
+    sunder_i_operands_options with_gap = *options;
     with_gap.extra = &gap;
     with_gap.extra_n = 1;
-    sunder_i_pairing g;
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &with_gap, err);
+    sunder_i_operands g;
+    sunder_status status = sunder_i_operands_init(&g, p, q, &with_gap, err);
     if (status) return status;
     sunder_i_lattice *l = &g.placed.lattice;
     const int64_t n = sunder_i_lattice_int(l, gap, 0);
@@ -98,7 +98,7 @@ static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
         status = sunder_i_no_memory(err);
     else
         *apart = answer == FAR;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }
 
@@ -109,15 +109,15 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
         *apart = true;
         return SUNDER_OK;
     }
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     nearness answer = sunder_i_operands_overlap(&g) ? NEAR : FAR;
     const double units = gap / g.unit;
     if (answer == FAR && gap > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
     const bool failed = g.placed.lattice.arena.failed;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     if (failed) return sunder_i_no_memory(err);
     if (answer == IN_DOUBT) return exactly_apart(p, q, &options, gap, apart, err);
     *apart = answer == FAR;

@@ -20,7 +20,7 @@ typedef struct convex {
     uint32_t n;
 } convex;
 
-static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
+static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t first = i ? s->piece_end[i - 1] : 0;
@@ -30,7 +30,7 @@ static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
 /* The part of the segment ab (t in [0, 1]) in the convex c; false if it has no length. Along a side of c the interior
  * may lie on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if `right` is
  * false. */
-static bool clip(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b, const convex *c, bool right, interval *out)
+static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, const convex *c, bool right, interval *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_point d = sunder_i_point_sub(l, b, a);
@@ -84,7 +84,7 @@ static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const 
 }
 
 /* Is the right side of edge e of Q, as far as it runs inside c, in Q? */
-static bool edge_harmless(sunder_i_pairing *g, const convex *c, uint32_t e, interval *buffer)
+static bool edge_harmless(sunder_i_operands *g, const convex *c, uint32_t e, interval *buffer)
 {
     const sunder_shape *q = g->shape[1];
     const uint32_t next = q->next[e];
@@ -100,7 +100,7 @@ static bool edge_harmless(sunder_i_pairing *g, const convex *c, uint32_t e, inte
     return intervals_cover(&g->placed.lattice, buffer, n, &want);
 }
 
-static bool piece_contained(sunder_i_pairing *g, uint32_t i, interval *buffer)
+static bool piece_contained(sunder_i_operands *g, uint32_t i, interval *buffer)
 {
     const sunder_shape *q = g->shape[1];
     bool meets = false;
@@ -112,7 +112,7 @@ static bool piece_contained(sunder_i_pairing *g, uint32_t i, interval *buffer)
     return true;
 }
 
-static bool all_contained(sunder_i_pairing *g)
+static bool all_contained(sunder_i_operands *g)
 {
     const double *p = g->box[0], *q = g->box[1], e = g->error;
     if (p[0] < q[0] - e || p[1] < q[1] - e || p[2] > q[2] + e || p[3] > q[3] + e) return false;
@@ -134,15 +134,15 @@ sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], cons
         *contained = false;
         return SUNDER_OK;
     }
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     const bool answer = all_contained(&g);
     if (g.placed.lattice.arena.failed)
         status = sunder_i_no_memory(err);
     else
         *contained = answer;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }

@@ -15,7 +15,7 @@ typedef struct vector {
 } vector;
 
 /* Differences are taken on the lattice, where nothing cancels, and only then rounded. */
-static vector between(sunder_i_pairing *g, sunder_i_point to, sunder_i_point from)
+static vector between(sunder_i_operands *g, sunder_i_point to, sunder_i_point from)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (l->narrow) {
@@ -29,7 +29,7 @@ static vector between(sunder_i_pairing *g, sunder_i_point to, sunder_i_point fro
 
 /* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact
  * cross product over the length. */
-static double to_segment(sunder_i_pairing *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
+static double to_segment(sunder_i_operands *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const vector u = between(g, b, a), v = between(g, p, a), w = between(g, p, b);
@@ -45,7 +45,7 @@ static double to_segment(sunder_i_pairing *g, sunder_i_point p, sunder_i_point a
 }
 
 /* The least over the four ends; *which says which: 0 a, 1 b (ends of P's edge), 2 c, 3 d. */
-static double edge_square(sunder_i_pairing *g, uint32_t i, uint32_t j, int *which, double *t)
+static double edge_square(sunder_i_operands *g, uint32_t i, uint32_t j, int *which, double *t)
 {
     const sunder_i_point a = g->at[0][i], b = g->at[0][g->shape[0]->next[i]];
     const sunder_i_point c = g->at[1][j], d = g->at[1][g->shape[1]->next[j]];
@@ -77,7 +77,7 @@ static double box_square(const double *a, const double *b, const double *c, cons
 
 /* Of two edges as near as each other the one that comes first counts: so the answer does not depend on the order of
  * the search. */
-static void offer(sunder_i_pairing *g, uint32_t i, uint32_t j, link *best)
+static void offer(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
 {
     int which;
     double t;
@@ -87,7 +87,7 @@ static void offer(sunder_i_pairing *g, uint32_t i, uint32_t j, link *best)
 }
 
 /* Edges from .. to - 1 of P against edges first .. last - 1 of Q; all within `box` of Q. */
-static void compare_edges(sunder_i_pairing *g, uint32_t from, uint32_t to, uint32_t first, uint32_t last,
+static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint32_t first, uint32_t last,
                           const double box[4], link *best)
 {
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
@@ -106,7 +106,7 @@ static void compare_edges(sunder_i_pairing *g, uint32_t from, uint32_t to, uint3
 #define BLOCKS_FROM 4096 /* with fewer pairs of edges blocks do not pay */
 
 /* The boxes of the blocks of one operand; NULL if memory is out. */
-static double (*block_boxes(sunder_i_pairing *g, int side, uint32_t blocks))[4]
+static double (*block_boxes(sunder_i_operands *g, int side, uint32_t blocks))[4]
 {
     const sunder_shape *s = g->shape[side];
     double(*box)[4] = sunder_i_arena_alloc(&g->placed.lattice.arena, blocks, sizeof *box);
@@ -133,13 +133,13 @@ typedef struct blocks {
 
 static uint32_t block_end(const blocks *b, uint32_t k) { return k + 1 < b->n ? (k + 1) * BLOCK : b->edges; }
 
-static void compare_two(sunder_i_pairing *g, const blocks *p, uint32_t i, const blocks *q, uint32_t j, link *best)
+static void compare_two(sunder_i_operands *g, const blocks *p, uint32_t i, const blocks *q, uint32_t j, link *best)
 {
     compare_edges(g, i * BLOCK, block_end(p, i), j * BLOCK, block_end(q, j), q->box[j], best);
 }
 
 /* The two blocks whose boxes are nearest come first: then most of the others need no second look. */
-static void compare_blocks(sunder_i_pairing *g, link *best)
+static void compare_blocks(sunder_i_operands *g, link *best)
 {
     blocks p = {.edges = g->shape[0]->vertices}, q = {.edges = g->shape[1]->vertices};
     p.n = (p.edges + BLOCK - 1) / BLOCK;
@@ -169,7 +169,7 @@ static void compare_blocks(sunder_i_pairing *g, link *best)
     }
 }
 
-static link nearest_edges(sunder_i_pairing *g)
+static link nearest_edges(sunder_i_operands *g)
 {
     const uint32_t m = g->shape[0]->vertices, n = g->shape[1]->vertices;
     link best = {INFINITY, 0, 0};
@@ -181,19 +181,19 @@ static link nearest_edges(sunder_i_pairing *g)
 }
 
 /* A coordinate in the caller's units again. */
-static vector outside(sunder_i_pairing *g, vector v)
+static vector outside(sunder_i_operands *g, vector v)
 {
     return (vector){v.x * g->unit + g->placed.origin_p[0] + g->base[0],
                     v.y * g->unit + g->placed.origin_p[1] + g->base[1]};
 }
 
-static vector link_point(sunder_i_pairing *g, int side, uint32_t edge, double t)
+static vector link_point(sunder_i_operands *g, int side, uint32_t edge, double t)
 {
     const double *a = g->xy[side] + 2 * edge, *b = g->xy[side] + 2 * g->shape[side]->next[edge];
     return outside(g, (vector){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
 }
 
-static void link_ends(sunder_i_pairing *g, const link *k, double on_p[2], double on_q[2])
+static void link_ends(sunder_i_operands *g, const link *k, double on_p[2], double on_q[2])
 {
     int which = 0;
     double t = 0;
@@ -208,7 +208,7 @@ static void link_ends(sunder_i_pairing *g, const link *k, double on_p[2], double
 
 /* A point of both pieces i and j: P's is clipped by the sides of Q's, in doubles, and the middle of what is left taken.
  */
-static vector common_point(sunder_i_pairing *g, uint32_t i, uint32_t j, vector *buffer)
+static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector *buffer)
 {
     const sunder_shape *p = g->shape[0], *q = g->shape[1];
     const uint32_t first = i ? p->piece_end[i - 1] : 0, from = j ? q->piece_end[j - 1] : 0;
@@ -241,7 +241,7 @@ static vector common_point(sunder_i_pairing *g, uint32_t i, uint32_t j, vector *
     return outside(g, sum);
 }
 
-static bool common(sunder_i_pairing *g, double on[2])
+static bool common(sunder_i_operands *g, double on[2])
 {
     const double *all = g->box[1], e = g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
@@ -269,9 +269,9 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
         on_p[0] = on_p[1] = on_q[0] = on_q[1] = 0;
         return SUNDER_OK;
     }
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     double d = 0, ends[4] = {0, 0, 0, 0};
     if (common(&g, ends)) {
@@ -298,7 +298,7 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
             on_q[k] = ends[k + 2];
         }
     }
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }
 

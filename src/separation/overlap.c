@@ -10,16 +10,16 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
         *overlap = false;
         return SUNDER_OK;
     }
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = tp, .tq = tq};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.tp = tp, .tq = tq};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     const bool answer = sunder_i_operands_overlap(&g);
     if (g.placed.lattice.arena.failed)
         status = sunder_i_no_memory(err);
     else
         *overlap = answer;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }
 

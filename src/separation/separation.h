@@ -30,6 +30,6 @@ typedef struct sunder_i_pair {
 
 /* Does it stand worse than it did? That is nearer; or in each other, where it was not; or deeper in each other, with a
  * longer least translation that takes the interiors apart. Exact. */
-sunder_status sunder_i_is_worse(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err);
+sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err);
 
 #endif

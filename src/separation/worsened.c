@@ -1,8 +1,8 @@
 /* Does a pair stand worse than it stood? Exactly.
  *
  * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the
- * least translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where they
- * differ by more than they can be off; else the rationals are compared. */
+ * least translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where
+ * they differ by more than they can be off; else the rationals are compared. */
 #include "separation/separation.h"
 
 #include "predicate/vector.h"
@@ -26,8 +26,7 @@ static bool is_less(sunder_i_arena *a, const square *p, const square *q)
     return sunder_i_big_cmp(u, v) < 0;
 }
 
-/* ---- Disjoint: distances -------------------------------------------------------------------------------------------
- */
+/* ---- Disjoint: distances ---- */
 
 /* Of point c from the edge ab, in doubles. */
 static double end_distance(const double *c, const double *a, const double *b)
@@ -39,7 +38,7 @@ static double end_distance(const double *c, const double *a, const double *b)
 }
 
 /* The squared distance of vertex v of one operand from an edge of the other, exactly. */
-static square end_square(sunder_i_pairing *g, int side, uint32_t v, uint32_t edge)
+static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t edge)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_arena *m = &l->arena;
@@ -62,9 +61,9 @@ static square end_square(sunder_i_pairing *g, int side, uint32_t v, uint32_t edg
 }
 
 /* All ends against all edges: the least in doubles first, then exactly the least of those that it may be. A coordinate
- * in doubles is off by g->error at most; with u = 2^-53 and coordinates of no more than M, the foot of the perpendicular
- * is off by less than 16 u M besides, and a distance by no more than 8 g->error + 32 u M. */
-static square least_square(sunder_i_pairing *g)
+ * in doubles is off by g->error at most; with u = 2^-53 and coordinates of no more than M, the foot of the
+ * perpendicular is off by less than 16 u M besides, and a distance by no more than 8 g->error + 32 u M. */
+static square least_square(sunder_i_operands *g)
 {
     double least = INFINITY;
     square best = {{NULL, 0}, {NULL, 0}, 0};
@@ -109,30 +108,30 @@ static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_
     *worse = now < before;
     /* Each is right to some ulps of the coordinates: on a wide lattice the cross product that it comes from cancels. */
     if (fabs(now - before) > 0x1p-40 * (now + before + size_of(was) + size_of(is))) return SUNDER_OK;
-    sunder_i_pairing g, h;
-    status = sunder_i_pairing_init(&g, was->p, was->q, &(sunder_i_pairing_options){.tp = was->tp, .tq = was->tq}, err);
+    sunder_i_operands g, h;
+    status =
+        sunder_i_operands_init(&g, was->p, was->q, &(sunder_i_operands_options){.tp = was->tp, .tq = was->tq}, err);
     if (status) return status;
-    status = sunder_i_pairing_init(&h, is->p, is->q, &(sunder_i_pairing_options){.tp = is->tp, .tq = is->tq}, err);
+    status = sunder_i_operands_init(&h, is->p, is->q, &(sunder_i_operands_options){.tp = is->tp, .tq = is->tq}, err);
     if (!status) {
         const square a = least_square(&g), b = least_square(&h);
         *worse = is_less(&g.placed.lattice.arena, &b, &a);
         if (g.placed.lattice.arena.failed || h.placed.lattice.arena.failed) status = sunder_i_no_memory(err);
-        sunder_i_pairing_free(&h);
+        sunder_i_operands_free(&h);
     }
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }
 
-/* ---- In each other: least translations -----------------------------------------------------------------------------
- */
+/* ---- In each other: least translations ---- */
 
 static sunder_status compare_texts(const char *was, const char *is, bool *worse, sunder_error *err)
 {
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
     square a = {{NULL, 0}, {NULL, 0}, 0}, b = a;
-    const bool read = sunder_i_big_parse_ratio(&arena, was, &a.num, &a.den) &&
-                      sunder_i_big_parse_ratio(&arena, is, &b.num, &b.den);
+    const bool read =
+        sunder_i_big_parse_ratio(&arena, was, &a.num, &a.den) && sunder_i_big_parse_ratio(&arena, is, &b.num, &b.den);
     *worse = read && is_less(&arena, &a, &b);
     const bool failed = arena.failed || !read;
     sunder_i_arena_free(&arena);
@@ -160,10 +159,9 @@ static sunder_status compare_depths(const sunder_i_pair *was, const sunder_i_pai
     return status;
 }
 
-/* ---- The question --------------------------------------------------------------------------------------------------
- */
+/* ---- The question ---- */
 
-sunder_status sunder_i_is_worse(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
+sunder_status sunder_i_pair_worsened(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
 {
     bool before, now;
     *worse = false;

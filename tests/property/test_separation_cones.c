@@ -2,7 +2,7 @@
  * fan of triangles say, against every vertex in rationals, and every side. */
 #include "generate.h"
 #include "separation/obstacle/cones.h"
-#include "separation/obstacle/line.h"
+#include "separation/obstacle/carrier.h"
 
 #include <gmp.h>
 #include <math.h>
@@ -49,14 +49,14 @@ static void random_outline(polyset *s, rng *r, int vertices)
     if (rng_once_in(r, 3)) polyset_move(s, 451234.567, 5411234.321);
 }
 
-static void open_pairing(sunder_i_pairing *g, const sunder_shape *p, const sunder_shape *q, bool wide)
+static void open_operands(sunder_i_operands *g, const sunder_shape *p, const sunder_shape *q, bool wide)
 {
-    const sunder_i_pairing_options options = {.force_wide = wide};
-    assert_int_equal(sunder_i_pairing_init(g, p, q, &options, NULL), SUNDER_OK);
+    const sunder_i_operands_options options = {.force_wide = wide};
+    assert_int_equal(sunder_i_operands_init(g, p, q, &options, NULL), SUNDER_OK);
 }
 
 /* Of each edge of one operand, every vertex of the other whose edges enclose it is met; few others are. */
-static void check_cones(sunder_i_pairing *g, size_t *asked, size_t *all)
+static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
 {
     for (int side = 0; side < 2; side++) {
         const sunder_shape *own = g->shape[side], *other = g->shape[!side];
@@ -99,10 +99,10 @@ static void check_meeting(void **state)
         random_outline(&q, &r, (int)rng_int(&r, 20, 400));
         sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
         if (a && b) { /* few of these are no outlines once they are scaled */
-            sunder_i_pairing g;
-            open_pairing(&g, a, b, rng_once_in(&r, 3));
+            sunder_i_operands g;
+            open_operands(&g, a, b, rng_once_in(&r, 3));
             check_cones(&g, &asked, &all);
-            sunder_i_pairing_free(&g);
+            sunder_i_operands_free(&g);
         }
         sunder_shape_free(a);
         sunder_shape_free(b);
@@ -114,13 +114,13 @@ static void check_meeting(void **state)
 }
 
 /* Is the start of the line in the interior of some subsum? Every side is asked exactly. */
-static bool is_held(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *zero)
+static bool is_held(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *zero)
 {
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = &g->subsum[k];
         if (!s->sides) assert_true(sunder_i_subsum_make(g, s));
         bool held = true;
-        for (uint32_t m = 0; m < s->sides && held; m++) held = sunder_i_line_side(g, line, zero, s, m) > 0;
+        for (uint32_t m = 0; m < s->sides && held; m++) held = sunder_i_carrier_side(g, line, zero, s, m) > 0;
         if (held) return true;
     }
     return false;
@@ -141,10 +141,10 @@ static void check_holding(void **state)
         random_convex(&p, &r, (int)rng_int(&r, 20, 90), 1e5);
         random_convex(&q, &r, (int)rng_int(&r, 3, 30), rng_once_in(&r, 2) ? 1e5 : 4);
         sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
-        sunder_i_pairing g;
+        sunder_i_operands g;
         assert_true(a && b);
-        open_pairing(&g, a, b, rng_once_in(&r, 3));
-        assert_true(sunder_i_pairing_reach(&g, 4 * g.magnitude));
+        open_operands(&g, a, b, rng_once_in(&r, 3));
+        assert_true(sunder_i_operands_reach(&g, 4 * g.magnitude));
         sunder_i_subsum *s = &g.subsum[0];
         assert_true(sunder_i_subsum_make(&g, s));
         const sunder_i_fraction zero = sunder_i_fraction_int(&g.placed.lattice, 0);
@@ -153,19 +153,19 @@ static void check_holding(void **state)
             const uint32_t j = (uint32_t)rng_int(&r, 0, (int)s->sides - 1);
             /* A corner, the sum of a corner and an edge's end, or one moved by a unit. */
             sunder_i_point at = s->corner[i];
-            if (rng_once_in(&r, 2)) at = sunder_i_pairing_add(&g, at, s->side[j]);
+            if (rng_once_in(&r, 2)) at = sunder_i_operands_add(&g, at, s->side[j]);
             if (rng_once_in(&r, 2))
-                at = sunder_i_pairing_add(&g, at, (sunder_i_point){rng_int(&r, -1, 1), rng_int(&r, -1, 1)});
-            const sunder_i_line line = sunder_i_line_make(&g, at, s->side[j]);
+                at = sunder_i_operands_add(&g, at, (sunder_i_point){rng_int(&r, -1, 1), rng_int(&r, -1, 1)});
+            const sunder_i_carrier line = sunder_i_carrier_make(&g, at, s->side[j]);
             const bool inside = is_held(&g, &line, &zero);
             double x, y;
-            sunder_i_line_at(&line, &zero, &x, &y);
-            const long cover = sunder_i_line_cover(&g, &line, &zero, x, y, NULL);
+            sunder_i_carrier_at(&line, &zero, &x, &y);
+            const long cover = sunder_i_carrier_cover(&g, &line, &zero, x, y, NULL);
             assert_int_equal(cover >= 0, inside);
             in += inside;
             out += !inside;
         }
-        sunder_i_pairing_free(&g);
+        sunder_i_operands_free(&g);
         sunder_shape_free(a);
         sunder_shape_free(b);
         polyset_free(&p);

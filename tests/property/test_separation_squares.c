@@ -18,34 +18,35 @@
 
 typedef struct result {
     bool done;
-    sunder_i_nearest nearest;
+    sunder_i_free_point nearest;
     sunder_contact contact;
 } result;
 
-static sunder_i_pairing pair_up(const sunder_shape *p, const sunder_shape *q, const double *move, bool wide)
+static sunder_i_operands pair_up(const sunder_shape *p, const sunder_shape *q, const double *move, bool wide)
 {
-    sunder_i_pairing g;
-    const sunder_i_pairing_options how = {.tq = move, .reflect_q = true, .force_wide = wide};
-    assert_int_equal(sunder_i_pairing_init(&g, p, q, &how, NULL), SUNDER_OK);
+    sunder_i_operands g;
+    const sunder_i_operands_options how = {.tq = move, .reflect_q = true, .force_wide = wide};
+    assert_int_equal(sunder_i_operands_init(&g, p, q, &how, NULL), SUNDER_OK);
     return g;
 }
 
-static result look(sunder_i_pairing *g, bool squares)
+static result look(sunder_i_operands *g, bool squares)
 {
     result r = {.done = true};
     assert_int_equal(squares ? sunder_i_nearest_by_squares(g, INFINITY, &r.done, &r.nearest, NULL)
-                             : sunder_i_nearest_free(g, INFINITY, &r.nearest, NULL),
+                             : sunder_i_nearest_free_point(g, INFINITY, &r.nearest, NULL),
                      SUNDER_OK);
     if (r.done && !r.nearest.origin) {
         assert_true(r.nearest.found);
-        assert_true(sunder_i_nearest_verify(g, &r.nearest));
-        r.contact = sunder_i_nearest_contact(g, &r.nearest);
+        assert_true(sunder_i_free_point_verify(g, &r.nearest));
+        r.contact = sunder_i_free_point_contact(g, &r.nearest);
     }
     return r;
 }
 
 /* The integers of the point found, on an arena. */
-static void read_point(sunder_i_arena *arena, sunder_i_pairing *g, const sunder_i_nearest *found, sunder_i_big xyw[3])
+static void read_point(sunder_i_arena *arena, sunder_i_operands *g, const sunder_i_free_point *found,
+                       sunder_i_big xyw[3])
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_hpoint point = sunder_i_hpoint_at(l, found->line.a, found->line.b, &found->t);
@@ -53,7 +54,8 @@ static void read_point(sunder_i_arena *arena, sunder_i_pairing *g, const sunder_
 }
 
 /* Each lattice has numbers of its own; their units are the same. */
-static bool same_point(sunder_i_pairing *g, const sunder_i_nearest *a, sunder_i_pairing *h, const sunder_i_nearest *b)
+static bool same_point(sunder_i_operands *g, const sunder_i_free_point *a, sunder_i_operands *h,
+                       const sunder_i_free_point *b)
 {
     sunder_i_big x[3], y[3];
     sunder_i_lattice *l = &g->placed.lattice;
@@ -72,14 +74,14 @@ static bool same_point(sunder_i_pairing *g, const sunder_i_nearest *a, sunder_i_
 static bool compare(const polyset *p, const polyset *q, const double *move, bool wide, bool *same)
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
-    sunder_i_pairing g = pair_up(a, b, move, wide), h = pair_up(a, b, move, wide);
-    assert_true(sunder_i_pairing_cut(&g));
+    sunder_i_operands g = pair_up(a, b, move, wide), h = pair_up(a, b, move, wide);
+    assert_true(sunder_i_operands_cut(&g));
     const result r = look(&g, true), s = look(&h, false);
     *same = !r.done || r.nearest.origin == s.nearest.origin;
     if (r.done && *same && !r.nearest.origin)
         *same = same_point(&g, &r.nearest, &h, &s.nearest) && r.contact == s.contact;
-    sunder_i_pairing_free(&g);
-    sunder_i_pairing_free(&h);
+    sunder_i_operands_free(&g);
+    sunder_i_operands_free(&h);
     sunder_shape_free(a);
     sunder_shape_free(b);
     return r.done;
@@ -257,13 +259,13 @@ static void test_gap_large(void **state)
 static bool search_once(void *context)
 {
     const sunder_shape *const *shape = context;
-    const sunder_i_pairing_options how = {.reflect_q = true};
-    sunder_i_pairing g;
-    sunder_i_nearest nearest;
+    const sunder_i_operands_options how = {.reflect_q = true};
+    sunder_i_operands g;
+    sunder_i_free_point nearest;
     bool done;
-    if (sunder_i_pairing_init(&g, shape[0], shape[1], &how, NULL) != SUNDER_OK) return false;
+    if (sunder_i_operands_init(&g, shape[0], shape[1], &how, NULL) != SUNDER_OK) return false;
     const bool ok = sunder_i_nearest_by_squares(&g, INFINITY, &done, &nearest, NULL) == SUNDER_OK;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return ok;
 }
 

@@ -45,7 +45,7 @@ sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relati
     const sunder_i_stand *a = &w->scene.stand[r->a], *b = &w->scene.stand[r->b];
     const sunder_i_pair before = {feature[r->a].shape, feature[r->b].shape, NULL, NULL},
                         now = {a->shape, b->shape, a->t, b->t};
-    return sunder_i_is_worse(&before, &now, worse, err);
+    return sunder_i_pair_worsened(&before, &now, worse, err);
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */

@@ -8,7 +8,7 @@
 
 static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
-sunder_i_vector_exact sunder_i_vector_of(sunder_i_pairing *g, const sunder_i_hpoint *p)
+sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *g, const sunder_i_hpoint *p)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_vector_exact v;
@@ -34,7 +34,7 @@ sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder
     return v;
 }
 
-static void big_parts(sunder_i_pairing *g, const sunder_i_vector_exact *v, sunder_i_big *x, sunder_i_big *y,
+static void big_parts(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_i_big *x, sunder_i_big *y,
                       sunder_i_big *w)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -133,7 +133,7 @@ static sunder_i_big big_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big y)
     return sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
 }
 
-void sunder_i_answer_numbers(sunder_i_pairing *g, const sunder_i_vector_exact *v, sunder_separation *out)
+void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const long e = l->exponent;
@@ -242,7 +242,7 @@ static char *quick_text(bool negative, sunder_i_u128 num, sunder_i_u128 den, lon
     return copy;
 }
 
-static char *coordinate_text(sunder_i_pairing *g, const sunder_i_vector_exact *v, int k)
+static char *coordinate_text(sunder_i_operands *g, const sunder_i_vector_exact *v, int k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (v->small) {
@@ -256,7 +256,7 @@ static char *coordinate_text(sunder_i_pairing *g, const sunder_i_vector_exact *v
     return sunder_i_big_ratio_text(&l->arena, k ? y : x, w, l->exponent);
 }
 
-static char *norm_text(sunder_i_pairing *g, const sunder_i_vector_exact *v)
+static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (v->small) {
@@ -271,7 +271,7 @@ static char *norm_text(sunder_i_pairing *g, const sunder_i_vector_exact *v)
                                    2 * l->exponent);
 }
 
-sunder_status sunder_i_answer_texts(sunder_i_pairing *g, const sunder_i_vector_exact *v, sunder_separation *out,
+sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out,
                                     sunder_error *err)
 {
     out->dx_text = coordinate_text(g, v, 0);
@@ -297,7 +297,7 @@ static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
     return m;
 }
 
-void sunder_i_vector_doubles(sunder_i_pairing *g, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
+void sunder_i_vector_doubles(sunder_i_operands *g, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
                              sunder_i_big *w)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -309,7 +309,7 @@ void sunder_i_vector_doubles(sunder_i_pairing *g, double dx, double dy, sunder_i
     *w = sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits);
 }
 
-bool sunder_i_answer_exact(sunder_i_pairing *g, const sunder_i_vector_exact *v, double dx, double dy)
+bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_vector_exact *v, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (!isfinite(dx) || !isfinite(dy)) return false;
@@ -357,7 +357,7 @@ static bool native_units(double v, long exponent, int64_t *m, long *f)
     return *f > -64 && *f < 64;
 }
 
-static dyadic dyadic_of(sunder_i_pairing *g, double dx, double dy)
+static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     dyadic d;
@@ -389,7 +389,7 @@ static dyadic dyadic_of(sunder_i_pairing *g, double dx, double dy)
 }
 
 /* Side of the point to side k of the subsum. Exact. */
-static int dyadic_side(sunder_i_pairing *g, const dyadic *d, const sunder_i_subsum *s, uint32_t k)
+static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_subsum *s, uint32_t k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     l->counts.orientation_tests++;
@@ -413,7 +413,7 @@ static int dyadic_side(sunder_i_pairing *g, const dyadic *d, const sunder_i_subs
     return sign;
 }
 
-bool sunder_i_doubles_free(sunder_i_pairing *g, double dx, double dy)
+bool sunder_i_doubles_free(sunder_i_operands *g, double dx, double dy)
 {
     if (!isfinite(dx) || !isfinite(dy)) return false;
     const dyadic d = dyadic_of(g, dx, dy);

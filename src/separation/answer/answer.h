@@ -6,10 +6,10 @@
 #include "separation/operands/operands.h"
 
 typedef struct sunder_i_least_options {
-    const double *tp, *tq; /* exact translations, or NULL */
-    double gap;            /* >= 0, finite */
-    double upper;          /* a length past which the answer no longer matters; INFINITY for none */
-    bool texts;            /* make the three texts */
+    const double *tp, *tq;          /* exact translations, or NULL */
+    double gap;                     /* >= 0, finite */
+    double upper;                   /* a length past which the answer no longer matters; INFINITY for none */
+    bool texts;                     /* make the three texts */
     bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 
@@ -25,25 +25,25 @@ typedef struct sunder_i_vector_exact {
     sunder_i_big bx, by, bw;
 } sunder_i_vector_exact;
 
-sunder_i_vector_exact sunder_i_vector_of(sunder_i_pairing *pairing, const sunder_i_hpoint *point);
+sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
 sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder_i_big w);
 
 /* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
-void sunder_i_answer_numbers(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, sunder_separation *out);
+void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out);
 
 /* The three texts; on failure none is left. */
-sunder_status sunder_i_answer_texts(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, sunder_separation *out,
+sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out,
                                     sunder_error *err);
 
 /* (dx, dy) in lattice units exactly: x / w, y / w. */
-void sunder_i_vector_doubles(sunder_i_pairing *pairing, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
+void sunder_i_vector_doubles(sunder_i_operands *operands, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
                              sunder_i_big *w);
 
 /* Are out->dx and out->dy exactly the vector? */
-bool sunder_i_answer_exact(sunder_i_pairing *pairing, const sunder_i_vector_exact *v, double dx, double dy);
+bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_vector_exact *v, double dx, double dy);
 
 /* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far.
  */
-bool sunder_i_doubles_free(sunder_i_pairing *pairing, double dx, double dy);
+bool sunder_i_doubles_free(sunder_i_operands *operands, double dx, double dy);
 
 #endif

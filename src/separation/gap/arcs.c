@@ -32,7 +32,7 @@ static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
     const double at[2] = {sunder_i_approx(l, a.x), sunder_i_approx(l, a.y)};
     const double to[2] = {sunder_i_approx(l, b.x), sunder_i_approx(l, b.y)};
     if (arcs_idle(s, at, to)) return;
-    const sunder_i_point v = sunder_i_pairing_diff(s->g, b, a);
+    const sunder_i_point v = sunder_i_operands_diff(s->g, b, a);
     const double vx = sunder_i_approx(l, v.x), vy = sunder_i_approx(l, v.y), length = sunder_i_gap_length(vx, vy);
     if (!(length > 0) || length > 2 * s->gap + s->error) return;
     const double product = (2 * s->gap - length) * (2 * s->gap + length) / 4, half = sqrt(fmax(product, 0));
@@ -64,8 +64,7 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t i)
     /* About the origin itself all points are as near: the leftmost will do. */
     p.x = length > 0 ? x - s->gap * (x / length) : -s->gap;
     p.y = length > 0 ? y - s->gap * (y / length) : 0;
-    if (sunder_i_gap_cover(s, p.x, p.y, p.error) < 0)
-        sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - p.error, &p);
+    if (sunder_i_gap_cover(s, p.x, p.y, p.error) < 0) sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - p.error, &p);
     for (size_t k = 0; k < s->arcs_n && !s->failed; k++) {
         s->failed = !sunder_i_step();
         cross_arcs(s, s->arcs[k], i);

@@ -48,7 +48,7 @@ static bool keep_pair(gathering *c, uint32_t i, uint32_t j)
 
 static bool keep_segments(gathering *c, const sunder_i_square *s)
 {
-    sunder_i_lattice *l = &c->p->pairing->placed.lattice;
+    sunder_i_lattice *l = &c->p->operands->placed.lattice;
     const double by = c->p->gap_units * (1 + 0x1p-20);
     const double box[4] = {s->box[0] - by, s->box[1] - by, s->box[2] + by, s->box[3] + by};
     const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
@@ -66,24 +66,24 @@ static bool keep_segments(gathering *c, const sunder_i_square *s)
 static bool middle_is_free(const gathering *c, const sunder_i_square *s)
 {
     const double x = s->box[0] / 2 + s->box[2] / 2, y = s->box[1] / 2 + s->box[3] / 2;
-    const sunder_i_pairing *g = c->p->pairing;
+    const sunder_i_operands *g = c->p->operands;
     const sunder_i_bodies *b = c->q->bodies;
-    const sunder_i_aim aim = sunder_i_bodies_aim(g, (double[4]){x, y, x, y});
+    const sunder_i_query query = sunder_i_bodies_query(g, (double[4]){x, y, x, y});
     const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (1 + 0x1p-20f) + 2 * SUNDER_I_BODIES_ERROR;
     for (size_t k = 0; k < c->q->pairs; k++) {
         const uint32_t i = c->q->pair[k][0], j = c->q->pair[k][1];
-        if (!(sunder_i_bodies_depth(b, i, j, &aim).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
+        if (!(sunder_i_bodies_depth(b, i, j, &query).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
     }
     return true;
 }
 
 static void lower_limit(gathering *c, double x, double y)
 {
-    const double d = sqrt(x * x + y * y) * (1 + 0x1p-40) + 64 * c->p->pairing->error;
+    const double d = sqrt(x * x + y * y) * (1 + 0x1p-40) + 64 * c->p->operands->error;
     if (d < c->p->limit) c->p->limit = d;
 }
 
-static bool settle(gathering *c, const sunder_i_square *s, sunder_i_finding what)
+static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state what)
 {
     sunder_i_squares *q = c->q;
     sunder_i_gap_square *at = c->to->place + s->place;
@@ -112,7 +112,7 @@ static bool look_at_all(gathering *c, bool *done)
     while (q->n && q->heap[0].distance <= c->p->limit * (1 + 0x1p-20) + 64 * q->g->error) {
         const sunder_i_square s = sunder_i_squares_first(q);
         if (sunder_i_squares_too_many(q, &s)) return true;
-        const sunder_i_finding what = sunder_i_squares_look(q, &s);
+        const sunder_i_square_state what = sunder_i_squares_look(q, &s);
         if (what == SUNDER_I_SQUARE_NO_MEMORY || !settle(c, &s, what)) return false;
     }
     *done = true;
@@ -122,7 +122,7 @@ static bool look_at_all(gathering *c, bool *done)
 /* ---- What they keep becomes what is searched ---- */
 
 /* Boxes of -Q, and of P, are pieces too. */
-static bool add_rings(sunder_i_pairing *g, const sunder_i_bodies *b, int side)
+static bool add_rings(sunder_i_operands *g, const sunder_i_bodies *b, int side)
 {
     const uint32_t pieces = g->shape[side]->pieces;
     sunder_i_arena *arena = &g->placed.lattice.arena;
@@ -142,7 +142,7 @@ static bool add_rings(sunder_i_pairing *g, const sunder_i_bodies *b, int side)
     return true;
 }
 
-static const double *box_of(const sunder_i_pairing *g, const sunder_i_bodies *b, int side, uint32_t body)
+static const double *box_of(const sunder_i_operands *g, const sunder_i_bodies *b, int side, uint32_t body)
 {
     const uint32_t pieces = g->shape[side]->pieces;
     return body < pieces ? g->piece_box[side] + 4 * (size_t)body : b->box + 4 * (size_t)(body - pieces);
@@ -150,7 +150,7 @@ static const double *box_of(const sunder_i_pairing *g, const sunder_i_bodies *b,
 
 static bool number_pairs(gathering *c)
 {
-    sunder_i_pairing *g = c->p->pairing;
+    sunder_i_operands *g = c->p->operands;
     sunder_i_arena *arena = &g->placed.lattice.arena;
     uint64_t *key = sunder_i_arena_alloc(arena, c->pairs + 1, sizeof *key);
     c->to->list = sunder_i_arena_alloc(arena, c->pairs + 1, sizeof *c->to->list);
@@ -193,7 +193,7 @@ static int by_place(const void *a, const void *b)
 
 static bool take_segments(gathering *c)
 {
-    sunder_i_candidate *out = sunder_i_arena_alloc(&c->p->pairing->placed.lattice.arena, c->segments + 1, sizeof *out);
+    sunder_i_candidate *out = sunder_i_arena_alloc(&c->p->operands->placed.lattice.arena, c->segments + 1, sizeof *out);
     if (!out) return false;
     if (c->segments) qsort(c->segment, c->segments, sizeof *c->segment, by_place);
     size_t n = 0;
@@ -206,7 +206,7 @@ static bool take_segments(gathering *c)
 
 static bool take_all(gathering *c)
 {
-    sunder_i_pairing *g = c->p->pairing;
+    sunder_i_operands *g = c->p->operands;
     return add_rings(g, &c->q->bodies[0], 0) && add_rings(g, &c->q->bodies[1], 1) && number_pairs(c) &&
            take_segments(c);
 }
@@ -214,9 +214,9 @@ static bool take_all(gathering *c)
 bool sunder_i_gap_take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places, bool *done)
 {
     const double limit = p->limit, reach = p->limit;
-    *places = (sunder_i_gap_places){.reach = reach + 64 * p->pairing->error};
+    *places = (sunder_i_gap_places){.reach = reach + 64 * p->operands->error};
     *done = false;
-    gathering c = {.p = p, .q = sunder_i_squares_new(p->pairing, reach, p->gap_units), .to = places};
+    gathering c = {.p = p, .q = sunder_i_squares_new(p->operands, reach, p->gap_units), .to = places};
     const bool ok = c.q && look_at_all(&c, done) && (!*done || take_all(&c));
     sunder_i_squares_free(c.q);
     sunder_i_free(c.pair);
@@ -225,7 +225,7 @@ bool sunder_i_gap_take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *pla
         p->places = places;
     else
         p->limit = limit;
-    return ok && !p->pairing->placed.lattice.arena.failed;
+    return ok && !p->operands->placed.lattice.arena.failed;
 }
 
 void sunder_i_gap_places_free(sunder_i_gap_places *places)
@@ -242,7 +242,7 @@ const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *q, double x,
         const double mx = box[0] / 2 + box[2] / 2, my = box[1] / 2 + box[3] / 2;
         const int k = (x > mx) + 2 * (y > my);
         double part[4];
-        sunder_i_inner_quarter(box, k, part);
+        sunder_i_quadtree_quarter(box, k, part);
         memcpy(box, part, sizeof box);
         at = q->place + at->child + k;
     }

@@ -23,13 +23,13 @@ double sunder_i_gap_big(sunder_i_big v, long exponent)
 double sunder_i_gap_length(double x, double y) { return sqrt(x * x + y * y); }
 
 /* Cut at 2^-60 of the magnitude. */
-void sunder_i_gap_place(sunder_i_gap_state *s, const sunder_i_spot *spot, double *x, double *y)
+void sunder_i_gap_doubles(sunder_i_gap_state *s, const sunder_i_surd_point *exact, double *x, double *y)
 {
     const sunder_i_lattice *l = &s->g->placed.lattice;
     const long size = ilogb(s->g->magnitude) + l->approx_shift;
     const unsigned long bits = size < 60 ? (unsigned long)(60 - size) : 0;
     sunder_i_big xy[2];
-    sunder_i_spot_scaled(s->g, spot, bits, xy);
+    sunder_i_surd_point_scaled(s->g, exact, bits, xy);
     *x = sunder_i_gap_big(xy[0], -(long)bits - l->approx_shift);
     *y = sunder_i_gap_big(xy[1], -(long)bits - l->approx_shift);
 }

@@ -10,17 +10,17 @@
 
 /* A stretch of boundary: the line a + t d moved by the gap to its right (outward), or the circle of radius g about a.
  */
-typedef struct sunder_i_curve {
+typedef struct sunder_i_gap_curve {
     bool arc;
     sunder_i_point a, d;
-} sunder_i_curve;
+} sunder_i_gap_curve;
 
 /* A point of the plane of translations, exactly: (x / w, y / w) in lattice units, w > 0. At most two roots. */
-typedef struct sunder_i_spot {
+typedef struct sunder_i_surd_point {
     sunder_i_roots roots;
     sunder_i_surd x, y;
     sunder_i_big w;
-} sunder_i_spot;
+} sunder_i_surd_point;
 
 /* Which of the subsums listed matter where: a quartering of the square of translations up to `reach`. */
 typedef struct sunder_i_gap_square {
@@ -31,13 +31,13 @@ typedef struct sunder_i_gap_square {
 typedef struct sunder_i_gap_places {
     double reach;
     sunder_i_gap_square *place; /* the first is all */
-    uint32_t *list;            /* numbers of subsums */
+    uint32_t *list;             /* numbers of subsums */
 } sunder_i_gap_places;
 
 typedef struct sunder_i_gap_problem {
-    sunder_i_pairing *pairing;
-    sunder_i_big gap; /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
-    sunder_i_big over; /* exact_point.c: units are divided by this, so that the points at hand are integers */
+    sunder_i_operands *operands;
+    sunder_i_big gap;  /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
+    sunder_i_big over; /* surd_point.c: units are divided by this, so that the points at hand are integers */
     unsigned long gap_bits;
     double gap_units, limit;
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */
@@ -47,7 +47,7 @@ typedef struct sunder_i_gap_problem {
     const sunder_i_gap_places *places; /* NULL: all subsums matter everywhere */
 } sunder_i_gap_problem;
 
-/* Many pairs of pieces: the pairing's subsums become those that matter within the limit, which comes down, the segments
+/* Many pairs of pieces: the operands' subsums become those that matter within the limit, which comes down, the segments
  * those near boundary, and the places say which subsums are near which; not *done: this is not the way to search these.
  * False if memory is out. The places are to be freed in any case. */
 bool sunder_i_gap_take_squares(sunder_i_gap_problem *problem, sunder_i_gap_places *places, bool *done);
@@ -56,60 +56,62 @@ void sunder_i_gap_places_free(sunder_i_gap_places *places);
 const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *places, double x, double y, size_t *n);
 
 typedef struct sunder_i_gap_answer {
-    bool found;       /* a free point within the limit */
-    sunder_i_spot at; /* rational; longer than the least by at most 4e-10 of it */
-    double bound;     /* the length of the least in units, rounded down */
+    bool found;             /* a free point within the limit */
+    sunder_i_surd_point at; /* rational; longer than the least by at most 4e-10 of it */
+    double bound;           /* the length of the least in units, rounded down */
     sunder_contact contact;
 } sunder_i_gap_answer;
 
 /* The search: what doubles and long doubles conclude clears an error bound, and all else is decided exactly. */
 sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out, sunder_error *err);
 
-/* ---- Exact points (exact_point.c) ---- */
+/* ---- Exact points (surd_point.c) ---- */
 
 /* The point of the curve's line or circle that is nearest to the origin; of a circle about the origin the leftmost. */
-void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_spot *out);
+void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out);
 /* A common point of two curves, the first of which is a line if one is: on a line and a circle the one farther along
  * the line (sign 1) or the other one (-1), on two circles left (1) or right of the way from c's center to d's. False if
  * there is none, or all. */
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d,
-                           int sign, sunder_i_spot *out);
+bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
+                           const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out);
 /* The rational point of a line of rational length that stands along / 2^bits lattice units from the foot of the
  * perpendicular from the origin, in the line's direction; false if the length is irrational. */
-bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *line, sunder_i_big along,
-                        unsigned long bits, sunder_i_spot *out);
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *line, sunder_i_big along,
+                        unsigned long bits, sunder_i_surd_point *out);
 /* The position of a point on that line, from the foot, within 4 of it times 2^bits. */
-bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_curve *line, const sunder_i_spot *at,
-                           unsigned long bits, sunder_i_big *along);
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *line,
+                           const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along);
 /* A vector of doubles of the caller's units. */
-sunder_i_spot sunder_i_spot_doubles(sunder_i_pairing *pairing, double dx, double dy);
-sunder_i_spot sunder_i_spot_rational(sunder_i_pairing *pairing, sunder_i_big x, sunder_i_big y, sunder_i_big w);
-bool sunder_i_spot_is_rational(const sunder_i_spot *spot);
+sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *operands, double dx, double dy);
+sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_big x, sunder_i_big y,
+                                                 sunder_i_big w);
+bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact);
 
-typedef enum sunder_i_reach { SUNDER_I_REACH_CORNER, SUNDER_I_REACH_SIDE } sunder_i_reach;
+typedef enum sunder_i_gap_nearest { SUNDER_I_GAP_NEAREST_CORNER, SUNDER_I_GAP_NEAREST_SIDE } sunder_i_gap_nearest;
 
 /* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
  * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
  * left of the side. *reach: what of the side is nearest. Exact. */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
-                          const sunder_i_spot *at, bool *inward, sunder_i_reach *reach);
+                          const sunder_i_surd_point *at, bool *inward, sunder_i_gap_nearest *reach);
 /* The same for all of the (closed) subsum. */
-int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_spot *at);
+int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at);
 /* Order of the distances of two points from the origin, then lexicographic. Exact. */
-int sunder_i_spot_cmp(sunder_i_pairing *pairing, const sunder_i_spot *a, const sunder_i_spot *b);
+int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *a, const sunder_i_surd_point *b);
 /* The point's coordinates times 2^bits (lattice units), within 3. */
-void sunder_i_spot_scaled(sunder_i_pairing *pairing, const sunder_i_spot *at, unsigned long bits, sunder_i_big xy[2]);
+void sunder_i_surd_point_scaled(sunder_i_operands *operands, const sunder_i_surd_point *at, unsigned long bits,
+                                sunder_i_big xy[2]);
 /* The same with 72 digits or more in the greater one, which must not be zero: returns the bits. `about`: the length in
  * units, a guess. */
-unsigned long sunder_i_spot_digits(sunder_i_pairing *pairing, const sunder_i_spot *at, double about,
-                                   sunder_i_big xy[2]);
+unsigned long sunder_i_surd_point_digits(sunder_i_operands *operands, const sunder_i_surd_point *at, double about,
+                                         sunder_i_big xy[2]);
 /* The distance from the origin in units, rounded down, of a point known to so many bits. */
-double sunder_i_spot_length_down(sunder_i_pairing *pairing, const sunder_i_big xy[2], unsigned long bits);
+double sunder_i_surd_point_length_down(sunder_i_operands *operands, const sunder_i_big xy[2], unsigned long bits);
 
 /* ---- The exact check (verify.c) ---- */
 
 /* P and Q + t, t rational, are the gap apart: asked again of every pair of pieces, without the subsums. Exact. */
-bool sunder_i_gap_verify(const sunder_i_gap_problem *problem, const sunder_i_spot *t);
+bool sunder_i_gap_verify(const sunder_i_gap_problem *problem, const sunder_i_surd_point *t);
 
 /* A least translation with gap > 0. */
 sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q,

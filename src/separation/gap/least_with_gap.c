@@ -8,7 +8,7 @@
 /* The corners that arcs may go round: sums of two convex vertices (the other kinds never stand out of the obstacle). */
 static bool find_centers(sunder_i_gap_problem *p)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     sunder_i_arena *arena = &g->placed.lattice.arena;
     uint64_t *key = sunder_i_arena_alloc(arena, 2 * p->segments + 1, sizeof *key);
     if (!key) return false;
@@ -34,14 +34,14 @@ static bool find_centers(sunder_i_gap_problem *p)
     if (!center) return false;
     for (size_t i = 0; i < n; i++) {
         if (i && key[i] == key[i - 1]) continue;
-        center[p->centers++] = sunder_i_pairing_add(g, g->at[0][key[i] >> 32], g->at[1][key[i] & UINT32_MAX]);
+        center[p->centers++] = sunder_i_operands_add(g, g->at[0][key[i] >> 32], g->at[1][key[i] & UINT32_MAX]);
     }
     p->center = center;
     return true;
 }
 
 /* The way out along each axis, and the gap. */
-static double way_out(const sunder_i_pairing *g, double gap)
+static double way_out(const sunder_i_operands *g, double gap)
 {
     double d = INFINITY;
     for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
@@ -51,10 +51,10 @@ static double way_out(const sunder_i_pairing *g, double gap)
 /* Does every subsum keep the gap from the origin? */
 static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     sunder_i_arena *a = &g->placed.lattice.arena;
     const sunder_i_big zero = {NULL, 0};
-    const sunder_i_spot origin = sunder_i_spot_rational(g, zero, zero, sunder_i_big_i64(a, 1));
+    const sunder_i_surd_point origin = sunder_i_surd_point_rational(g, zero, zero, sunder_i_big_i64(a, 1));
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = g->subsum + k;
         const double r = p->gap_units + 2 * g->error;
@@ -80,7 +80,7 @@ static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, s
 {
     sunder_i_candidates heap;
     if (!p->places) {
-        if (!sunder_i_candidates_find(p->pairing, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
+        if (!sunder_i_candidates_find(p->operands, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
         p->segment = heap.item;
         p->segments = heap.n;
     }
@@ -90,16 +90,16 @@ static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, s
 /* Do the doubles keep the gap as well? Exact. */
 static bool doubles_free(const sunder_i_gap_problem *p, double dx, double dy)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     if (!isfinite(dx) || !isfinite(dy)) return false;
-    const sunder_i_spot at = sunder_i_spot_doubles(g, dx, dy);
+    const sunder_i_surd_point at = sunder_i_surd_point_doubles(g, dx, dy);
     return !g->placed.lattice.arena.failed && sunder_i_gap_verify(p, &at);
 }
 
 static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts, sunder_separation *out,
                           sunder_error *err)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x.part[0], a->at.y.part[0], a->at.w);
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
@@ -118,13 +118,13 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
 #define SQUARES_FROM 4096
 #define SQUARES_WHOLE 64
 
-/* By squares, with pieces of few corners; where that leads nowhere the pairing is as it was. */
+/* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
 static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
 {
-    sunder_i_pairing *g = p->pairing;
-    const sunder_i_pairing whole = *g;
+    sunder_i_operands *g = p->operands;
+    const sunder_i_operands whole = *g;
     bool done;
-    if (!sunder_i_pairing_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
+    if (!sunder_i_operands_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
     for (int k = 0; k < 2 && !done; k++) {
         g->shape[k] = whole.shape[k];
         g->piece_box[k] = whole.piece_box[k];
@@ -135,21 +135,21 @@ static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
 
 static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options *o)
 {
-    const sunder_i_pairing *g = p->pairing;
+    const sunder_i_operands *g = p->operands;
     if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false; /* boxes are on a narrow one only */
     return o->force_squares || ((uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SQUARES_WHOLE &&
-                                sunder_i_pairing_parts(g) >= SQUARES_FROM);
+                                sunder_i_operands_parts(g) >= SQUARES_FROM);
 }
 
 static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_places *places,
                            sunder_separation *out, bool *beyond, sunder_error *err)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
     if (are_many(p, o) && !take_squares(p, places)) return sunder_i_no_memory(err);
-    if (!p->places && !sunder_i_pairing_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    if (!p->places && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
     bool memory = true;
     if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
     if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
@@ -165,21 +165,21 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
 
 /* The operands and the gap beside them. A gap that dwarfs them goes on the lattice too, whose units are then chosen to
  * suit. */
-static sunder_status set_up(sunder_i_pairing *g, sunder_i_gap_problem *problem, const sunder_shape *p,
+static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem, const sunder_shape *p,
                             const sunder_shape *q, const sunder_i_least_options *o, bool gap_on_lattice,
                             sunder_error *err)
 {
-    const sunder_i_pairing_options options = {.tp = o->tp,
-                                              .tq = o->tq,
-                                              .reflect_q = true,
-                                              .force_wide = o->force_wide,
-                                              .extra = &o->gap,
-                                              .extra_n = gap_on_lattice};
-    const sunder_status status = sunder_i_pairing_init(g, p, q, &options, err);
+    const sunder_i_operands_options options = {.tp = o->tp,
+                                               .tq = o->tq,
+                                               .reflect_q = true,
+                                               .force_wide = o->force_wide,
+                                               .extra = &o->gap,
+                                               .extra_n = gap_on_lattice};
+    const sunder_status status = sunder_i_operands_init(g, p, q, &options, err);
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_big zero, unit;
-    *problem = (sunder_i_gap_problem){.pairing = g, .over = sunder_i_big_i64(&l->arena, 1)};
+    *problem = (sunder_i_gap_problem){.operands = g, .over = sunder_i_big_i64(&l->arena, 1)};
     sunder_i_vector_doubles(g, o->gap, 0, &problem->gap, &zero, &unit);
     problem->gap_bits = sunder_i_big_bits(unit) - (l->arena.failed ? 0 : 1);
     problem->gap_units = sunder_i_big_ratio(&l->arena, problem->gap, unit, -l->approx_shift);
@@ -189,12 +189,12 @@ static sunder_status set_up(sunder_i_pairing *g, sunder_i_gap_problem *problem, 
 sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
                                       sunder_separation *out, bool *beyond, sunder_error *err)
 {
-    sunder_i_pairing g;
+    sunder_i_operands g;
     sunder_i_gap_problem problem;
     sunder_status status = set_up(&g, &problem, p, q, o, false, err);
     if (status) return status;
     if (!(problem.gap_units <= 0x1p400) && !g.placed.lattice.arena.failed) {
-        sunder_i_pairing_free(&g);
+        sunder_i_operands_free(&g);
         status = set_up(&g, &problem, p, q, o, true, err);
         if (status) return status;
     }
@@ -206,6 +206,6 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
     status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
     sunder_i_gap_places_free(&places);
     out->counts = g.placed.lattice.counts;
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }

@@ -5,20 +5,20 @@
 
 /* ---- The exact place ---- */
 
-const sunder_i_spot *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
+const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
 {
-    if (p->spot) return p->spot;
-    sunder_i_spot *spot = sunder_i_arena_alloc(&s->g->placed.lattice.arena, 1, sizeof *spot);
-    if (!spot) {
+    if (p->exact) return p->exact;
+    sunder_i_surd_point *exact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, 1, sizeof *exact);
+    if (!exact) {
         s->failed = true;
         return NULL;
     }
     if (!p->crossing)
-        sunder_i_gap_foot(s->p, &p->c, spot);
-    else if (!sunder_i_gap_crossing(s->p, &p->c, &p->d, p->sign, spot))
+        sunder_i_gap_foot(s->p, &p->c, exact);
+    else if (!sunder_i_gap_crossing(s->p, &p->c, &p->d, p->sign, exact))
         return NULL;
-    p->spot = spot;
-    return spot;
+    p->exact = exact;
+    return exact;
 }
 
 /* A place that was computed with loss is computed again from the exact one. */
@@ -26,10 +26,10 @@ const sunder_i_spot *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_poin
 
 static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
 {
-    const sunder_i_spot *spot = sunder_i_gap_solve(s, p);
-    if (!spot) return false;
+    const sunder_i_surd_point *exact = sunder_i_gap_solve(s, p);
+    if (!exact) return false;
     if (!(p->error <= LOSS_MAX * s->error)) {
-        sunder_i_gap_place(s, spot, &p->x, &p->y);
+        sunder_i_gap_doubles(s, exact, &p->x, &p->y);
         p->error = s->error;
     }
     return true;
@@ -39,7 +39,7 @@ static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
 
 /* What is asked about: a point, exactly and within `doubt`, and (if not NULL) the curves that it was made from. */
 typedef struct question {
-    const sunder_i_spot *at;
+    const sunder_i_surd_point *at;
     double x, y, doubt;
     const sunder_i_gap_point *of;
 } question;
@@ -50,7 +50,7 @@ static bool same_point(const sunder_i_gap_state *s, sunder_i_point a, sunder_i_p
 }
 
 /* Is the curve that of side k, or of its first corner? Not if that is not easily seen. */
-static bool is_curve(sunder_i_gap_state *s, const sunder_i_curve *c, const sunder_i_subsum *m, uint32_t k, bool arc)
+static bool is_curve(sunder_i_gap_state *s, const sunder_i_gap_curve *c, const sunder_i_subsum *m, uint32_t k, bool arc)
 {
     if (c->arc != arc || !s->g->placed.lattice.narrow) return false;
     if (arc) return same_point(s, c->a, m->corner[k]);
@@ -78,9 +78,9 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
         if (is_curve(s, &q->of->d, m, k + 1 < m->sides ? k + 1 : 0, true)) return 1;
     }
     bool inward;
-    sunder_i_reach reach;
+    sunder_i_gap_nearest reach;
     const int order = sunder_i_gap_cmp_side(s->p, m, k, q->at, &inward, &reach);
-    *flat = reach == SUNDER_I_REACH_SIDE;
+    *flat = reach == SUNDER_I_GAP_NEAREST_SIDE;
     return order;
 }
 
@@ -91,13 +91,13 @@ static int compare_all(sunder_i_gap_state *s, const sunder_i_subsum *m, const qu
     int least = 1;
     for (uint32_t i = 0; i < m->sides && least >= 0; i++) {
         bool inward;
-        sunder_i_reach reach;
+        sunder_i_gap_nearest reach;
         const int order = sunder_i_gap_cmp_side(s->p, m, i, q->at, &inward, &reach);
         inside = inside && inward;
         if (order >= least) continue;
         least = order;
         *k = i;
-        *flat = reach == SUNDER_I_REACH_SIDE;
+        *flat = reach == SUNDER_I_GAP_NEAREST_SIDE;
     }
     return inside ? -1 : least;
 }
@@ -151,24 +151,24 @@ static long too_near(sunder_i_gap_state *s, const question *q, sunder_i_gap_cont
     return -1;
 }
 
-bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_spot *at)
+bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_surd_point *at)
 {
     question q = {.at = at, .doubt = s->margin + s->error};
-    sunder_i_gap_place(s, at, &q.x, &q.y);
+    sunder_i_gap_doubles(s, at, &q.x, &q.y);
     return too_near(s, &q, NULL, NULL) < 0 && !s->failed;
 }
 
 /* ---- Free points ---- */
 
 /* Order of two free points; doubles settle what is not a tie. */
-static int order(sunder_i_gap_state *s, const sunder_i_gap_find *a, const sunder_i_gap_find *b)
+static int order(sunder_i_gap_state *s, const sunder_i_gap_free_point *a, const sunder_i_gap_free_point *b)
 {
     const double u = sunder_i_gap_length(a->x, a->y), v = sunder_i_gap_length(b->x, b->y);
     if (fabs(u - v) > a->error + b->error + s->error) return u < v ? -1 : 1;
-    return sunder_i_spot_cmp(s->g, &a->spot, &b->spot);
+    return sunder_i_surd_point_cmp(s->g, &a->exact, &b->exact);
 }
 
-static void offer(sunder_i_gap_state *s, const sunder_i_gap_find *f)
+static void offer(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
 {
     if (s->found.any && order(s, f, &s->found) >= 0) return;
     s->found = *f;
@@ -178,11 +178,11 @@ static void offer(sunder_i_gap_state *s, const sunder_i_gap_find *f)
 
 /* A walk's last subsum is left at the point, as was guessed in doubles, if it lies on that subsum's boundary and leaves
  * the disc or the half-plane that the curve bounds there. */
-static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap_find *f, long near)
+static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap_free_point *f, long near)
 {
     const sunder_i_gap_point *p = q->of;
     if (!p->d.arc) {
-        const int turn = sunder_i_pairing_cross(s->g, p->c.d, p->d.d);
+        const int turn = sunder_i_operands_cross(s->g, p->c.d, p->d.d);
         if (p->forwards ? turn <= 0 : turn >= 0) return false;
     }
     if (near < 0) {
@@ -198,17 +198,17 @@ static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap
 void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index)
 {
     sunder_i_gap_point p = s->points[index];
-    sunder_i_gap_find f = {.any = true};
+    sunder_i_gap_free_point f = {.any = true};
     question q = {.of = &p};
     long near = p.cover;
     const bool solved = solve(s, &p);
     if (solved) {
-        f = (sunder_i_gap_find){.any = true, .spot = *p.spot, .x = p.x, .y = p.y, .error = p.error};
+        f = (sunder_i_gap_free_point){.any = true, .exact = *p.exact, .x = p.x, .y = p.y, .error = p.error};
         size_t most;
         (void)sunder_i_gap_near(s, p.x, p.y, &most);
         f.contact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, most + 1, sizeof *f.contact);
         s->failed = s->failed || !f.contact;
-        q = (question){p.spot, p.x, p.y, s->margin + p.error, &p};
+        q = (question){p.exact, p.x, p.y, s->margin + p.error, &p};
         if (!s->failed) near = too_near(s, &q, f.contact, &f.contacts);
     }
     if (s->failed) return;

@@ -39,7 +39,7 @@ typedef struct normal {
 } normal;
 
 /* The contact's normal, exactly, of some length. */
-static normal normal_of(sunder_i_gap_state *s, const sunder_i_spot *at, const sunder_i_gap_contact *c)
+static normal normal_of(sunder_i_gap_state *s, const sunder_i_surd_point *at, const sunder_i_gap_contact *c)
 {
     sunder_i_lattice *l = &s->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
@@ -47,16 +47,15 @@ static normal normal_of(sunder_i_gap_state *s, const sunder_i_spot *at, const su
     const sunder_i_point p = c->flat ? m->side[c->at] : m->corner[c->at];
     const sunder_i_vector v = sunder_i_vector_get(a, l, p);
     if (c->flat) return (normal){sunder_i_surd_big(a, v.y), sunder_i_surd_big(a, sunder_i_big_neg(v.x)), v.w};
-    return (normal){sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->x, v.w),
-                                      sunder_i_surd_big(a, sunder_i_big_mul(a, v.x, at->w))),
-                    sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->y, v.w),
-                                      sunder_i_surd_big(a, sunder_i_big_mul(a, v.y, at->w))),
-                    v.w};
+    return (normal){
+        sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->x, v.w), sunder_i_surd_big(a, sunder_i_big_mul(a, v.x, at->w))),
+        sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->y, v.w), sunder_i_surd_big(a, sunder_i_big_mul(a, v.y, at->w))),
+        v.w};
 }
 
 /* Sign of n_i x n_j, or of n_i . n_j. The normals of sides are good to 8 u, those of corners to the point's error over
  * the gap as well. */
-static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, size_t j, bool dot)
+static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, size_t j, bool dot)
 {
     const sunder_i_gap_contact *c = f->contact + i, *d = f->contact + j;
     const double value = dot ? c->nx * d->nx + c->ny * d->ny : c->nx * d->ny - c->ny * d->nx;
@@ -64,30 +63,29 @@ static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, 
     if (fabs(value) > doubt) return value > 0 ? 1 : -1;
     if (c->flat && d->flat) {
         const sunder_i_point u = s->g->subsum[c->of].side[c->at], v = s->g->subsum[d->of].side[d->at];
-        return dot ? sunder_i_pairing_dot(s->g, u, v) : sunder_i_pairing_cross(s->g, u, v);
+        return dot ? sunder_i_operands_dot(s->g, u, v) : sunder_i_operands_cross(s->g, u, v);
     }
     sunder_i_arena *a = &s->g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
-    const sunder_i_roots *roots = &f->spot.roots;
-    const normal n = normal_of(s, &f->spot, c), m = normal_of(s, &f->spot, d);
-    const sunder_i_surd v = dot ? sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, n.x, m.x),
-                                                    sunder_i_surd_mul(a, roots, n.y, m.y))
-                                : sunder_i_surd_sub(a, sunder_i_surd_mul(a, roots, n.x, m.y),
-                                                    sunder_i_surd_mul(a, roots, n.y, m.x));
+    const sunder_i_roots *roots = &f->exact.roots;
+    const normal n = normal_of(s, &f->exact, c), m = normal_of(s, &f->exact, d);
+    const sunder_i_surd v =
+        dot ? sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, n.x, m.x), sunder_i_surd_mul(a, roots, n.y, m.y))
+            : sunder_i_surd_sub(a, sunder_i_surd_mul(a, roots, n.x, m.y), sunder_i_surd_mul(a, roots, n.y, m.x));
     const int sign = sunder_i_surd_sign(a, roots, v);
     sunder_i_arena_release(a, mark);
     return sign;
 }
 
 /* Is the normal of contact i turned by a right angle, to the left (turn 1) or right (-1), a way to go? */
-static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, int turn)
+static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, int turn)
 {
     for (size_t k = 0; k < f->contacts; k++)
         if (k != i && turn * sign_of(s, f, i, k, false) < 0) return false;
     return true;
 }
 
-sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_find *f)
+sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
 {
     bool same = true;
     for (size_t k = 1; k < f->contacts && same; k++)
@@ -112,8 +110,9 @@ sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_
 /* ---- Steps ---- */
 
 /* To a place of doubles of the caller's units, where those are fine enough: what users like best. */
-static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_gap_contact *a,
-                       const sunder_i_gap_contact *b, const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out)
+static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, const sunder_i_gap_contact *a,
+                       const sunder_i_gap_contact *b, const sunder_i_big xy[2], unsigned long bits,
+                       sunder_i_surd_point *out)
 {
     const double unit = s->g->unit;
     if (!(unit > 0 && unit < INFINITY)) return false;
@@ -132,14 +131,14 @@ static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_find *f, const 
     for (int round = 0; round < 8 && step <= size * 4e-10; round++, step *= 8) {
         const double dx = (x + ux * step) * unit, dy = (y + uy * step) * unit;
         if (!isfinite(dx) || !isfinite(dy)) return false;
-        *out = sunder_i_spot_doubles(s->g, dx, dy);
+        *out = sunder_i_surd_point_doubles(s->g, dx, dy);
         if (sunder_i_gap_is_free(s, out)) return true;
     }
     return false;
 }
 
 /* The unit normal of a contact times 2^bits, within 4. */
-static void unit_normal(sunder_i_gap_state *s, const sunder_i_spot *at, const sunder_i_gap_contact *c,
+static void unit_normal(sunder_i_gap_state *s, const sunder_i_surd_point *at, const sunder_i_gap_contact *c,
                         unsigned long bits, sunder_i_big n[2])
 {
     sunder_i_arena *a = &s->g->placed.lattice.arena;
@@ -159,14 +158,14 @@ static void unit_normal(sunder_i_gap_state *s, const sunder_i_spot *at, const su
 }
 
 /* A step of 2^size lattice units into the open, in numbers of `bits` digits and with normals of `digits`. */
-static void step_off(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, size_t j, long size,
-                     unsigned long bits, unsigned long digits, sunder_i_spot *out)
+static void step_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, size_t j, long size,
+                     unsigned long bits, unsigned long digits, sunder_i_surd_point *out)
 {
     sunder_i_arena *a = &s->g->placed.lattice.arena;
     sunder_i_big at[2], n[2], m[2];
-    sunder_i_spot_scaled(s->g, &f->spot, bits, at);
-    unit_normal(s, &f->spot, f->contact + i, digits, n);
-    unit_normal(s, &f->spot, f->contact + j, digits, m);
+    sunder_i_surd_point_scaled(s->g, &f->exact, bits, at);
+    unit_normal(s, &f->exact, f->contact + i, digits, n);
+    unit_normal(s, &f->exact, f->contact + j, digits, m);
     /* The middle between the normals; where they are far from each other that cancels, and is said by the ways: n
      * turned left and m turned right. */
     const bool wide = sign_of(s, f, i, j, true) < 0;
@@ -175,24 +174,24 @@ static void step_off(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i
     const unsigned long shift = (unsigned long)(size + (long)bits);
     for (int k = 0; k < 2; k++)
         at[k] = sunder_i_big_add(a, at[k], sunder_i_big_shr(a, sunder_i_big_shl(a, u[k], shift), digits));
-    *out = sunder_i_spot_rational(s->g, at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits));
+    *out = sunder_i_surd_point_rational(s->g, at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits));
 }
 
 /* The same along the line between opposite contacts, the way that contact i turned left (turn 1) or right shows. */
-static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t i, int turn, long size,
-                       unsigned long bits, sunder_i_spot *out)
+static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, int turn, long size,
+                       unsigned long bits, sunder_i_surd_point *out)
 {
     sunder_i_arena *a = &s->g->placed.lattice.arena;
     size_t k = 0;
     while (k < f->contacts && !(f->contact[k].flat && sign_of(s, f, i, k, false) == 0)) k++;
     if (k == f->contacts) return false;
     const sunder_i_subsum *m = s->g->subsum + f->contact[k].of;
-    const sunder_i_curve wall = {false, m->corner[f->contact[k].at], m->side[f->contact[k].at]};
+    const sunder_i_gap_curve wall = {false, m->corner[f->contact[k].at], m->side[f->contact[k].at]};
     const bool ahead = (sign_of(s, f, i, k, true) > 0) == (turn > 0); /* the side is its normal turned left */
     const unsigned long shift = (unsigned long)(size + (long)bits);
     const sunder_i_big step = sunder_i_big_shl(a, sunder_i_big_i64(a, ahead ? 1 : -1), shift);
     sunder_i_big along;
-    if (!sunder_i_gap_position(s->p, &wall, &f->spot, bits, &along)) return false;
+    if (!sunder_i_gap_position(s->p, &wall, &f->exact, bits, &along)) return false;
     return sunder_i_gap_along(s->p, &wall, sunder_i_big_add(a, along, step), bits, out);
 }
 
@@ -200,8 +199,8 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_find *f, size_t
  * an angle of 2^-n is hit with n digits. */
 #define ROUNDS_MAX 12
 
-bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *f, const sunder_i_gap_way *way,
-                        const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out)
+bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, const sunder_i_gap_way *way,
+                                  const sunder_i_big xy[2], unsigned long bits, sunder_i_surd_point *out)
 {
     const long i = way->left, j = way->right;
     if (way->room == SUNDER_I_ROOM_NONE || f->contacts == 0) return false;

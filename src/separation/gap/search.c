@@ -4,8 +4,8 @@
  * that places are irrational. In numbers with a known error (gap/search.h) most of them are seen to be covered: a point
  * by a grown subsum whose distance is less than the gap by more than all rounding, a stretch from point to point so
  * covered. What that leaves open is asked exactly, of points that are fractions of integers and square roots
- * (exact_point.c): nothing is discarded, and nothing is found, that is not so. So the first free point is the nearest one,
- * and its length the bound; equal ones are told apart exactly as well.
+ * (surd_point.c): nothing is discarded, and nothing is found, that is not so. So the first free point is the nearest
+ * one, and its length the bound; equal ones are told apart exactly as well.
  *
  * Where the nearest point is irrational, a rational one beside it is given (rational.c). */
 #include "separation/gap/search.h"
@@ -120,7 +120,7 @@ static bool set_up(sunder_i_gap_state *s)
     return true;
 }
 
-static sunder_contact kind_of(const sunder_i_gap_find *f, sunder_i_gap_room room)
+static sunder_contact kind_of(const sunder_i_gap_free_point *f, sunder_i_gap_room room)
 {
     bool flat = true, any_flat = false;
     for (size_t i = 0; i < f->contacts; i++) {
@@ -138,17 +138,17 @@ static sunder_contact kind_of(const sunder_i_gap_find *f, sunder_i_gap_room room
 /* What is given of what was found, and what is said of it. */
 static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
 {
-    const sunder_i_gap_find *f = &s->found;
+    const sunder_i_gap_free_point *f = &s->found;
     *out = (sunder_i_gap_answer){.found = f->any};
     if (!f->any) return SUNDER_OK;
     const sunder_i_gap_way way = sunder_i_gap_way_off(s, f);
     out->contact = kind_of(f, way.room);
     sunder_i_big xy[2];
-    const unsigned long bits = sunder_i_spot_digits(s->g, &f->spot, sunder_i_gap_length(f->x, f->y), xy);
-    out->bound = sunder_i_spot_length_down(s->g, xy, bits);
-    if (sunder_i_spot_is_rational(&f->spot))
-        out->at = f->spot;
-    else if (!sunder_i_gap_clear(s, f, &way, xy, bits, &out->at))
+    const unsigned long bits = sunder_i_surd_point_digits(s->g, &f->exact, sunder_i_gap_length(f->x, f->y), xy);
+    out->bound = sunder_i_surd_point_length_down(s->g, xy, bits);
+    if (sunder_i_surd_point_is_rational(&f->exact))
+        out->at = f->exact;
+    else if (!sunder_i_gap_rational_beside(s, f, &way, xy, bits, &out->at))
         return s->failed ? sunder_i_no_memory(err)
                          : sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no way off a free point");
     return SUNDER_OK;
@@ -156,8 +156,8 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
 
 sunder_status sunder_i_gap_search(const sunder_i_gap_problem *p, sunder_i_gap_answer *out, sunder_error *err)
 {
-    sunder_i_lattice *l = &p->pairing->placed.lattice;
-    sunder_i_gap_state s = {.p = p, .g = p->pairing};
+    sunder_i_lattice *l = &p->operands->placed.lattice;
+    sunder_i_gap_state s = {.p = p, .g = p->operands};
     if (!set_up(&s)) return sunder_i_no_memory(err);
     fill_heap(&s);
     while (s.heap_n && s.heap[0].key <= s.best && !s.failed && !l->arena.failed) {

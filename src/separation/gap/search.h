@@ -1,9 +1,9 @@
 /* The parts of the search with a gap among themselves (search.c says how it goes).
  *
- * Errors. S = M + g bounds what is computed with: M the magnitude of the operands' coordinates (operands.h; at least g),
- * so that sums of two are below 2 M, sides below 3 M in length, and |v| below 6 S for v from a corner of a subsum to a
- * point within 2 g of its box. u is the unit roundoff; first-order terms only, the rest is far less than what is to
- * spare.
+ * Errors. S = M + g bounds what is computed with: M the magnitude of the operands' coordinates (operands.h; at least
+ * g), so that sums of two are below 2 M, sides below 3 M in length, and |v| below 6 S for v from a corner of a subsum
+ * to a point within 2 g of its box. u is the unit roundoff; first-order terms only, the rest is far less than what is
+ * to spare.
  *
  *   corner   an integer is rounded once, three limbs of a wide lattice 5 times: 8 u M. Sides come from exact
  *            differences, so are off by 4 u of themselves; their lengths by 6 u, the gap by 4 u.
@@ -51,28 +51,28 @@ typedef struct sunder_i_gap_contact {
 /* A point that may be free: the foot of a curve, or where two cross. */
 typedef struct sunder_i_gap_point {
     double x, y, error;
-    sunder_i_curve c, d; /* a foot has c only */
+    sunder_i_gap_curve c, d; /* a foot has c only */
     bool crossing;
-    int sign;                  /* which of two crossings */
-    bool forwards, backwards;  /* if it is covered: go on along the segment */
+    int sign;                 /* which of two crossings */
+    bool forwards, backwards; /* if it is covered: go on along the segment */
     size_t segment;
-    long cover;                /* it is to be where c leaves this grown subsum; -1: it is not */
-    const sunder_i_spot *spot; /* exactly; NULL if not asked for yet */
+    long cover;                       /* it is to be where c leaves this grown subsum; -1: it is not */
+    const sunder_i_surd_point *exact; /* exactly; NULL if not asked for yet */
 } sunder_i_gap_point;
 
 /* A free point, with all that touches there. */
-typedef struct sunder_i_gap_find {
+typedef struct sunder_i_gap_free_point {
     bool any;
-    sunder_i_spot spot;
+    sunder_i_surd_point exact;
     double x, y, error;
     sunder_i_gap_contact *contact;
     size_t contacts;
     sunder_contact kind;
-} sunder_i_gap_find;
+} sunder_i_gap_free_point;
 
 typedef struct sunder_i_gap_state {
     const sunder_i_gap_problem *p;
-    sunder_i_pairing *g;
+    sunder_i_operands *g;
     double gap, error, margin;
     double best; /* nothing farther counts: the limit, or the length of the best answer and its error */
     sunder_i_gap_piece *pieces;
@@ -83,8 +83,8 @@ typedef struct sunder_i_gap_state {
     size_t hint;  /* the subsum that covered the last point */
     size_t *arcs; /* circles taken off the heap so far */
     size_t arcs_n;
-    sunder_i_gap_find found; /* the nearest */
-    bool failed;             /* memory is out */
+    sunder_i_gap_free_point found; /* the nearest */
+    bool failed;                   /* memory is out */
 } sunder_i_gap_state;
 
 /* ---- Numbers, and what covers a point (covered.c) ---- */
@@ -92,8 +92,8 @@ typedef struct sunder_i_gap_state {
 /* v * 2^exponent, within 4 u of itself. */
 double sunder_i_gap_big(sunder_i_big v, long exponent);
 double sunder_i_gap_length(double x, double y);
-/* The spot's coordinates in units, off by less than an `error`. */
-void sunder_i_gap_place(sunder_i_gap_state *s, const sunder_i_spot *spot, double *x, double *y);
+/* The point's coordinates in units, off by less than an `error`. */
+void sunder_i_gap_doubles(sunder_i_gap_state *s, const sunder_i_surd_point *exact, double *x, double *y);
 
 /* The numbers of the *n subsums to be asked about a point (gap.h); NULL: all, the last that was of use first. */
 const uint32_t *sunder_i_gap_near(const sunder_i_gap_state *s, double x, double y, size_t *n);
@@ -109,11 +109,9 @@ static inline size_t sunder_i_gap_nth(const sunder_i_gap_state *s, const uint32_
 /* NULL if memory is out. */
 const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k);
 /* May the point be within `reach` of subsum k at all? */
-bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, double y,
-                           double reach);
+bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, double y, double reach);
 /* Distance from a piece, 0 inside, within 200 u S. */
-double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *piece, double x,
-                                    double y);
+double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *piece, double x, double y);
 /* Does grown subsum k cover all that is within `slack` of the computed point, for certain? */
 bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack);
 /* A grown subsum that covers the point for certain; -1 if none is known to. */
@@ -135,9 +133,9 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t arc);
 
 void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index);
 /* The exact place of a point; NULL if its curves do not meet, or memory is out. */
-const sunder_i_spot *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p);
+const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p);
 /* Does the point keep the gap from all subsums? Exact. */
-bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_spot *at);
+bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_surd_point *at);
 
 /* ---- The way off (rational.c) ---- */
 
@@ -145,7 +143,7 @@ typedef enum sunder_i_gap_room {
     SUNDER_I_ROOM_NONE, /* held on all sides */
     SUNDER_I_ROOM_LINE, /* only along a line, or one half of it */
     SUNDER_I_ROOM_OPEN,
-    SUNDER_I_ROOM_HALF  /* all contacts are on one side, opposite the same direction */
+    SUNDER_I_ROOM_HALF /* all contacts are on one side, opposite the same direction */
 } sunder_i_gap_room;
 
 /* Where one can go from a free point: the directions u with u . n >= 0 for all contacts' normals n. They lie between
@@ -155,11 +153,12 @@ typedef struct sunder_i_gap_way {
     long left, right;
 } sunder_i_gap_way;
 
-sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_find *at);
+sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *at);
 /* A rational free point no farther than 1 + 4e-10 times as far as the irrational one found, which stands at xy / 2^bits
  * to 72 digits. */
-bool sunder_i_gap_clear(sunder_i_gap_state *s, const sunder_i_gap_find *found, const sunder_i_gap_way *way,
-                        const sunder_i_big xy[2], unsigned long bits, sunder_i_spot *out);
+bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *found,
+                                  const sunder_i_gap_way *way, const sunder_i_big xy[2], unsigned long bits,
+                                  sunder_i_surd_point *out);
 
 /* ---- The heap (search.c) ---- */
 

@@ -7,14 +7,14 @@
 #include <math.h>
 
 typedef struct moved {
-    sunder_i_line line;                    /* unmoved, on the lattice */
+    sunder_i_carrier line;                 /* unmoved, on the lattice */
     double ax, ay, dx, dy, square, length; /* moved; length = |d| */
 } moved;
 
 static moved moved_side(sunder_i_gap_state *s, size_t segment)
 {
     moved m;
-    m.line = sunder_i_candidate_line(s->g, s->p->segment + segment);
+    m.line = sunder_i_candidate_carrier(s->g, s->p->segment + segment);
     m.dx = m.line.dx;
     m.dy = m.line.dy;
     m.square = m.dx * m.dx + m.dy * m.dy;
@@ -24,7 +24,7 @@ static moved moved_side(sunder_i_gap_state *s, size_t segment)
     return m;
 }
 
-static sunder_i_curve curve_of(const moved *m) { return (sunder_i_curve){false, m->line.a, m->line.d}; }
+static sunder_i_gap_curve curve_of(const moved *m) { return (sunder_i_gap_curve){false, m->line.a, m->line.d}; }
 
 /* ---- Where the line leaves a grown subsum ---- */
 
@@ -121,14 +121,14 @@ static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwa
     return w;
 }
 
-static sunder_i_curve curve_over(const sunder_i_gap_state *s, size_t k, bool arc, uint32_t i)
+static sunder_i_gap_curve curve_over(const sunder_i_gap_state *s, size_t k, bool arc, uint32_t i)
 {
     const sunder_i_subsum *sum = s->g->subsum + k;
-    return (sunder_i_curve){arc, sum->corner[i], arc ? sum->corner[i] : sum->side[i]};
+    return (sunder_i_gap_curve){arc, sum->corner[i], arc ? sum->corner[i] : sum->side[i]};
 }
 
 /* The point of the segment's line over the curve: of a circle the one where the line leaves it. */
-static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_curve over, bool forwards)
+static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_gap_curve over, bool forwards)
 {
     return (sunder_i_gap_point){.c = curve_of(m),
                                 .d = over,
@@ -145,11 +145,11 @@ static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_cu
 static bool leaves_over(sunder_i_gap_state *s, sunder_i_gap_point *p, size_t k)
 {
     if (!p->d.arc) {
-        const int turn = sunder_i_pairing_cross(s->g, p->c.d, p->d.d); /* out: to the side's right */
+        const int turn = sunder_i_operands_cross(s->g, p->c.d, p->d.d); /* out: to the side's right */
         if (p->forwards ? turn <= 0 : turn >= 0) return false;
     }
-    const sunder_i_spot *spot = sunder_i_gap_solve(s, p);
-    return spot && sunder_i_gap_cmp(s->p, s->g->subsum + k, spot) == 0;
+    const sunder_i_surd_point *exact = sunder_i_gap_solve(s, p);
+    return exact && sunder_i_gap_cmp(s->p, s->g->subsum + k, exact) == 0;
 }
 
 void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, size_t k, bool forwards)
@@ -169,7 +169,7 @@ void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, si
         known = leaves_over(s, &p, k);
     }
     if (!known) return; /* memory is out: a convex set that a line meets is left once */
-    sunder_i_gap_place(s, p.spot, &p.x, &p.y);
+    sunder_i_gap_doubles(s, p.exact, &p.x, &p.y);
     p.error = s->error;
     const double along = ((p.x - m.ax) * m.dx + (p.y - m.ay) * m.dy) / m.length, spare = 4 * s->error;
     if (forwards ? along > m.length + spare : along < -spare) return; /* past the end; false if that cannot be told */
@@ -251,8 +251,8 @@ static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t
 void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
 {
     const moved m = moved_side(s, segment);
-    const bool before = sunder_i_pairing_dot(s->g, m.line.a, m.line.d) >= 0;
-    const bool past = !before && sunder_i_pairing_dot(s->g, m.line.b, m.line.d) <= 0;
+    const bool before = sunder_i_operands_dot(s->g, m.line.a, m.line.d) >= 0;
+    const bool past = !before && sunder_i_operands_dot(s->g, m.line.b, m.line.d) <= 0;
     const double t = before ? 0 : past ? 1 : fmin(1, fmax(0, -(m.ax * m.dx + m.ay * m.dy) / m.square));
     const double x = m.ax + t * m.dx, y = m.ay + t * m.dy;
     const bool tiny = !(m.length > SUNDER_I_GAP_TINY); /* then nothing of this is known */

@@ -9,7 +9,7 @@
 
 typedef struct checking {
     const sunder_i_gap_problem *p;
-    sunder_i_pairing *g;
+    sunder_i_operands *g;
     sunder_i_big x, y, w; /* the translation: (x / w, y / w) */
     double at[2], gap, doubt;
 } checking;
@@ -20,14 +20,14 @@ typedef struct convex {
     uint32_t n;
 } convex;
 
-static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
+static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t first = i ? s->piece_end[i - 1] : 0;
     return (convex){side, s->piece_vertex + first, s->piece_end[i] - first};
 }
 
-/* A side of one piece, from which corners of the other are seen: q + t - p = t - (p + (-q)), for the pairing has Q
+/* A side of one piece, from which corners of the other are seen: q + t - p = t - (p + (-q)), for the operands have Q
  * reflected; seen from Q all is reflected in t / 2. */
 typedef struct side {
     sunder_i_point a, d;
@@ -40,7 +40,7 @@ static side side_of(const checking *c, const convex *p, uint32_t k)
     const sunder_i_point *at = c->g->at[p->side];
     const double *a = c->g->xy[p->side] + 2 * p->corner[k];
     side s = {.a = at[p->corner[k]], .x = c->at[0] - a[0], .y = c->at[1] - a[1]};
-    s.d = sunder_i_pairing_diff(c->g, at[p->corner[k + 1 < p->n ? k + 1 : 0]], s.a);
+    s.d = sunder_i_operands_diff(c->g, at[p->corner[k + 1 < p->n ? k + 1 : 0]], s.a);
     s.dx = sunder_i_approx(l, s.d.x);
     s.dy = sunder_i_approx(l, s.d.y);
     s.length = sqrt(s.dx * s.dx + s.dy * s.dy);
@@ -73,7 +73,7 @@ static exact exactly(const checking *c, const side *s, const convex *q, uint32_t
 {
     sunder_i_lattice *l = &c->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
-    const sunder_i_point sum = sunder_i_pairing_add(c->g, s->a, c->g->at[q->side][q->corner[m]]);
+    const sunder_i_point sum = sunder_i_operands_add(c->g, s->a, c->g->at[q->side][q->corner[m]]);
     const sunder_i_vector at = sunder_i_vector_get(a, l, sum), d = sunder_i_vector_get(a, l, s->d);
     const sunder_i_big over = sunder_i_times(a, at.w, d.w);
     const sunder_i_big x =
@@ -191,9 +191,9 @@ static bool pieces_apart(const checking *c, const convex *p, const convex *q)
     return off;
 }
 
-bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_spot *t)
+bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_surd_point *t)
 {
-    sunder_i_pairing *g = p->pairing;
+    sunder_i_operands *g = p->operands;
     sunder_i_lattice *l = &g->placed.lattice;
     checking c = {.p = p, .g = g, .x = t->x.part[0], .y = t->y.part[0], .w = t->w};
     c.gap = p->gap_units;

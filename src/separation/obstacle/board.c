@@ -19,15 +19,15 @@ typedef struct part {
 } part;
 
 typedef struct board {
-    sunder_i_pairing *g;
-    sunder_i_held *h;
+    sunder_i_operands *g;
+    sunder_i_board *h;
     uint32_t *near; /* lists of the parts on the stack, one after the other */
     size_t near_n, near_capacity;
     part stack[64]; /* two for each halving: at most 2 * 2 * 9 */
     uint32_t stack_n;
 } board;
 
-static void part_box(const sunder_i_held *h, const part *p, double box[4])
+static void part_box(const sunder_i_board *h, const part *p, double box[4])
 {
     const double step = 2 * h->reach / h->n;
     box[0] = p->x0 * step - h->reach;
@@ -37,7 +37,7 @@ static void part_box(const sunder_i_held *h, const part *p, double box[4])
 }
 
 /* Does the subsum hold the box, widened by the error, in its interior? */
-static bool holds(sunder_i_pairing *g, sunder_i_subsum *s, const double box[4])
+static bool holds(sunder_i_operands *g, sunder_i_subsum *s, const double box[4])
 {
     const double e = 4 * g->error;
     for (int k = 0; k < 2; k++)
@@ -52,7 +52,7 @@ static bool holds(sunder_i_pairing *g, sunder_i_subsum *s, const double box[4])
     return true;
 }
 
-static bool comes_near(const sunder_i_pairing *g, const sunder_i_subsum *s, const double box[4])
+static bool comes_near(const sunder_i_operands *g, const sunder_i_subsum *s, const double box[4])
 {
     const double e = 4 * g->error;
     for (int k = 0; k < 2; k++)
@@ -60,7 +60,7 @@ static bool comes_near(const sunder_i_pairing *g, const sunder_i_subsum *s, cons
     return true;
 }
 
-static void close_part(sunder_i_held *h, const part *p, uint32_t holder)
+static void close_part(sunder_i_board *h, const part *p, uint32_t holder)
 {
     for (uint32_t y = p->y0; y < p->y1; y++)
         for (uint32_t x = p->x0; x < p->x1; x++) h->holder[(size_t)y * h->n + x] = holder + 1;
@@ -69,7 +69,7 @@ static void close_part(sunder_i_held *h, const part *p, uint32_t holder)
 /* The list of an open square; they are kept in the order in which squares come, and sorted by square at the end. */
 static bool keep_list(board *b, const part *p, uint32_t *start)
 {
-    sunder_i_held *h = b->h;
+    sunder_i_board *h = b->h;
     const size_t n = p->to - p->from, square = (size_t)p->y0 * h->n + p->x0;
     if (h->list_n + n > UINT32_MAX) return sunder_i_too_many();
     if (!sunder_i_reserve(&h->list, &h->list_capacity, h->list_n + n, sizeof *h->list)) return false;
@@ -136,7 +136,7 @@ static bool descend(board *b, uint32_t *start)
 }
 
 /* Lists in the order of the squares, so that one array of ends will do; and the sums of open squares. */
-static bool arrange(sunder_i_held *h, const uint32_t *start)
+static bool arrange(sunder_i_board *h, const uint32_t *start)
 {
     const size_t n = h->n;
     uint32_t *list = sunder_i_alloc(h->list_n, sizeof *list);
@@ -160,14 +160,14 @@ static bool arrange(sunder_i_held *h, const uint32_t *start)
     return true;
 }
 
-bool sunder_i_held_build(sunder_i_pairing *g, double reach)
+bool sunder_i_board_build(sunder_i_operands *g, double reach)
 {
     uint32_t n = 16;
     while (n < 256 && (size_t)n * n * 16 < g->subsums) n *= 2;
-    sunder_i_held *h = sunder_i_calloc(1, sizeof *h);
+    sunder_i_board *h = sunder_i_calloc(1, sizeof *h);
     if (!h) return false;
-    g->held = h;
-    *h = (sunder_i_held){.reach = reach, .per_unit = n / (2 * reach), .n = n};
+    g->board = h;
+    *h = (sunder_i_board){.reach = reach, .per_unit = n / (2 * reach), .n = n};
     const size_t squares = (size_t)n * n;
     h->holder = sunder_i_calloc(squares, sizeof *h->holder);
     h->open_below = sunder_i_alloc((size_t)(n + 1) * (n + 1), sizeof *h->open_below);
@@ -177,30 +177,30 @@ bool sunder_i_held_build(sunder_i_pairing *g, double reach)
     const bool ok = h->holder && h->open_below && h->list_end && start && descend(&b, start) && arrange(h, start);
     sunder_i_free(b.near);
     sunder_i_free(start);
-    if (!ok) sunder_i_held_free(g);
+    if (!ok) sunder_i_board_free(g);
     return ok;
 }
 
-void sunder_i_held_free(sunder_i_pairing *g)
+void sunder_i_board_free(sunder_i_operands *g)
 {
-    sunder_i_held *h = g->held;
+    sunder_i_board *h = g->board;
     if (!h) return;
     sunder_i_free(h->holder);
     sunder_i_free(h->open_below);
     sunder_i_free(h->list_end);
     sunder_i_free(h->list);
     sunder_i_free(h);
-    g->held = NULL;
+    g->board = NULL;
 }
 
 /* The column or row of a coordinate, those beyond the board clamped to its border. */
-static uint32_t clamped(const sunder_i_held *h, double v)
+static uint32_t clamped(const sunder_i_board *h, double v)
 {
     const double at = (v + h->reach) * h->per_unit;
     return at > 0 ? at < h->n ? (uint32_t)at : h->n - 1 : 0;
 }
 
-bool sunder_i_held_segment(const sunder_i_held *h, double error, double ax, double ay, double dx, double dy)
+bool sunder_i_board_segment(const sunder_i_board *h, double error, double ax, double ay, double dx, double dy)
 {
     const double e = 2 * error, bx = ax + dx, by = ay + dy;
     const uint32_t x0 = clamped(h, (ax < bx ? ax : bx) - e), x1 = clamped(h, (ax < bx ? bx : ax) + e) + 1;

@@ -13,7 +13,7 @@
  * by more asks them all. */
 #define TURN_SLACK 0x1p-20
 
-bool sunder_i_cone_of(const sunder_i_pairing *g, int side, uint32_t v, sunder_i_cone *out)
+bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i_cone *out)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
@@ -24,7 +24,7 @@ bool sunder_i_cone_of(const sunder_i_pairing *g, int side, uint32_t v, sunder_i_
     return true;
 }
 
-static bool make_room(sunder_i_pairing *g, uint32_t n, sunder_i_cones *c)
+static bool make_room(sunder_i_operands *g, uint32_t n, sunder_i_cones *c)
 {
     double *block = sunder_i_arena_alloc(&g->placed.lattice.arena, n, 6 * sizeof *block + sizeof *c->vertex);
     if (!block) return false;
@@ -48,13 +48,10 @@ static double turn_of(double x, double y)
 }
 
 /* How uncertain the direction of a difference of two vertices is; a quotient by zero, which is so, too. */
-static double turn_error(const sunder_i_pairing *g, double x, double y)
-{
-    return 4 * g->coarse / (fabs(x) + fabs(y));
-}
+static double turn_error(const sunder_i_operands *g, double x, double y) { return 4 * g->coarse / (fabs(x) + fabs(y)); }
 
 /* The sectors that cone k belongs to: *n from the one returned on, cyclically; all where its edges do not say. */
-static uint32_t sectors_of(const sunder_i_pairing *g, const sunder_i_cones *c, uint32_t k, uint32_t sectors,
+static uint32_t sectors_of(const sunder_i_operands *g, const sunder_i_cones *c, uint32_t k, uint32_t sectors,
                            uint32_t *n)
 {
     const double error = turn_error(g, c->in_x[k], c->in_y[k]) + turn_error(g, c->out_x[k], c->out_y[k]);
@@ -71,7 +68,7 @@ static uint32_t sectors_of(const sunder_i_pairing *g, const sunder_i_cones *c, u
 }
 
 /* So many sectors that cones are listed a few times each; 0: not worth it. */
-static uint32_t choose_sectors(const sunder_i_pairing *g, const sunder_i_cones *c)
+static uint32_t choose_sectors(const sunder_i_operands *g, const sunder_i_cones *c)
 {
     if (c->n < SECTORS_FROM) return 0;
     uint32_t sectors = SECTORS_MOST;
@@ -88,7 +85,7 @@ static uint32_t choose_sectors(const sunder_i_pairing *g, const sunder_i_cones *
     return 0;
 }
 
-static bool list_sectors(sunder_i_pairing *g, sunder_i_cones *c)
+static bool list_sectors(sunder_i_operands *g, sunder_i_cones *c)
 {
     const uint32_t sectors = choose_sectors(g, c);
     if (!sectors) return !g->placed.lattice.arena.failed;
@@ -111,7 +108,7 @@ static bool list_sectors(sunder_i_pairing *g, sunder_i_cones *c)
     return true;
 }
 
-bool sunder_i_cones_find(sunder_i_pairing *g, int side, sunder_i_cones *c)
+bool sunder_i_cones_find(sunder_i_operands *g, int side, sunder_i_cones *c)
 {
     const sunder_shape *s = g->shape[side];
     if (!make_room(g, s->vertices, c)) return false;
@@ -138,8 +135,8 @@ static inline bool meets(const sunder_i_cones *c, uint32_t k, double dx, double 
     return (c->in_x[k] * dy - c->in_y[k] * dx >= bound) & (dx * c->out_y[k] - dy * c->out_x[k] >= bound);
 }
 
-uint32_t sunder_i_cones_met(const sunder_i_pairing *g, const sunder_i_cones *c, double dx, double dy, uint32_t *met,
-                              uint32_t *looked_at)
+uint32_t sunder_i_cones_met(const sunder_i_operands *g, const sunder_i_cones *c, double dx, double dy, uint32_t *met,
+                            uint32_t *looked_at)
 {
     const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
     uint32_t n = 0;

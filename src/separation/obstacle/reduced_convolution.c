@@ -8,12 +8,12 @@
  * would carry is covered. */
 #include "separation/obstacle/reduced_convolution.h"
 #include "base/watch.h"
-#include "separation/obstacle/cones.h"
 #include "separation/obstacle/board.h"
+#include "separation/obstacle/cones.h"
 
 #include <math.h>
 
-bool sunder_i_candidates_push(sunder_i_pairing *g, sunder_i_candidates *h, sunder_i_candidate c)
+bool sunder_i_candidates_push(sunder_i_operands *g, sunder_i_candidates *h, sunder_i_candidate c)
 {
     if (h->n == h->capacity) {
         const size_t capacity = h->capacity ? 2 * h->capacity : 64;
@@ -39,7 +39,7 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
 
 /* The edges of operand `side` at the corners of the other. The directions are compared in doubles: what is in doubt is
  * let in, since a superset of the boundary serves as well. */
-static bool pair_edges(sunder_i_pairing *g, int side, const sunder_i_cones *c, double limit, sunder_i_candidates *h)
+static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *c, double limit, sunder_i_candidates *h)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], reach = limit + 8 * g->error;
@@ -62,7 +62,7 @@ static bool pair_edges(sunder_i_pairing *g, int side, const sunder_i_cones *c, d
             const uint32_t k = met[m];
             const double square = sunder_i_segment_square(a[0] + c->x[k], a[1] + c->y[k], dx, dy, inverse);
             if (square > reach * reach ||
-                (g->held && sunder_i_held_segment(g->held, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
+                (g->board && sunder_i_board_segment(g->board, g->error, a[0] + c->x[k], a[1] + c->y[k], dx, dy)))
                 continue;
             if (!sunder_i_candidates_push(g, h, (sunder_i_candidate){square, e, c->vertex[k], side})) return false;
         }
@@ -90,7 +90,7 @@ void sunder_i_candidates_order(sunder_i_candidates *h)
     for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
 }
 
-bool sunder_i_candidates_find(sunder_i_pairing *g, double limit, sunder_i_candidates *h)
+bool sunder_i_candidates_find(sunder_i_operands *g, double limit, sunder_i_candidates *h)
 {
     sunder_i_cones p, q;
     *h = (sunder_i_candidates){NULL, 0, 0};
@@ -108,10 +108,10 @@ sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *h)
     return top;
 }
 
-sunder_i_line sunder_i_candidate_line(sunder_i_pairing *g, const sunder_i_candidate *c)
+sunder_i_carrier sunder_i_candidate_carrier(sunder_i_operands *g, const sunder_i_candidate *c)
 {
     const sunder_i_point *at = g->at[c->side];
     const uint32_t next = g->shape[c->side]->next[c->edge];
-    return sunder_i_line_make(g, sunder_i_pairing_add(g, at[c->edge], g->at[!c->side][c->vertex]),
-                              sunder_i_pairing_diff(g, at[next], at[c->edge]));
+    return sunder_i_carrier_make(g, sunder_i_operands_add(g, at[c->edge], g->at[!c->side][c->vertex]),
+                                 sunder_i_operands_diff(g, at[next], at[c->edge]));
 }

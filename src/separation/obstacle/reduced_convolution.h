@@ -2,10 +2,10 @@
 #ifndef SUNDER_I_CANDIDATES_H
 #define SUNDER_I_CANDIDATES_H
 
-#include "separation/obstacle/line.h"
+#include "separation/obstacle/carrier.h"
 
 typedef struct sunder_i_candidate {
-    double square;         /* squared distance of the segment from the origin, whose root is good to 4 pairing->error */
+    double square; /* squared distance of the segment from the origin, whose root is good to 4 operands->error */
     uint32_t edge, vertex; /* the edge that leaves vertex `edge` of operand `side`, moved to `vertex` of the other */
     int side;
 } sunder_i_candidate;
@@ -16,7 +16,7 @@ typedef struct sunder_i_candidates {
 } sunder_i_candidates;
 
 /* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
- * distance itself is good to 4 times the pairing's error. */
+ * distance itself is good to 4 times the operands' error. */
 static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
 {
     double t = -(ax * dx + ay * dy) * inverse;
@@ -26,13 +26,13 @@ static inline double sunder_i_segment_square(double ax, double ay, double dx, do
 }
 
 /* Adds a candidate; order() then makes a heap of them all. */
-bool sunder_i_candidates_push(sunder_i_pairing *pairing, sunder_i_candidates *heap, sunder_i_candidate candidate);
+bool sunder_i_candidates_push(sunder_i_operands *operands, sunder_i_candidates *heap, sunder_i_candidate candidate);
 void sunder_i_candidates_order(sunder_i_candidates *heap);
 
 /* All segments nearer than `limit` units, as a heap with the nearest on top. Memory: the lattice's arena. */
-bool sunder_i_candidates_find(sunder_i_pairing *pairing, double limit, sunder_i_candidates *out);
+bool sunder_i_candidates_find(sunder_i_operands *operands, double limit, sunder_i_candidates *out);
 /* Takes the top off. n > 0. */
 sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *heap);
-sunder_i_line sunder_i_candidate_line(sunder_i_pairing *pairing, const sunder_i_candidate *candidate);
+sunder_i_carrier sunder_i_candidate_carrier(sunder_i_operands *operands, const sunder_i_candidate *candidate);
 
 #endif

@@ -29,7 +29,7 @@ static void cut(cutting *c, uint32_t first, uint32_t last)
 }
 
 /* Each part beyond the core has at least one corner of its own, and two that were there before. */
-static bool cut_operand(sunder_i_pairing *g, int side)
+static bool cut_operand(sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     sunder_i_arena *arena = &g->placed.lattice.arena;
@@ -52,14 +52,11 @@ static bool cut_operand(sunder_i_pairing *g, int side)
     g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));
     g->ring[side] = sunder_i_arena_alloc(arena, out->pieces, sizeof *g->ring[side]);
     if (!g->ring[side]) return false;
-    sunder_i_pairing_fill_boxes(g, side);
+    sunder_i_operands_fill_boxes(g, side);
     return true;
 }
 
-bool sunder_i_pairing_cut(sunder_i_pairing *g)
-{
-    return cut_operand(g, 0) && cut_operand(g, 1);
-}
+bool sunder_i_operands_cut(sunder_i_operands *g) { return cut_operand(g, 0) && cut_operand(g, 1); }
 
 static uint64_t parts_of(const sunder_shape *s)
 {
@@ -69,4 +66,4 @@ static uint64_t parts_of(const sunder_shape *s)
     return parts;
 }
 
-uint64_t sunder_i_pairing_parts(const sunder_i_pairing *g) { return parts_of(g->shape[0]) * parts_of(g->shape[1]); }
+uint64_t sunder_i_operands_parts(const sunder_i_operands *g) { return parts_of(g->shape[0]) * parts_of(g->shape[1]); }

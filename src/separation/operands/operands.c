@@ -18,7 +18,7 @@ static void grow_box(double box[4], double x, double y)
 
 static const double EMPTY_BOX[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
 
-void sunder_i_pairing_fill_boxes(sunder_i_pairing *g, int side)
+void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
@@ -36,7 +36,7 @@ void sunder_i_pairing_fill_boxes(sunder_i_pairing *g, int side)
     for (int k = 0; k < 4; k++) g->magnitude = fmax(g->magnitude, fabs(all[k]));
 }
 
-static void fill_doubles(sunder_i_pairing *g, int side)
+static void fill_doubles(sunder_i_operands *g, int side)
 {
     for (uint32_t v = 0; v < g->shape[side]->vertices; v++) {
         g->xy[side][2 * v] = sunder_i_approx(&g->placed.lattice, g->at[side][v].x);
@@ -45,7 +45,7 @@ static void fill_doubles(sunder_i_pairing *g, int side)
 }
 
 /* All arrays in one block of the lattice's arena; `points`: room for the vertices on the lattice too. */
-static bool make_room(sunder_i_pairing *g, sunder_i_point **points)
+static bool make_room(sunder_i_operands *g, sunder_i_point **points)
 {
     const size_t pn = g->shape[0]->vertices, qn = g->shape[1]->vertices;
     const size_t pp = g->shape[0]->pieces, qp = g->shape[1]->pieces;
@@ -82,7 +82,7 @@ static void hold(plain *u, const double *v, size_t n, double *most)
 }
 
 /* The unit, if everything is an integer below 2^53 in it; false if not. */
-static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunder_i_pairing_options *o, plain *u)
+static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunder_i_operands_options *o, plain *u)
 {
     if (p->rational || q->rational || o->force_wide) return false;
     double most = 0;
@@ -104,7 +104,7 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
 
 /* Integers below 2^53 each, so below 2^55 together: exact on the lattice, and exact as doubles unless the magnitude
  * says that they are not. */
-static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool reflect, sunder_i_point *out)
+static void plain_operand(sunder_i_operands *g, int side, const plain *u, bool reflect, sunder_i_point *out)
 {
     const sunder_shape *s = g->shape[side];
     double *xy = g->xy[side];
@@ -119,7 +119,7 @@ static void plain_operand(sunder_i_pairing *g, int side, const plain *u, bool re
     }
 }
 
-static bool place_plain(sunder_i_pairing *g, bool reflect, const plain *u)
+static bool place_plain(sunder_i_operands *g, bool reflect, const plain *u)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     l->narrow = l->small = true;
@@ -150,12 +150,12 @@ static const double *reduced(const double *tp, const double *tq, double differen
     return difference;
 }
 
-static sunder_status place(sunder_i_pairing *g, const sunder_i_pairing_options *given, sunder_error *err)
+static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options *given, sunder_error *err)
 {
     plain u;
     double difference[2];
-    sunder_i_pairing_options reduced_options = *given;
-    const sunder_i_pairing_options *o = given;
+    sunder_i_operands_options reduced_options = *given;
+    const sunder_i_operands_options *o = given;
     if (reduced(given->tp, given->tq, difference)) {
         g->base[0] = given->tp[0];
         g->base[1] = given->tp[1];
@@ -189,8 +189,8 @@ static sunder_status place(sunder_i_pairing *g, const sunder_i_pairing_options *
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, const sunder_shape *q,
-                                    const sunder_i_pairing_options *options, sunder_error *err)
+sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p, const sunder_shape *q,
+                                     const sunder_i_operands_options *options, sunder_error *err)
 {
     memset(g, 0, sizeof *g);
     g->shape[0] = p;
@@ -198,8 +198,8 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     const sunder_status status = place(g, options, err);
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
-    sunder_i_pairing_fill_boxes(g, 0);
-    sunder_i_pairing_fill_boxes(g, 1);
+    sunder_i_operands_fill_boxes(g, 0);
+    sunder_i_operands_fill_boxes(g, 1);
     g->error = COORDINATE_ERROR * g->magnitude;
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
     g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
@@ -208,7 +208,7 @@ sunder_status sunder_i_pairing_init(sunder_i_pairing *g, const sunder_shape *p, 
     return SUNDER_OK;
 }
 
-void sunder_i_pairing_free(sunder_i_pairing *pairing) { sunder_i_placed_free(&pairing->placed); }
+void sunder_i_operands_free(sunder_i_operands *operands) { sunder_i_placed_free(&operands->placed); }
 
 /* Is a + s + gap <= b + t for certain? Each double sum is off by at most an ulp of its larger operand. */
 static bool certainly_below(double a, double s, double b, double t, double gap)

@@ -4,8 +4,8 @@
  *
  * "Units" are those of sunder_i_approx(): lattice units over 2^approx_shift. Doubles only ever settle a question when
  * they clear the bound; else the lattice decides. */
-#ifndef SUNDER_I_PAIRING_H
-#define SUNDER_I_PAIRING_H
+#ifndef SUNDER_I_OPERANDS_H
+#define SUNDER_I_OPERANDS_H
 
 #include "base/watch.h"
 #include "predicate/kernel.h"
@@ -28,7 +28,7 @@ typedef struct sunder_i_ring {
     sunder_i_point *corner, *side;
 } sunder_i_ring;
 
-typedef struct sunder_i_pairing {
+typedef struct sunder_i_operands {
     const sunder_shape *shape[2];
     sunder_i_placed placed;
     const sunder_i_point *at[2]; /* vertices on the lattice; Q's reflected if that was asked for */
@@ -43,46 +43,46 @@ typedef struct sunder_i_pairing {
     double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */
 
     sunder_i_ring *ring[2];  /* [pieces] */
-    sunder_i_subsum *subsum; /* those within reach (sunder_i_pairing_reach); they that may cover the origin first */
+    sunder_i_subsum *subsum; /* those within reach (sunder_i_operands_reach); they that may cover the origin first */
     size_t subsums;
-    struct sunder_i_held *held; /* what is known of them all together; NULL: nothing (board.h) */
-} sunder_i_pairing;
+    struct sunder_i_board *board; /* what is known of them all together; NULL: nothing (board.h) */
+} sunder_i_operands;
 
-typedef struct sunder_i_pairing_options {
+typedef struct sunder_i_operands_options {
     const double *tp, *tq; /* exact translations, or NULL */
     bool reflect_q, force_wide;
     const double *extra; /* further doubles for the lattice to hold */
     size_t extra_n;
-} sunder_i_pairing_options;
+} sunder_i_operands_options;
 
-/* Both operands not empty. *pairing is to be freed only after success. */
-sunder_status sunder_i_pairing_init(sunder_i_pairing *pairing, const sunder_shape *p, const sunder_shape *q,
-                                    const sunder_i_pairing_options *options, sunder_error *err);
-void sunder_i_pairing_free(sunder_i_pairing *pairing);
+/* Both operands not empty. *operands is to be freed only after success. */
+sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_shape *p, const sunder_shape *q,
+                                     const sunder_i_operands_options *options, sunder_error *err);
+void sunder_i_operands_free(sunder_i_operands *operands);
 
 /* The boxes of an operand's pieces, and its own. */
-void sunder_i_pairing_fill_boxes(sunder_i_pairing *pairing, int side);
+void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side);
 
 /* Cuts up the pieces that have many corners (cut_pieces.c); false if memory is out. */
-bool sunder_i_pairing_cut(sunder_i_pairing *pairing);
+bool sunder_i_operands_cut(sunder_i_operands *operands);
 /* About how many pairs of pieces there would be then. */
-uint64_t sunder_i_pairing_parts(const sunder_i_pairing *pairing);
+uint64_t sunder_i_operands_parts(const sunder_i_operands *operands);
 
 /* Do the boxes of P + tp and Q + tq stand at least gap apart in one coordinate? True only if that is certain. */
 bool sunder_i_boxes_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                           double gap);
 
 /* Do the interiors of piece i of P and piece j of Q (not reflected) meet? Exact. */
-bool sunder_i_pieces_overlap(sunder_i_pairing *pairing, uint32_t i, uint32_t j);
+bool sunder_i_pieces_overlap(sunder_i_operands *operands, uint32_t i, uint32_t j);
 /* Do the interiors of any two? False too if memory is out. */
-bool sunder_i_operands_overlap(sunder_i_pairing *pairing);
+bool sunder_i_operands_overlap(sunder_i_operands *operands);
 
 /* Lists the subsums whose boxes come within `radius` units of the origin (none is made yet). False if memory is out. */
-bool sunder_i_pairing_reach(sunder_i_pairing *pairing, double radius);
+bool sunder_i_operands_reach(sunder_i_operands *operands, double radius);
 /* Turns all pieces at once, which is done for each when it is wanted else; false if memory is out. */
-bool sunder_i_pairing_turn(sunder_i_pairing *pairing);
+bool sunder_i_operands_turn(sunder_i_operands *operands);
 /* Makes the corners of one; false if memory is out. */
-bool sunder_i_subsum_make(sunder_i_pairing *pairing, sunder_i_subsum *subsum);
+bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum);
 
 /* Subsums of so many sides are searched by halving; the sides of others are looked at one by one. */
 #define SUNDER_I_SIDES_MANY 24
@@ -102,24 +102,24 @@ static inline uint32_t sunder_i_subsum_fan(uint32_t sides, const double *cx, con
     return low;
 }
 
-static inline sunder_i_point sunder_i_pairing_diff(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b)
+static inline sunder_i_point sunder_i_operands_diff(sunder_i_operands *g, sunder_i_point a, sunder_i_point b)
 {
     return g->placed.lattice.narrow ? sunder_i_narrow_sub(a, b) : sunder_i_point_sub(&g->placed.lattice, a, b);
 }
 
-static inline sunder_i_point sunder_i_pairing_add(sunder_i_pairing *g, sunder_i_point a, sunder_i_point b)
+static inline sunder_i_point sunder_i_operands_add(sunder_i_operands *g, sunder_i_point a, sunder_i_point b)
 {
     return g->placed.lattice.narrow ? (sunder_i_point){a.x + b.x, a.y + b.y}
                                     : sunder_i_point_add(&g->placed.lattice, a, b);
 }
 
-static inline int sunder_i_pairing_cross(sunder_i_pairing *g, sunder_i_point u, sunder_i_point v)
+static inline int sunder_i_operands_cross(sunder_i_operands *g, sunder_i_point u, sunder_i_point v)
 {
     return g->placed.lattice.narrow ? sunder_i_i128_sign(sunder_i_narrow_cross(u, v))
                                     : sunder_i_cross_sign(&g->placed.lattice, u, v);
 }
 
-static inline int sunder_i_pairing_dot(sunder_i_pairing *g, sunder_i_point u, sunder_i_point v)
+static inline int sunder_i_operands_dot(sunder_i_operands *g, sunder_i_point u, sunder_i_point v)
 {
     return g->placed.lattice.narrow ? sunder_i_i128_sign(sunder_i_narrow_dot(u, v))
                                     : sunder_i_dot_sign(&g->placed.lattice, u, v);

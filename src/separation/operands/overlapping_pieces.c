@@ -4,7 +4,7 @@
 #include "separation/operands/operands.h"
 
 /* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
-static bool side_parts(sunder_i_pairing *g, int side, uint32_t i, uint32_t j)
+static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
 {
     const sunder_shape *s = g->shape[side], *o = g->shape[!side];
     const uint32_t *c = s->piece_vertex, *d = o->piece_vertex;
@@ -25,7 +25,7 @@ static bool side_parts(sunder_i_pairing *g, int side, uint32_t i, uint32_t j)
     return false;
 }
 
-bool sunder_i_pieces_overlap(sunder_i_pairing *g, uint32_t i, uint32_t j)
+bool sunder_i_pieces_overlap(sunder_i_operands *g, uint32_t i, uint32_t j)
 {
     const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
     if (a[2] < b[0] - e || b[2] < a[0] - e || a[3] < b[1] - e || b[3] < a[1] - e) return false;
@@ -33,7 +33,7 @@ bool sunder_i_pieces_overlap(sunder_i_pairing *g, uint32_t i, uint32_t j)
 }
 
 /* The pieces of one operand whose boxes come within `reach` of the other operand's box. */
-static uint32_t *pieces_near(sunder_i_pairing *g, int side, double reach, uint32_t *n)
+static uint32_t *pieces_near(sunder_i_operands *g, int side, double reach, uint32_t *n)
 {
     const uint32_t all = g->shape[side]->pieces;
     uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, all, sizeof *list);
@@ -48,7 +48,7 @@ static uint32_t *pieces_near(sunder_i_pairing *g, int side, double reach, uint32
     return list;
 }
 
-bool sunder_i_operands_overlap(sunder_i_pairing *g)
+bool sunder_i_operands_overlap(sunder_i_operands *g)
 {
     uint32_t m, n;
     const uint32_t *p = pieces_near(g, 0, g->error, &m), *q = pieces_near(g, 1, g->error, &n);

@@ -16,7 +16,7 @@ static bool touches_disc(const double box[4], double radius)
 }
 
 /* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
-static int nearness(const sunder_i_pairing *g, uint32_t i, uint32_t j, double reach, double box[4])
+static int nearness(const sunder_i_operands *g, uint32_t i, uint32_t j, double reach, double box[4])
 {
     const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
     for (int k = 0; k < 4; k++) box[k] = a[k] + b[k];
@@ -24,7 +24,7 @@ static int nearness(const sunder_i_pairing *g, uint32_t i, uint32_t j, double re
 }
 
 /* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
-static bool sort_by_size(sunder_i_pairing *g)
+static bool sort_by_size(sunder_i_operands *g)
 {
     sunder_i_arena *arena = &g->placed.lattice.arena;
     const size_t n = g->subsums;
@@ -44,7 +44,7 @@ static bool sort_by_size(sunder_i_pairing *g)
     return true;
 }
 
-bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
+bool sunder_i_operands_reach(sunder_i_operands *g, double radius)
 {
     const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
     const double reach = radius + 2 * g->error;
@@ -81,7 +81,7 @@ bool sunder_i_pairing_reach(sunder_i_pairing *g, double radius)
 
 /* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
 
-static uint32_t lowest(sunder_i_pairing *g, int side, uint32_t first, uint32_t n)
+static uint32_t lowest(sunder_i_operands *g, int side, uint32_t first, uint32_t n)
 {
     const uint32_t *c = g->shape[side]->piece_vertex + first;
     sunder_i_lattice *l = &g->placed.lattice;
@@ -101,7 +101,7 @@ static uint32_t lowest(sunder_i_pairing *g, int side, uint32_t first, uint32_t n
 }
 
 /* The piece's corners and sides, one more corner than sides; NULL if memory is out. */
-static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece)
+static const sunder_i_ring *turned(sunder_i_operands *g, int side, uint32_t piece)
 {
     sunder_i_ring *r = g->ring[side] + piece;
     if (r->n) return r;
@@ -116,12 +116,12 @@ static const sunder_i_ring *turned(sunder_i_pairing *g, int side, uint32_t piece
         block[i] = g->at[side][s->piece_vertex[first + k]];
         if (++k == n) k = 0;
     }
-    for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_pairing_diff(g, block[i + 1], block[i]);
+    for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_operands_diff(g, block[i + 1], block[i]);
     r->n = n;
     return r;
 }
 
-bool sunder_i_pairing_turn(sunder_i_pairing *g)
+bool sunder_i_operands_turn(sunder_i_operands *g)
 {
     for (int side = 0; side < 2; side++)
         for (uint32_t i = 0; i < g->shape[side]->pieces; i++)
@@ -133,21 +133,21 @@ bool sunder_i_pairing_turn(sunder_i_pairing *g)
 
 /* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
  * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
-static uint32_t merge(sunder_i_pairing *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
+static uint32_t merge(sunder_i_operands *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
                       sunder_i_point *side)
 {
     uint32_t n = 0, i = 0, j = 0;
     while (i < a->n || j < b->n) {
-        corner[n] = sunder_i_pairing_add(g, a->corner[i], b->corner[j]);
-        const int turn = i == a->n ? -1 : j == b->n ? 1 : sunder_i_pairing_cross(g, a->side[i], b->side[j]);
-        side[n++] = turn > 0 ? a->side[i] : turn < 0 ? b->side[j] : sunder_i_pairing_add(g, a->side[i], b->side[j]);
+        corner[n] = sunder_i_operands_add(g, a->corner[i], b->corner[j]);
+        const int turn = i == a->n ? -1 : j == b->n ? 1 : sunder_i_operands_cross(g, a->side[i], b->side[j]);
+        side[n++] = turn > 0 ? a->side[i] : turn < 0 ? b->side[j] : sunder_i_operands_add(g, a->side[i], b->side[j]);
         i += turn >= 0;
         j += turn <= 0;
     }
     return n;
 }
 
-bool sunder_i_subsum_make(sunder_i_pairing *g, sunder_i_subsum *s)
+bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_ring *a = turned(g, 0, s->i), *b = turned(g, 1, s->j);

@@ -10,23 +10,23 @@ typedef struct cone {
     sunder_i_point from, to; /* counter-clockwise, at most pi */
 } cone;
 
-static int opposite_or_same(sunder_i_pairing *g, sunder_i_point u, sunder_i_point v)
+static int opposite_or_same(sunder_i_operands *g, sunder_i_point u, sunder_i_point v)
 {
-    return sunder_i_pairing_cross(g, u, v) == 0 ? sunder_i_pairing_dot(g, u, v) : 0;
+    return sunder_i_operands_cross(g, u, v) == 0 ? sunder_i_operands_dot(g, u, v) : 0;
 }
 
-static bool strictly_inside(sunder_i_pairing *g, const cone *c, sunder_i_point r)
+static bool strictly_inside(sunder_i_operands *g, const cone *c, sunder_i_point r)
 {
-    return sunder_i_pairing_cross(g, c->from, r) > 0 && sunder_i_pairing_cross(g, r, c->to) > 0;
+    return sunder_i_operands_cross(g, c->from, r) > 0 && sunder_i_operands_cross(g, r, c->to) > 0;
 }
 
-static sunder_i_point negative(sunder_i_pairing *g, sunder_i_point u)
+static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
 {
     return g->placed.lattice.narrow ? (sunder_i_point){-u.x, -u.y} : sunder_i_point_neg(&g->placed.lattice, u);
 }
 
 /* The cone of one subsum at the point; false if the point is not on its boundary. */
-static bool cone_of(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_subsum *s, cone *out)
+static bool cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
 {
     const double e = g->error;
     if (f->x < s->box[0] - e || f->x > s->box[2] + e || f->y < s->box[1] - e || f->y > s->box[3] + e) return false;
@@ -36,7 +36,7 @@ static bool cone_of(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_sub
         const double v = s->sx[k] * (f->y - s->cy[k]) - s->sy[k] * (f->x - s->cx[k]);
         if (v < -s->bound[k]) return false;
         if (v > s->bound[k]) continue;
-        const int side = sunder_i_line_side(g, &f->line, &f->t, s, k);
+        const int side = sunder_i_carrier_side(g, &f->line, &f->t, s, k);
         if (side < 0) return false;
         if (side == 0 && n < 2) on[n++] = k;
     }
@@ -49,7 +49,7 @@ static bool cone_of(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_sub
     return true;
 }
 
-static sunder_i_point *sorted_rays(sunder_i_pairing *g, const cone *cones, size_t n, size_t *rays)
+static sunder_i_point *sorted_rays(sunder_i_operands *g, const cone *cones, size_t n, size_t *rays)
 {
     sunder_i_point *r = sunder_i_arena_alloc(&g->placed.lattice.arena, 2 * n, sizeof *r);
     *rays = 0;
@@ -72,7 +72,7 @@ typedef struct around {
     size_t starts;
 } around;
 
-static around look_around(sunder_i_pairing *g, const cone *cones, size_t n, const sunder_i_point *ray, size_t rays,
+static around look_around(sunder_i_operands *g, const cone *cones, size_t n, const sunder_i_point *ray, size_t rays,
                           bool *arc_covered)
 {
     around a = {0, 0, 0, 0};
@@ -94,7 +94,7 @@ static around look_around(sunder_i_pairing *g, const cone *cones, size_t n, cons
     return a;
 }
 
-static sunder_contact classify(sunder_i_pairing *g, const cone *cones, size_t n)
+static sunder_contact classify(sunder_i_operands *g, const cone *cones, size_t n)
 {
     size_t rays;
     sunder_i_lattice *l = &g->placed.lattice;
@@ -116,7 +116,7 @@ static sunder_contact classify(sunder_i_pairing *g, const cone *cones, size_t n)
     return SUNDER_CONTACT_VERTEX;
 }
 
-sunder_contact sunder_i_nearest_contact(sunder_i_pairing *g, const sunder_i_nearest *f)
+sunder_contact sunder_i_free_point_contact(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     size_t n = 0;
     cone *cones = sunder_i_arena_alloc(&g->placed.lattice.arena, g->subsums + 1, sizeof *cones);

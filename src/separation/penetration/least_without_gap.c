@@ -4,33 +4,33 @@
 
 #include <math.h>
 
-static sunder_status answer_without_gap(sunder_i_pairing *g, const sunder_i_nearest *f, bool texts,
+static sunder_status answer_without_gap(sunder_i_operands *g, const sunder_i_free_point *f, bool texts,
                                         sunder_separation *out, sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
     const sunder_i_vector_exact v = sunder_i_vector_of(g, &point);
     out->overlap = out->attained = true;
-    out->contact = sunder_i_nearest_contact(g, f);
+    out->contact = sunder_i_free_point_contact(g, f);
     sunder_i_answer_numbers(g, &v, out);
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || sunder_i_doubles_free(g, out->dx, out->dy);
-    if (!sunder_i_nearest_verify(g, f) && !l->arena.failed)
+    if (!sunder_i_free_point_verify(g, f) && !l->arena.failed)
         return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
     if (l->arena.failed) return sunder_i_no_memory(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_shape *q,
-                                         const sunder_i_least_options *o, sunder_separation *out, bool *beyond,
-                                         sunder_error *err)
+sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
+                                         sunder_separation *out, bool *beyond, sunder_error *err)
 {
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide};
-    sunder_status status = sunder_i_pairing_init(&g, p, q, &options, err);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {
+        .tp = o->tp, .tq = o->tq, .reflect_q = true, .force_wide = o->force_wide};
+    sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
-    sunder_i_nearest found;
+    sunder_i_free_point found;
     const double limit = o->upper < INFINITY ? o->upper / g.unit : INFINITY;
-    status = sunder_i_nearest_free(&g, limit == limit ? limit : INFINITY, &found, err);
+    status = sunder_i_nearest_free_point(&g, limit == limit ? limit : INFINITY, &found, err);
     if (status == SUNDER_OK) {
         if (found.found && found.origin)
             status = sunder_i_stay(o->texts, out, err);
@@ -45,6 +45,6 @@ sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_sha
         }
         out->counts = g.placed.lattice.counts;
     }
-    sunder_i_pairing_free(&g);
+    sunder_i_operands_free(&g);
     return status;
 }

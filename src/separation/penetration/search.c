@@ -2,15 +2,15 @@
  * the point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments
  * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/penetration/search.h"
-#include "separation/obstacle/reduced_convolution.h"
 #include "separation/obstacle/board.h"
+#include "separation/obstacle/reduced_convolution.h"
 #include "separation/squares/squares.h"
 
 #include <math.h>
 
 typedef struct search {
-    sunder_i_pairing *g;
-    sunder_i_nearest best;
+    sunder_i_operands *g;
+    sunder_i_free_point best;
     sunder_i_hpoint best_point;
     bool best_point_known;
     size_t found; /* how often a better one was */
@@ -42,7 +42,7 @@ static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_
     return c;
 }
 
-static bool better(search *s, const sunder_i_line *line, const sunder_i_fraction *t, double distance,
+static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double distance,
                    sunder_i_hpoint *point, bool *known)
 {
     *known = false;
@@ -61,12 +61,13 @@ static bool better(search *s, const sunder_i_line *line, const sunder_i_fraction
     return c < 0 || (c == 0 && order < 0);
 }
 
-static void offer(search *s, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y, double distance)
+static void offer(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
+                  double distance)
 {
     sunder_i_hpoint point;
     bool known;
     if (!better(s, line, t, distance, &point, &known)) return;
-    s->best = (sunder_i_nearest){true, false, *line, *t, x, y, distance};
+    s->best = (sunder_i_free_point){true, false, *line, *t, x, y, distance};
     s->found++;
     s->best_point_known = known;
     if (known) s->best_point = point;
@@ -74,19 +75,19 @@ static void offer(search *s, const sunder_i_line *line, const sunder_i_fraction 
 }
 
 /* From t, which subsum `cover` has in its interior, along the line to the first free point; none beyond the limit. */
-static void walk(search *s, const sunder_i_line *line, long cover, bool forwards)
+static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwards)
 {
-    sunder_i_pairing *g = s->g;
+    sunder_i_operands *g = s->g;
     for (;;) {
-        const sunder_i_fraction t = sunder_i_line_exit(g, line, g->subsum + cover, forwards);
-        if (forwards ? sunder_i_line_cmp(g, &t, &s->one) > 0 : sunder_i_line_cmp(g, &t, &s->zero) < 0) return;
+        const sunder_i_fraction t = sunder_i_carrier_exit(g, line, g->subsum + cover, forwards);
+        if (forwards ? sunder_i_carrier_cmp(g, &t, &s->one) > 0 : sunder_i_carrier_cmp(g, &t, &s->zero) < 0) return;
         if (s->square && (forwards ? t.value > s->to : t.value < s->from)) return;
         double x, y;
-        sunder_i_line_at(line, &t, &x, &y);
+        sunder_i_carrier_at(line, &t, &x, &y);
         const double distance = sqrt(x * x + y * y);
         if (distance > s->limit) return;
         size_t first = (size_t)cover;
-        cover = sunder_i_line_cover(g, line, &t, x, y, &first);
+        cover = sunder_i_carrier_cover(g, line, &t, x, y, &first);
         if (g->placed.lattice.arena.failed) return;
         if (cover < 0) {
             offer(s, line, &t, x, y, distance);
@@ -96,7 +97,7 @@ static void walk(search *s, const sunder_i_line *line, long cover, bool forwards
 }
 
 /* The part of the line in the square, with room for what points may be off by; false if there is none. */
-static bool enter_square(search *s, const sunder_i_line *line)
+static bool enter_square(search *s, const sunder_i_carrier *line)
 {
     const double e = 32 * s->g->error, a[2] = {line->ax, line->ay}, d[2] = {line->dx, line->dy};
     s->from = 0;
@@ -123,27 +124,27 @@ static sunder_i_fraction foot_in_square(const search *s, sunder_i_fraction foot)
     return (sunder_i_fraction){n, (int64_t)1 << 50, (double)n * 0x1p-50};
 }
 
-static void try_candidate(search *s, const sunder_i_line *line)
+static void try_candidate(search *s, const sunder_i_carrier *line)
 {
-    sunder_i_pairing *g = s->g;
+    sunder_i_operands *g = s->g;
     if (s->square && !enter_square(s, line)) return;
-    const sunder_i_fraction foot = foot_in_square(s, sunder_i_line_foot(g, line));
+    const sunder_i_fraction foot = foot_in_square(s, sunder_i_carrier_foot(g, line));
     double x, y;
-    sunder_i_line_at(line, &foot, &x, &y);
+    sunder_i_carrier_at(line, &foot, &x, &y);
     const double distance = sqrt(x * x + y * y);
     if (distance > s->limit) return;
-    const long cover = sunder_i_line_cover(g, line, &foot, x, y, &s->first);
+    const long cover = sunder_i_carrier_cover(g, line, &foot, x, y, &s->first);
     if (g->placed.lattice.arena.failed) return;
     if (cover < 0) {
         offer(s, line, &foot, x, y, distance);
         return;
     }
-    if (foot.value < 0.5 || sunder_i_line_cmp(g, &foot, &s->one) < 0) walk(s, line, cover, true);
-    if (foot.value > 0.5 || sunder_i_line_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
+    if (foot.value < 0.5 || sunder_i_carrier_cmp(g, &foot, &s->one) < 0) walk(s, line, cover, true);
+    if (foot.value > 0.5 || sunder_i_carrier_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
 }
 
 /* The way out along each axis is free, so the nearest free point is not farther than the shortest of them. */
-static double way_out(const sunder_i_pairing *g)
+static double way_out(const sunder_i_operands *g)
 {
     double d = INFINITY;
     for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
@@ -151,20 +152,20 @@ static double way_out(const sunder_i_pairing *g)
 }
 
 /* Does a subsum cover the origin? The overlap test, asked of the subsums at hand. */
-static bool origin_covered(sunder_i_pairing *g, const sunder_i_fraction *zero)
+static bool origin_covered(sunder_i_operands *g, const sunder_i_fraction *zero)
 {
-    const sunder_i_line axis = sunder_i_line_make(g, (sunder_i_point){0, 0}, (sunder_i_point){1, 0});
-    return sunder_i_line_cover(g, &axis, zero, 0, 0, NULL) >= 0;
+    const sunder_i_carrier axis = sunder_i_carrier_make(g, (sunder_i_point){0, 0}, (sunder_i_point){1, 0});
+    return sunder_i_carrier_cover(g, &axis, zero, 0, 0, NULL) >= 0;
 }
 
 static bool search_all(search *s)
 {
-    sunder_i_pairing *g = s->g;
+    sunder_i_operands *g = s->g;
     sunder_i_candidates heap;
     if (!sunder_i_candidates_find(g, s->limit, &heap)) return false;
     while (heap.n && sqrt(heap.item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
-        const sunder_i_line line = sunder_i_candidate_line(g, &c);
+        const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
     }
     return true;
@@ -173,27 +174,27 @@ static bool search_all(search *s)
 /* The nearest free point within s->limit, if there is one; false if memory is out. */
 static bool nearest_within(search *s)
 {
-    sunder_i_pairing *g = s->g;
-    if (!sunder_i_pairing_reach(g, s->limit)) return false;
+    sunder_i_operands *g = s->g;
+    if (!sunder_i_operands_reach(g, s->limit)) return false;
     if (!origin_covered(g, &s->zero)) {
         s->best.found = s->best.origin = true;
         return true;
     }
-    if (g->subsums >= SUNDER_I_HELD_FROM && !sunder_i_held_build(g, s->limit + 16 * g->error)) return false;
+    if (g->subsums >= SUNDER_I_BOARD_FROM && !sunder_i_board_build(g, s->limit + 16 * g->error)) return false;
     const bool ok = search_all(s);
-    sunder_i_held_free(g);
+    sunder_i_board_free(g);
     return ok;
 }
 
 /* The candidates of one square. Its subsums are forgotten again, but where they hold the answer. */
 static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark mark, sunder_i_subsum **list, size_t *n)
 {
-    sunder_i_pairing *g = s->g;
+    sunder_i_operands *g = s->g;
     const size_t before = s->found, pooled = g->placed.lattice.pool_n;
     s->first = 0;
     while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
-        const sunder_i_line line = sunder_i_candidate_line(g, &c);
+        const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
     }
     if (s->found > before) {
@@ -208,7 +209,7 @@ static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark ma
 
 static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares)
 {
-    sunder_i_pairing *g = s->g;
+    sunder_i_operands *g = s->g;
     sunder_i_subsum *list = NULL;
     size_t n = 0;
     double box[4];
@@ -216,7 +217,7 @@ static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares
     sunder_i_candidates heap;
     sunder_i_squares_next next;
     bool covered;
-    if (!sunder_i_pairing_turn(g) || !sunder_i_squares_take_origin(squares, &covered))
+    if (!sunder_i_operands_turn(g) || !sunder_i_squares_take_origin(squares, &covered))
         return SUNDER_I_SQUARES_NO_MEMORY;
     if (!covered && !origin_covered(g, &s->zero)) {
         s->best.found = s->best.origin = true;
@@ -241,14 +242,14 @@ static bool by_squares(search *s, bool *done)
     sunder_i_squares_free(squares);
     *done = end == SUNDER_I_SQUARES_END;
     if (!*done) { /* what was found so far is not known to be nearest */
-        s->best = (sunder_i_nearest){.found = false};
+        s->best = (sunder_i_free_point){.found = false};
         s->best_point_known = false;
         s->limit = limit;
     }
     return end != SUNDER_I_SQUARES_NO_MEMORY && !s->g->placed.lattice.arena.failed;
 }
 
-static search begin(sunder_i_pairing *g, double limit)
+static search begin(sunder_i_operands *g, double limit)
 {
     return (search){.g = g,
                     .limit = fmin(way_out(g), limit + 8 * g->error),
@@ -256,7 +257,7 @@ static search begin(sunder_i_pairing *g, double limit)
                     .one = sunder_i_fraction_int(&g->placed.lattice, 1)};
 }
 
-sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *g, double limit, bool *done, sunder_i_nearest *out,
+sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bool *done, sunder_i_free_point *out,
                                           sunder_error *err)
 {
     search s = begin(g, limit);
@@ -274,11 +275,12 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_pairing *g, double limit, boo
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 
-/* By squares, with pieces of few corners; where that leads nowhere the pairing is as it was. */
-static sunder_status by_parts(sunder_i_pairing *g, double limit, bool *done, sunder_i_nearest *out, sunder_error *err)
+/* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
+static sunder_status by_parts(sunder_i_operands *g, double limit, bool *done, sunder_i_free_point *out,
+                              sunder_error *err)
 {
-    const sunder_i_pairing whole = *g;
-    if (!sunder_i_pairing_cut(g)) return sunder_i_no_memory(err);
+    const sunder_i_operands whole = *g;
+    if (!sunder_i_operands_cut(g)) return sunder_i_no_memory(err);
     const sunder_status status = sunder_i_nearest_by_squares(g, limit, done, out, err);
     if (status || *done) return status;
     for (int k = 0; k < 2; k++) {
@@ -289,11 +291,12 @@ static sunder_status by_parts(sunder_i_pairing *g, double limit, bool *done, sun
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_nearest *out, sunder_error *err)
+sunder_status sunder_i_nearest_free_point(sunder_i_operands *g, double limit, sunder_i_free_point *out,
+                                          sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const bool many = (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_WHOLE &&
-                      sunder_i_pairing_parts(g) >= WIDEN_FROM;
+    const bool many =
+        (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_WHOLE && sunder_i_operands_parts(g) >= WIDEN_FROM;
     if (many) {
         bool done = false;
         const sunder_status status = by_parts(g, limit, &done, out, err);
@@ -309,7 +312,7 @@ sunder_status sunder_i_nearest_free(sunder_i_pairing *g, double limit, sunder_i_
         if (!nearest_within(&s) || l->arena.failed) return sunder_i_no_memory(err);
         /* So close to the rim, a nearer point may have been taken for one outside. */
         if (times && !s.best.origin && s.best.distance + 16 * g->error > disc)
-            s.best = (sunder_i_nearest){.found = false};
+            s.best = (sunder_i_free_point){.found = false};
         s.best_point_known = s.best_point_known && s.best.found;
     }
     *out = s.best;

@@ -14,7 +14,7 @@ typedef struct convex {
     uint32_t n;
 } convex;
 
-static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
+static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t first = i ? s->piece_end[i - 1] : 0;
@@ -22,12 +22,12 @@ static convex piece_of(const sunder_i_pairing *g, int side, uint32_t i)
 }
 
 /* Sign of cross(b - a, x - c - a), x the point found: on which side of ab the corner x - c of Q + x is. Exact. */
-static int exact_side(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_point a, sunder_i_point b,
+static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_point a, sunder_i_point b,
                       sunder_i_point c)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     l->counts.orientation_tests++;
-    const sunder_i_point corner = sunder_i_pairing_add(g, a, c);
+    const sunder_i_point corner = sunder_i_operands_add(g, a, c);
     if (!l->narrow) {
         const sunder_i_hpoint x = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
         return sunder_i_orient_hpoint(l, corner, sunder_i_point_add(l, b, c), &x);
@@ -39,7 +39,7 @@ static int exact_side(sunder_i_pairing *g, const sunder_i_nearest *f, sunder_i_p
 }
 
 /* Does a side of p have all of x - q on its right or on it? Symmetric in p and q up to the reflection at x / 2. */
-static bool side_parts(sunder_i_pairing *g, const sunder_i_nearest *f, const convex *p, const convex *q)
+static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const convex *p, const convex *q)
 {
     const double per_length = 4 * g->error, fixed = 32 * g->magnitude * g->rough;
     for (uint32_t k = 0; k < p->n; k++) {
@@ -63,7 +63,7 @@ static bool side_parts(sunder_i_pairing *g, const sunder_i_nearest *f, const con
 }
 
 /* Does the point lie off the subsum of these pieces by its box, or by a side of one of them? */
-static bool parted(sunder_i_pairing *g, const sunder_i_nearest *f, uint32_t i, uint32_t j)
+static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
 {
     const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
     if (f->x < a[0] + b[0] - e || f->x > a[2] + b[2] + e || f->y < a[1] + b[1] - e || f->y > a[3] + b[3] + e)
@@ -87,7 +87,7 @@ static int by_low_x(void *context, uint32_t i, uint32_t j)
     return (a > b) - (a < b);
 }
 
-static bool line_up(const sunder_i_pairing *g, const sunder_i_nearest *f, int side, row *r)
+static bool line_up(const sunder_i_operands *g, const sunder_i_free_point *f, int side, row *r)
 {
     const uint32_t n = g->shape[side]->pieces;
     const double *o = g->box[!side], e = g->error;
@@ -118,7 +118,7 @@ static uint32_t first_from(const row *r, double x)
 }
 
 /* For each piece of Q the pieces of P that can have the point between them in x. Doubles, with room for rounding. */
-static bool verify_many(sunder_i_pairing *g, const sunder_i_nearest *f)
+static bool verify_many(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     const double *b = g->piece_box[1], e = 4 * g->error;
     row p;
@@ -138,7 +138,7 @@ static bool verify_many(sunder_i_pairing *g, const sunder_i_nearest *f)
 
 #define MANY 4096 /* pairs, from which on sorting pays */
 
-bool sunder_i_nearest_verify(sunder_i_pairing *g, const sunder_i_nearest *f)
+bool sunder_i_free_point_verify(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     const uint32_t m = g->shape[0]->pieces, n = g->shape[1]->pieces;
     if ((uint64_t)m * n > MANY) return verify_many(g, f);

@@ -17,7 +17,7 @@ static float length_f(float x, float y) { return sqrtf(x * x + y * y); }
 
 /* A body with n corners, at xy or at those of its places that are named. Where the difference of corners is rounded the
  * directions of short sides are off by more than floats are. */
-static void add_body(sunder_i_bodies *b, const sunder_i_pairing *g, const double *xy, const uint32_t *vertex,
+static void add_body(sunder_i_bodies *b, const sunder_i_operands *g, const double *xy, const uint32_t *vertex,
                      uint32_t n)
 {
     const uint32_t first = b->n ? b->end[b->n - 1] : 0, blocks = (n + 3) / 4;
@@ -42,7 +42,7 @@ static void add_body(sunder_i_bodies *b, const sunder_i_pairing *g, const double
     b->end[b->n++] = first + blocks;
 }
 
-static void add_pieces(sunder_i_bodies *b, const sunder_i_pairing *g, int side)
+static void add_pieces(sunder_i_bodies *b, const sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     for (uint32_t i = 0, k = 0; i < s->pieces; k = s->piece_end[i++])
@@ -50,7 +50,7 @@ static void add_pieces(sunder_i_bodies *b, const sunder_i_pairing *g, int side)
 }
 
 /* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
-static bool add_box(sunder_i_bodies *b, const sunder_i_pairing *g, const double box[4])
+static bool add_box(sunder_i_bodies *b, const sunder_i_operands *g, const double box[4])
 {
     double at[4] = {box[0], box[1], box[2], box[3]};
     for (int k = 0; k < 4 && g->placed.lattice.narrow; k++) at[k] = k < 2 ? ceil(box[k]) : floor(box[k]);
@@ -68,20 +68,20 @@ typedef struct place {
 } place;
 
 /* The full boxes, level by level, so the largest first, until there are `most` more; false if memory is out. */
-static bool add_boxes(sunder_i_bodies *b, const sunder_i_pairing *g, const sunder_i_inner *inner, uint32_t most)
+static bool add_boxes(sunder_i_bodies *b, const sunder_i_operands *g, const sunder_i_quadtree *quadtree, uint32_t most)
 {
-    place *queue = sunder_i_alloc(inner->nodes, sizeof *queue);
+    place *queue = sunder_i_alloc(quadtree->nodes, sizeof *queue);
     size_t n = 1;
     if (!queue) return false;
     queue[0] = (place){.node = 0};
-    memcpy(queue[0].box, inner->box, sizeof queue[0].box);
+    memcpy(queue[0].box, quadtree->box, sizeof queue[0].box);
     for (size_t i = 0; i < n && most > 0 && sunder_i_step(); i++) {
         const place at = queue[i];
-        const int32_t child = inner->child[at.node];
-        if (child == SUNDER_I_INNER_FULL && add_box(b, g, at.box)) most--;
+        const int32_t child = quadtree->child[at.node];
+        if (child == SUNDER_I_QUADTREE_FULL && add_box(b, g, at.box)) most--;
         for (int k = 0; child >= 0 && k < 4; k++, n++) {
             queue[n].node = child + k;
-            sunder_i_inner_quarter(at.box, k, queue[n].box);
+            sunder_i_quadtree_quarter(at.box, k, queue[n].box);
         }
     }
     sunder_i_free(queue);
@@ -128,15 +128,15 @@ static float stands_out(const sunder_i_bodies *b, uint32_t i, uint32_t k)
 }
 
 /* Its extents in all ways together. */
-static float size_of(const sunder_i_extents *extent)
+static float size_of(const sunder_i_dop *extent)
 {
     float size = 0;
-    for (int k = 0; k < SUNDER_I_WAYS; k++) size += extent->high[k] - extent->low[k];
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) size += extent->high[k] - extent->low[k];
     return size;
 }
 
 /* The largest body of each node, by what is known of its children. */
-static bool name_chiefs(sunder_i_bodies *b, const sunder_i_extents *extent)
+static bool name_chiefs(sunder_i_bodies *b, const sunder_i_dop *extent)
 {
     const uint32_t leaves = b->all.leaves;
     b->node = sunder_i_alloc(2 * (size_t)leaves, sizeof *b->node);
@@ -149,8 +149,8 @@ static bool name_chiefs(sunder_i_bodies *b, const sunder_i_extents *extent)
             continue;
         }
         const sunder_i_body_node u = b->node[2 * k], v = b->node[2 * k + 1];
-        const bool first = v.chief == UINT32_MAX ||
-                           (u.chief != UINT32_MAX && size_of(extent + u.chief) >= size_of(extent + v.chief));
+        const bool first =
+            v.chief == UINT32_MAX || (u.chief != UINT32_MAX && size_of(extent + u.chief) >= size_of(extent + v.chief));
         const sunder_i_body_node other = first ? v : u;
         b->node[k] = first ? u : v;
         if (!sunder_i_step()) return false;
@@ -165,20 +165,20 @@ static bool name_chiefs(sunder_i_bodies *b, const sunder_i_extents *extent)
 
 static bool plant(sunder_i_bodies *b, uint32_t pieces)
 {
-    sunder_i_extents *extent = sunder_i_alloc(b->n, sizeof *extent);
+    sunder_i_dop *extent = sunder_i_alloc(b->n, sizeof *extent);
     if (!extent) return false;
     for (uint32_t k = 0, i = 0; k < b->n; k++) {
-        extent[k] = sunder_i_extents_nowhere();
+        extent[k] = sunder_i_dop_nowhere();
         for (; i < b->end[k]; i++)
-            for (int m = 0; m < 4; m++) sunder_i_extents_add(&extent[k], b->block[i].x[m], b->block[i].y[m]);
+            for (int m = 0; m < 4; m++) sunder_i_dop_add(&extent[k], b->block[i].x[m], b->block[i].y[m]);
     }
-    const bool ok = sunder_i_piece_tree_build(&b->pieces, extent, pieces) &&
-                    sunder_i_piece_tree_build(&b->all, extent, b->n) && name_chiefs(b, extent);
+    const bool ok = sunder_i_dop_tree_build(&b->pieces, extent, pieces) &&
+                    sunder_i_dop_tree_build(&b->all, extent, b->n) && name_chiefs(b, extent);
     sunder_i_free(extent);
     return ok;
 }
 
-bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_pairing *g, int side, const sunder_i_inner *inner)
+bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_operands *g, int side, const sunder_i_quadtree *quadtree)
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t boxes = s->pieces / 4 + BOXES_LEAST;
@@ -189,7 +189,7 @@ bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_pairing *g, int si
                            .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
     if (!b->end || !b->block || !b->vague || !b->box) return false;
     add_pieces(b, g, side);
-    return add_boxes(b, g, inner, boxes) && plant(b, s->pieces);
+    return add_boxes(b, g, quadtree, boxes) && plant(b, s->pieces);
 }
 
 void sunder_i_bodies_free(sunder_i_bodies *b)
@@ -198,24 +198,24 @@ void sunder_i_bodies_free(sunder_i_bodies *b)
     sunder_i_free(b->block);
     sunder_i_free(b->vague);
     sunder_i_free(b->box);
-    sunder_i_piece_tree_free(&b->pieces);
-    sunder_i_piece_tree_free(&b->all);
+    sunder_i_dop_tree_free(&b->pieces);
+    sunder_i_dop_tree_free(&b->all);
     sunder_i_free(b->node);
     memset(b, 0, sizeof *b);
 }
 
 /* ---- Depths ---- */
 
-sunder_i_aim sunder_i_bodies_aim(const sunder_i_pairing *g, const double at[4])
+sunder_i_query sunder_i_bodies_query(const sunder_i_operands *g, const double at[4])
 {
     const double scale = sunder_i_float_scale(g);
-    return (sunder_i_aim){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
-                          (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
+    return (sunder_i_query){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
+                            (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
 }
 
 /* The sides of one body, each at the corner of the other that is farthest out. Four at a time, without branches. */
 static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunder_i_bodies *o, uint32_t j,
-                               const sunder_i_aim *aim, sunder_i_floats *in, sunder_i_floats *touch)
+                               const sunder_i_query *query, sunder_i_floats *in, sunder_i_floats *touch)
 {
     const sunder_i_body_block *from = o->block + (j ? o->end[j - 1] : 0), *to = o->block + o->end[j];
     for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++) {
@@ -224,8 +224,9 @@ static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunde
         sunder_i_floats most = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
         for (const sunder_i_body_block *c = from; c < to; c++)
             for (int m = 0; m < 4; m++) most = sunder_i_floats_max(most, nx * c->x[m] + ny * c->y[m]);
-        const sunder_i_floats depth = sunder_i_floats_at(s->support) + most - (nx * aim->x + ny * aim->y);
-        const sunder_i_floats half = aim->hx * sunder_i_floats_max(nx, -nx) + aim->hy * sunder_i_floats_max(ny, -ny);
+        const sunder_i_floats depth = sunder_i_floats_at(s->support) + most - (nx * query->x + ny * query->y);
+        const sunder_i_floats half =
+            query->hx * sunder_i_floats_max(nx, -nx) + query->hy * sunder_i_floats_max(ny, -ny);
         *in = sunder_i_floats_min(*in, depth - half);
         *touch = sunder_i_floats_min(*touch, depth + half);
     }
@@ -243,14 +244,16 @@ static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
     return r;
 }
 
-sunder_i_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j, const sunder_i_aim *aim)
+sunder_i_square_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j,
+                                            const sunder_i_query *query)
 {
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
-    below_sides(b, i, b + 1, j, aim, &in, &touch);
-    below_sides(b + 1, j, b, i, aim, &in, &touch);
-    if (aim->hx < 0) { /* the square's sides are sides of the sum, too */
-        const sunder_i_floats at = {aim->x + aim->hx, aim->y + aim->hy, aim->hx - aim->x, aim->hy - aim->y};
+    below_sides(b, i, b + 1, j, query, &in, &touch);
+    below_sides(b + 1, j, b, i, query, &in, &touch);
+    if (query->hx < 0) { /* the square's sides are sides of the sum, too */
+        const sunder_i_floats at = {query->x + query->hx, query->y + query->hy, query->hx - query->x,
+                                    query->hy - query->y};
         in = sunder_i_floats_min(in, reach_of(b, i) + reach_of(b + 1, j) - at);
     }
-    return (sunder_i_depth){sunder_i_floats_least(in), sunder_i_floats_least(touch)};
+    return (sunder_i_square_depth){sunder_i_floats_least(in), sunder_i_floats_least(touch)};
 }

@@ -1,15 +1,15 @@
 /* Convex bodies inside an operand, by place: its pieces, and the largest of the boxes that its quartering found inside
- * (quadtree.h). Of the bodies of P and of -Q it is asked which subsums come near a square of the plane, and for two whose
- * sum holds it. A spike has no box inside, nor is there one piece behind a rugged coast; but the sum of a spike and a
- * box is as good as any.
+ * (quadtree.h). Of the bodies of P and of -Q it is asked which subsums come near a square of the plane, and for two
+ * whose sum holds it. A spike has no box inside, nor is there one piece behind a rugged coast; but the sum of a spike
+ * and a box is as good as any.
  *
  * Each node of the tree has a chief among its bodies, and it is known how far the others stand out of it: so the sum of
  * two chiefs says how deep a square can be in any sum of their nodes. */
 #ifndef SUNDER_I_BODIES_H
 #define SUNDER_I_BODIES_H
 
-#include "separation/squares/quadtree.h"
 #include "separation/squares/dop_tree.h"
+#include "separation/squares/quadtree.h"
 
 /* Four corners and the sides that leave them, counter-clockwise; some twice where there are fewer. */
 typedef struct sunder_i_body_block {
@@ -26,39 +26,40 @@ typedef struct sunder_i_bodies {
     uint32_t n;    /* pieces first, in their order */
     uint32_t *end; /* [n] past the last block of each */
     sunder_i_body_block *block;
-    float *vague;                    /* [n] what heights over its sides may be off by because one of them is short; it
-                                        is taken off their supports, so that nothing is held that is not */
+    float *vague; /* [n] what heights over its sides may be off by because one of them is short; it
+                     is taken off their supports, so that nothing is held that is not */
     uint32_t boxes;
-    double *box;                     /* [4 * boxes] the bodies that are boxes, which are the last */
-    sunder_i_piece_tree pieces, all; /* the tree of the pieces only, and that of all bodies */
-    sunder_i_body_node *node;        /* [2 * all.leaves] */
+    double *box;                   /* [4 * boxes] the bodies that are boxes, which are the last */
+    sunder_i_dop_tree pieces, all; /* the tree of the pieces only, and that of all bodies */
+    sunder_i_body_node *node;      /* [2 * all.leaves] */
 } sunder_i_bodies;
 
-/* Of operand `side` of a pairing. False if memory is out; to be freed all the same. */
-bool sunder_i_bodies_build(sunder_i_bodies *bodies, const sunder_i_pairing *pairing, int side,
-                           const sunder_i_inner *inner);
+/* Of operand `side`. False if memory is out; to be freed all the same. */
+bool sunder_i_bodies_build(sunder_i_bodies *bodies, const sunder_i_operands *operands, int side,
+                           const sunder_i_quadtree *quadtree);
 void sunder_i_bodies_free(sunder_i_bodies *bodies);
 
 /* A square as bodies see it: its middle, and half its widths; these may be negative, and then it is asked how deep the
  * middle is in a sum that is widened by a square so large. */
-typedef struct sunder_i_aim {
+typedef struct sunder_i_query {
     float x, y, hx, hy;
-} sunder_i_aim;
+} sunder_i_query;
 
-sunder_i_aim sunder_i_bodies_aim(const sunder_i_pairing *pairing, const double square[4]);
+sunder_i_query sunder_i_bodies_query(const sunder_i_operands *operands, const double square[4]);
 
 /* How a square lies to the sum of body i of P and body j of -Q: its least height below one of the sum's sides, of its
  * farthest point (`in`: it is held if that is positive) and of its nearest (`touch`: they are apart if that is negative
  * and not for vagueness). Both are good to SUNDER_I_BODIES_ERROR. */
-typedef struct sunder_i_depth {
+typedef struct sunder_i_square_depth {
     float in, touch;
-} sunder_i_depth;
+} sunder_i_square_depth;
 
 /* Coordinates are up to 2, the square's up to 4, and u = 2^-24. A normal is off by u, at a point up to 11.4 away;
  * corners, support, middle and widths are rounded (2.9 + 2.9 + 5.7 + 5.7) u, their products and sums
  * (5.7 + 11.4 + 11.4) u, and the three sums of these (5.7 + 11.4 + 17) u: below 92 u in all. */
 #define SUNDER_I_BODIES_ERROR 0x1p-17f
 
-sunder_i_depth sunder_i_bodies_depth(const sunder_i_bodies bodies[2], uint32_t i, uint32_t j, const sunder_i_aim *aim);
+sunder_i_square_depth sunder_i_bodies_depth(const sunder_i_bodies bodies[2], uint32_t i, uint32_t j,
+                                            const sunder_i_query *query);
 
 #endif

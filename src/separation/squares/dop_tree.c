@@ -8,28 +8,28 @@
 #include <math.h>
 #include <string.h>
 
-static const double WAY[SUNDER_I_WAYS][2] = {{1, 0},
-                                             {0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2},
-                                             {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
-                                             {0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
-                                             {0, 1},
-                                             {-0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
-                                             {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
-                                             {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
+static const double WAY[SUNDER_I_DOP_WAYS][2] = {{1, 0},
+                                                 {0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2},
+                                                 {0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                                 {0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                                 {0, 1},
+                                                 {-0x1.87de2a6aea963p-2, 0x1.d906bcf328d46p-1},
+                                                 {-0x1.6a09e667f3bcdp-1, 0x1.6a09e667f3bcdp-1},
+                                                 {-0x1.d906bcf328d46p-1, 0x1.87de2a6aea963p-2}};
 
-double sunder_i_float_scale(const sunder_i_pairing *g) { return ldexp(1, -ilogb(g->magnitude)); }
+double sunder_i_float_scale(const sunder_i_operands *g) { return ldexp(1, -ilogb(g->magnitude)); }
 
 /* With coordinates up to M, themselves floats, a bound of a body is below 1.42 M and off by 2^-24 of 2.9 M; so is that
  * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
  * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20
 
-sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double at[4], double by)
+sunder_i_dop sunder_i_dop_query(const sunder_i_operands *g, const double at[4], double by)
 {
     const double x = at[0] / 2 + at[2] / 2, y = at[1] / 2 + at[3] / 2;
     const double hx = at[2] / 2 - at[0] / 2, hy = at[3] / 2 - at[1] / 2, scale = sunder_i_float_scale(g);
-    sunder_i_extents out;
-    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+    sunder_i_dop out;
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) {
         const double middle = x * WAY[k][0] + y * WAY[k][1];
         const double reach = hx * fabs(WAY[k][0]) + hy * fabs(WAY[k][1]) + FLOAT_ERROR * g->magnitude + by;
         out.low[k] = (float)(scale * (middle - reach));
@@ -38,46 +38,46 @@ sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *g, const double
     return out;
 }
 
-static const sunder_i_extents NOWHERE = {
+static const sunder_i_dop NOWHERE = {
     {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY},
     {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY}};
 
-static void include(sunder_i_extents *all, const sunder_i_extents *one)
+static void include(sunder_i_dop *all, const sunder_i_dop *one)
 {
-    for (int k = 0; k < SUNDER_I_WAYS; k++) {
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) {
         all->low[k] = one->low[k] < all->low[k] ? one->low[k] : all->low[k];
         all->high[k] = one->high[k] > all->high[k] ? one->high[k] : all->high[k];
     }
 }
 
-sunder_i_extents sunder_i_extents_nowhere(void) { return NOWHERE; }
+sunder_i_dop sunder_i_dop_nowhere(void) { return NOWHERE; }
 
-void sunder_i_extents_add(sunder_i_extents *all, float x, float y)
+void sunder_i_dop_add(sunder_i_dop *all, float x, float y)
 {
-    sunder_i_extents at;
-    for (int k = 0; k < SUNDER_I_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
+    sunder_i_dop at;
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
     include(all, &at);
 }
 
 typedef struct planter {
-    sunder_i_piece_tree *tree;
-    const sunder_i_extents *extent; /* of each piece */
+    sunder_i_dop_tree *tree;
+    const sunder_i_dop *extent; /* of each piece */
     uint32_t *list;
     uint64_t *key;
 } planter;
 
-static float bound_of(const sunder_i_extents *e, int k)
+static float bound_of(const sunder_i_dop *e, int k)
 {
-    return k < SUNDER_I_WAYS ? e->low[k] : e->high[k - SUNDER_I_WAYS];
+    return k < SUNDER_I_DOP_WAYS ? e->low[k] : e->high[k - SUNDER_I_DOP_WAYS];
 }
 
 /* The bound in which the pieces of list[from] ... differ most. */
 static int widest(const planter *p, size_t from, size_t n)
 {
-    sunder_i_extents least = p->extent[p->list[from]], most = least;
+    sunder_i_dop least = p->extent[p->list[from]], most = least;
     for (size_t i = from + 1; i < from + n; i++) {
-        const sunder_i_extents *e = p->extent + p->list[i];
-        for (int k = 0; k < SUNDER_I_WAYS; k++) {
+        const sunder_i_dop *e = p->extent + p->list[i];
+        for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) {
             least.low[k] = e->low[k] < least.low[k] ? e->low[k] : least.low[k];
             least.high[k] = e->high[k] < least.high[k] ? e->high[k] : least.high[k];
             most.low[k] = e->low[k] > most.low[k] ? e->low[k] : most.low[k];
@@ -85,7 +85,7 @@ static int widest(const planter *p, size_t from, size_t n)
         }
     }
     int best = 0;
-    for (int k = 1; k < 2 * SUNDER_I_WAYS; k++)
+    for (int k = 1; k < 2 * SUNDER_I_DOP_WAYS; k++)
         if (bound_of(&most, k) - bound_of(&least, k) > bound_of(&most, best) - bound_of(&least, best)) best = k;
     return best;
 }
@@ -108,7 +108,8 @@ static void select_least(uint64_t *key, size_t n, size_t m)
         size_t i = low, j = high;
         for (;;) {
             while (key[i] < pivot) i++;
-            while (key[--j] > pivot) {}
+            while (key[--j] > pivot) {
+            }
             if (i >= j) break;
             const uint64_t swap = key[i];
             key[i++] = key[j];
@@ -137,7 +138,7 @@ static void halve_by(planter *p, size_t from, size_t n, int bound)
 /* The pieces of list[from] ... below a node; as many to the left as to the right, or one more. */
 static bool plant(planter *p, uint32_t node, size_t from, size_t n)
 {
-    sunder_i_piece_tree *t = p->tree;
+    sunder_i_dop_tree *t = p->tree;
     if (node >= t->leaves) {
         t->piece[node - t->leaves] = n ? p->list[from] : UINT32_MAX;
         t->extent[node] = n ? p->extent[p->list[from]] : NOWHERE;
@@ -151,9 +152,9 @@ static bool plant(planter *p, uint32_t node, size_t from, size_t n)
     return true;
 }
 
-bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents *extent, uint32_t n)
+bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n)
 {
-    *tree = (sunder_i_piece_tree){.leaves = 1};
+    *tree = (sunder_i_dop_tree){.leaves = 1};
     while (tree->leaves < n) tree->leaves *= 2;
     tree->piece = sunder_i_alloc(tree->leaves, sizeof *tree->piece);
     tree->extent = sunder_i_alloc(2 * (size_t)tree->leaves, sizeof *tree->extent);
@@ -166,9 +167,9 @@ bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents
     return ok;
 }
 
-void sunder_i_piece_tree_free(sunder_i_piece_tree *tree)
+void sunder_i_dop_tree_free(sunder_i_dop_tree *tree)
 {
     sunder_i_free(tree->piece);
     sunder_i_free(tree->extent);
-    *tree = (sunder_i_piece_tree){0};
+    *tree = (sunder_i_dop_tree){0};
 }

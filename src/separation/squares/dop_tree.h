@@ -2,9 +2,9 @@
  * that lie aslant are told apart too. Of two such trees, one of P and one of -Q, it is asked which subsums come near a
  * square of the plane, and which may hold it.
  *
- * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that (aim). */
-#ifndef SUNDER_I_PIECE_TREE_H
-#define SUNDER_I_PIECE_TREE_H
+ * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that (sunder_i_dop_query()). */
+#ifndef SUNDER_I_DOP_TREE_H
+#define SUNDER_I_DOP_TREE_H
 
 #include "separation/operands/operands.h"
 
@@ -14,32 +14,32 @@
 #include <xmmintrin.h>
 #endif
 
-#define SUNDER_I_WAYS 8 /* multiples of pi / 8; the first is along x, the middle one along y */
+#define SUNDER_I_DOP_WAYS 8 /* multiples of pi / 8; the first is along x, the middle one along y */
 
-typedef struct sunder_i_extents {
-    float low[SUNDER_I_WAYS], high[SUNDER_I_WAYS];
-} sunder_i_extents;
+typedef struct sunder_i_dop {
+    float low[SUNDER_I_DOP_WAYS], high[SUNDER_I_DOP_WAYS];
+} sunder_i_dop;
 
 /* A perfect binary tree: node k has the children 2k and 2k + 1, node 1 is the root, node leaves + i has piece[i]. */
-typedef struct sunder_i_piece_tree {
+typedef struct sunder_i_dop_tree {
     uint32_t leaves;
-    uint32_t *piece;          /* [leaves] UINT32_MAX: none */
-    sunder_i_extents *extent; /* [2 * leaves] infinite, low above high, for leaves without a piece */
-} sunder_i_piece_tree;
+    uint32_t *piece;      /* [leaves] UINT32_MAX: none */
+    sunder_i_dop *extent; /* [2 * leaves] infinite, low above high, for leaves without a piece */
+} sunder_i_dop_tree;
 
 /* Floats are of coordinates times this power of two, so that they are below 2 whatever the units. */
-double sunder_i_float_scale(const sunder_i_pairing *pairing);
+double sunder_i_float_scale(const sunder_i_operands *operands);
 
 /* Those of nothing, and with one point more. */
-sunder_i_extents sunder_i_extents_nowhere(void);
-void sunder_i_extents_add(sunder_i_extents *extents, float x, float y);
+sunder_i_dop sunder_i_dop_nowhere(void);
+void sunder_i_dop_add(sunder_i_dop *extents, float x, float y);
 
 /* Of n bodies with these extents. False if memory is out; to be freed all the same. */
-bool sunder_i_piece_tree_build(sunder_i_piece_tree *tree, const sunder_i_extents *extent, uint32_t n);
-void sunder_i_piece_tree_free(sunder_i_piece_tree *tree);
+bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n);
+void sunder_i_dop_tree_free(sunder_i_dop_tree *tree);
 
 /* The extents of a square, widened by what doubles and floats may be off by, and by so many units. */
-sunder_i_extents sunder_i_piece_tree_aim(const sunder_i_pairing *pairing, const double square[4], double by);
+sunder_i_dop sunder_i_dop_query(const sunder_i_operands *operands, const double square[4], double by);
 
 /* Four floats at a time, whatever the machine makes of it. */
 typedef float sunder_i_floats __attribute__((vector_size(16)));
@@ -80,29 +80,27 @@ static inline float sunder_i_floats_least(sunder_i_floats v)
 }
 
 /* May a subsum of bodies with the extents u and v come near the square aimed at? */
-static inline bool sunder_i_extents_near(const sunder_i_extents *u, const sunder_i_extents *v,
-                                         const sunder_i_extents *aim)
+static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_masks off = {0, 0, 0, 0};
-    for (int k = 0; k < SUNDER_I_WAYS; k += 4) {
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k += 4) {
         const sunder_i_floats low = sunder_i_floats_at(u->low + k) + sunder_i_floats_at(v->low + k);
         const sunder_i_floats high = sunder_i_floats_at(u->high + k) + sunder_i_floats_at(v->high + k);
-        off |= (low > sunder_i_floats_at(aim->high + k)) | (high < sunder_i_floats_at(aim->low + k));
+        off |= (low > sunder_i_floats_at(query->high + k)) | (high < sunder_i_floats_at(query->low + k));
     }
     const sunder_i_halves any = (sunder_i_halves)off;
     return (any[0] | any[1]) == 0;
 }
 
 /* How far inside such a subsum all of the square may be at most; it is not held where that is not positive. */
-static inline float sunder_i_extents_depth(const sunder_i_extents *u, const sunder_i_extents *v,
-                                           const sunder_i_extents *aim)
+static inline float sunder_i_dop_depth(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_floats least = {INFINITY, INFINITY, INFINITY, INFINITY};
-    for (int k = 0; k < SUNDER_I_WAYS; k += 4) {
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k += 4) {
         const sunder_i_floats low = sunder_i_floats_at(u->low + k) + sunder_i_floats_at(v->low + k);
         const sunder_i_floats high = sunder_i_floats_at(u->high + k) + sunder_i_floats_at(v->high + k);
-        least = sunder_i_floats_min(sunder_i_floats_at(aim->low + k) - low, least);
-        least = sunder_i_floats_min(high - sunder_i_floats_at(aim->high + k), least);
+        least = sunder_i_floats_min(sunder_i_floats_at(query->low + k) - low, least);
+        least = sunder_i_floats_min(high - sunder_i_floats_at(query->high + k), least);
     }
     return sunder_i_floats_least(least);
 }

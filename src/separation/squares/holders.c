@@ -34,14 +34,15 @@ static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const doubl
     const double e = 8 * q->g->error;
     for (int k = 0; k < 2; k++)
         if (at[k] - e <= abox[k] + bbox[k] || at[k + 2] + e >= abox[k + 2] + bbox[k + 2]) return false;
-    const int32_t u = q->inner[0].child[a], v = q->inner[1].child[b];
-    if (u == SUNDER_I_INNER_REST || v == SUNDER_I_INNER_REST) return false;
-    if (u == SUNDER_I_INNER_FULL && v == SUNDER_I_INNER_FULL) return true;
+    const int32_t u = q->quadtree[0].child[a], v = q->quadtree[1].child[b];
+    if (u == SUNDER_I_QUADTREE_REST || v == SUNDER_I_QUADTREE_REST) return false;
+    if (u == SUNDER_I_QUADTREE_FULL && v == SUNDER_I_QUADTREE_FULL) return true;
     if (++q->tries > MOST_TRIES) return false;
-    const bool of_p = v == SUNDER_I_INNER_FULL || (u != SUNDER_I_INNER_FULL && abox[2] - abox[0] >= bbox[2] - bbox[0]);
+    const bool of_p =
+        v == SUNDER_I_QUADTREE_FULL || (u != SUNDER_I_QUADTREE_FULL && abox[2] - abox[0] >= bbox[2] - bbox[0]);
     for (int k = 0; k < 4; k++) {
         double part[4];
-        sunder_i_inner_quarter(of_p ? abox : bbox, k, part);
+        sunder_i_quadtree_quarter(of_p ? abox : bbox, k, part);
         if (of_p ? hold(q, at, u + k, part, b, bbox) : hold(q, at, a, abox, v + k, part)) return true;
     }
     return false;
@@ -50,18 +51,18 @@ static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const doubl
 bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
 {
     q->tries = 0;
-    return hold(q, at, 0, q->inner[0].box, 0, q->inner[1].box);
+    return hold(q, at, 0, q->quadtree[0].box, 0, q->quadtree[1].box);
 }
 
 /* ---- Bodies ---- */
 
 /* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
  * that if the sum itself holds what is left of the square, so much smaller. */
-static void aim_to_hold(sunder_i_squares *q, const double at[4], double less[4])
+static void query_to_hold(sunder_i_squares *q, const double at[4], double less[4])
 {
     const double by = 0.70 * q->gap;
     for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
-    q->aim = sunder_i_bodies_aim(q->g, less);
+    q->query = sunder_i_bodies_query(q->g, less);
     q->at = less;
 }
 
@@ -69,14 +70,14 @@ static void aim_to_hold(sunder_i_squares *q, const double at[4], double less[4])
 static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
 {
     const uint32_t i = q->bodies[0].node[node[0]].chief, j = q->bodies[1].node[node[1]].chief;
-    *in = sunder_i_bodies_depth(q->bodies, i, j, &q->aim).in;
+    *in = sunder_i_bodies_depth(q->bodies, i, j, &q->query).in;
     if (*in > q->best_depth) {
         q->best_depth = *in;
         memcpy(q->best, node, sizeof q->best);
     }
     if (fabsf(*in) > SUNDER_I_BODIES_ERROR) return *in > 0;
     const bool pieces = i < q->g->shape[0]->pieces && j < q->g->shape[1]->pieces;
-    return pieces && q->aim.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
+    return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
 }
 
 static void sink_node(sunder_i_squares *q, sunder_i_node_pair v)
@@ -102,7 +103,7 @@ static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
 
 /* Of two nodes the one with more that stands out of its chief is opened. Its parts are looked at by their chiefs; those
  * of which no sum can hold the square are dropped. */
-static sunder_i_held_by_one open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
+static sunder_i_holding open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
 {
     const sunder_i_bodies *b = q->bodies;
     const float reach[2] = {b[0].node[v->node[0]].reach, b[1].node[v->node[1]].reach};
@@ -111,64 +112,64 @@ static sunder_i_held_by_one open_pair(sunder_i_squares *q, const sunder_i_node_p
     for (uint32_t k = 0; k < 2; k++) {
         sunder_i_node_pair part = *v;
         part.node[side] = 2 * v->node[side] + k;
-        const sunder_i_extents *extent[2] = {b[0].all.extent + part.node[0], b[1].all.extent + part.node[1]};
-        const float depth = sunder_i_extents_depth(extent[0], extent[1], &q->extents);
+        const sunder_i_dop *extent[2] = {b[0].all.extent + part.node[0], b[1].all.extent + part.node[1]};
+        const float depth = sunder_i_dop_depth(extent[0], extent[1], &q->dop);
         if (!(depth > 0)) continue;
         if (b[side].node[part.node[side]].chief != chief) {
-            if (q->tries == 0) return SUNDER_I_NOT_FOUND;
+            if (q->tries == 0) return SUNDER_I_HOLDING_UNDECIDED;
             q->tries--;
-            if (holds(q, part.node, &part.in)) return SUNDER_I_HELD;
+            if (holds(q, part.node, &part.in)) return SUNDER_I_HOLDING_FOUND;
         }
         const float out = b[0].node[part.node[0]].reach + b[1].node[part.node[1]].reach;
         if (part.in + out <= 0) continue;
         part.key = part.in + DEEP * depth;
-        if (!push_node(q, part)) return SUNDER_I_HOLD_FAILED;
+        if (!push_node(q, part)) return SUNDER_I_HOLDING_NO_MEMORY;
     }
-    return SUNDER_I_NOT_HELD;
+    return SUNDER_I_HOLDING_NONE;
 }
 
 /* The pair of nodes that held the last square about there, if any did. */
 static uint32_t *remembered(sunder_i_squares *q)
 {
     const float per_unit = SUNDER_I_SQUARES_MEMORY / (2 * q->reach);
-    const int x = (int)((q->aim.x + q->reach) * per_unit), y = (int)((q->aim.y + q->reach) * per_unit);
+    const int x = (int)((q->query.x + q->reach) * per_unit), y = (int)((q->query.y + q->reach) * per_unit);
     const int most = SUNDER_I_SQUARES_MEMORY - 1;
     return q->memory[(y < 0 ? 0 : y > most ? most : y) * SUNDER_I_SQUARES_MEMORY + (x < 0 ? 0 : x > most ? most : x)];
 }
 
-static sunder_i_held_by_one search_nodes(sunder_i_squares *q, const uint32_t first[2])
+static sunder_i_holding search_nodes(sunder_i_squares *q, const uint32_t first[2])
 {
     sunder_i_node_pair near = {.node = {first[0], first[1]}}, all = {.node = {1, 1}};
     q->nodes = 0;
     if (holds(q, first, &near.in) || holds(q, remembered(q), &all.in) || holds(q, all.node, &all.in))
-        return SUNDER_I_HELD;
+        return SUNDER_I_HOLDING_FOUND;
     for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS ? q->best[k] >> LEVELS : 1;
-    if ((near.node[0] > 1 || near.node[1] > 1) && holds(q, near.node, &near.in)) return SUNDER_I_HELD;
+    if ((near.node[0] > 1 || near.node[1] > 1) && holds(q, near.node, &near.in)) return SUNDER_I_HOLDING_FOUND;
     near.key = near.in;
     all.key = all.in;
-    if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_HOLD_FAILED;
-    if (!push_node(q, all)) return SUNDER_I_HOLD_FAILED;
+    if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_HOLDING_NO_MEMORY;
+    if (!push_node(q, all)) return SUNDER_I_HOLDING_NO_MEMORY;
     while (q->nodes) {
         const sunder_i_node_pair top = q->node[0], last = q->node[--q->nodes];
         if (q->nodes) sink_node(q, last);
-        const sunder_i_held_by_one how = open_pair(q, &top);
-        if (how != SUNDER_I_NOT_HELD) return how;
-        if (!sunder_i_step()) return SUNDER_I_HOLD_FAILED;
+        const sunder_i_holding how = open_pair(q, &top);
+        if (how != SUNDER_I_HOLDING_NONE) return how;
+        if (!sunder_i_step()) return SUNDER_I_HOLDING_NO_MEMORY;
     }
-    return SUNDER_I_NOT_HELD;
+    return SUNDER_I_HOLDING_NONE;
 }
 
-sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *q, const double at[4], const uint32_t first[2],
-                                                uint32_t tries)
+sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *q, const double at[4], const uint32_t first[2],
+                                            uint32_t tries)
 {
     double less[4];
-    aim_to_hold(q, at, less);
-    q->extents = sunder_i_piece_tree_aim(q->g, less, 0);
+    query_to_hold(q, at, less);
+    q->dop = sunder_i_dop_query(q->g, less, 0);
     q->tries = tries;
     q->best_depth = -INFINITY;
     q->best[0] = q->best[1] = 1;
-    const sunder_i_held_by_one how = search_nodes(q, first);
-    q->held = how == SUNDER_I_HELD;
+    const sunder_i_holding how = search_nodes(q, first);
+    q->held = how == SUNDER_I_HOLDING_FOUND;
     if (!q->held) return how;
     memcpy(remembered(q), q->best, sizeof q->best);
     for (int k = 0; k < 2; k++) q->holder[k] = q->bodies[k].node[q->best[k]].chief;
@@ -179,9 +180,9 @@ sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *q, const doubl
 
 /* With a gap those that are farther by little more than that are listed too, as the search with a gap asks beside its
  * points. */
-static sunder_i_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
+static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
 {
-    const sunder_i_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->aim);
+    const sunder_i_square_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->query);
     const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
     if (q->gap > 0) {
         const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
@@ -206,12 +207,12 @@ static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32
  * or if memory is out. */
 static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 {
-    const sunder_i_piece_tree *p = &q->bodies[0].pieces, *r = &q->bodies[1].pieces;
-    if (!sunder_i_extents_near(p->extent + a, r->extent + b, &q->extents)) return true;
+    const sunder_i_dop_tree *p = &q->bodies[0].pieces, *r = &q->bodies[1].pieces;
+    if (!sunder_i_dop_near(p->extent + a, r->extent + b, &q->dop)) return true;
     if (a >= p->leaves && b >= r->leaves) {
         const uint32_t i = p->piece[a - p->leaves], j = r->piece[b - r->leaves];
         if (!sunder_i_step()) return false;
-        const sunder_i_position where = position_to_subsum(q, i, j);
+        const sunder_i_square_position where = position_to_subsum(q, i, j);
         if (where == SUNDER_I_OUTSIDE) return true;
         q->held = where == SUNDER_I_WITHIN;
         q->holder[0] = i;
@@ -231,8 +232,8 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t most)
 {
     double less[4];
-    aim_to_hold(q, at, less);
-    q->extents = sunder_i_piece_tree_aim(q->g, at, q->gap);
+    query_to_hold(q, at, less);
+    q->dop = sunder_i_dop_query(q->g, at, q->gap);
     q->pairs = 0;
     q->held = false;
     return gather(q, 1, 1, most);

@@ -26,7 +26,7 @@ static bool comes_near(const double at[4], double e, double x, double y, double 
 static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t u, uint32_t j,
                      sunder_i_candidates *out)
 {
-    sunder_i_pairing *g = q->g;
+    sunder_i_operands *g = q->g;
     const sunder_shape *s = g->shape[side], *o = g->shape[!side];
     const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->next[u];
     const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
@@ -59,7 +59,7 @@ static bool add_edges(sunder_i_squares *q, const double at[4], double reach, int
 
 bool sunder_i_squares_take_subsums(sunder_i_squares *q)
 {
-    sunder_i_pairing *g = q->g;
+    sunder_i_operands *g = q->g;
     g->subsum = sunder_i_arena_alloc(&g->placed.lattice.arena, q->pairs + 1, sizeof *g->subsum);
     g->subsums = g->subsum ? q->pairs : 0;
     for (size_t k = 0; k < g->subsums; k++) {
@@ -71,8 +71,7 @@ bool sunder_i_squares_take_subsums(sunder_i_squares *q)
     return g->subsum != NULL;
 }
 
-bool sunder_i_squares_take_candidates(sunder_i_squares *q, const double at[4], double limit,
-                                      sunder_i_candidates *out)
+bool sunder_i_squares_take_candidates(sunder_i_squares *q, const double at[4], double limit, sunder_i_candidates *out)
 {
     const double reach = limit + 8 * q->g->error;
     *out = (sunder_i_candidates){NULL, 0, 0};
@@ -83,4 +82,3 @@ bool sunder_i_squares_take_candidates(sunder_i_squares *q, const double at[4], d
     sunder_i_candidates_order(out);
     return true;
 }
-

@@ -4,8 +4,8 @@
 #include <math.h>
 
 /* For the sides that come from piece i of operand `side`, each at the corner of piece j that is farthest out. */
-static sunder_i_position position_to_sides(const sunder_i_pairing *g, const double at[4], int side, uint32_t i,
-                                           uint32_t j)
+static sunder_i_square_position position_to_sides(const sunder_i_operands *g, const double at[4], int side, uint32_t i,
+                                                  uint32_t j)
 {
     const sunder_shape *s = g->shape[side], *o = g->shape[!side];
     const double *xy = g->xy[side], *uv = g->xy[!side];
@@ -13,7 +13,7 @@ static sunder_i_position position_to_sides(const sunder_i_pairing *g, const doub
     const double cx = at[0] / 2 + at[2] / 2, cy = at[1] / 2 + at[3] / 2;
     const double hx = at[2] / 2 - at[0] / 2 + e, hy = at[3] / 2 - at[1] / 2 + e;
     const uint32_t first = i ? s->piece_end[i - 1] : 0, end = s->piece_end[i];
-    sunder_i_position p = SUNDER_I_WITHIN;
+    sunder_i_square_position p = SUNDER_I_WITHIN;
     for (uint32_t k = first; k < end; k++) {
         const double *a = xy + 2 * (size_t)s->piece_vertex[k];
         const double *b = xy + 2 * (size_t)s->piece_vertex[k + 1 < end ? k + 1 : first];
@@ -31,9 +31,10 @@ static sunder_i_position position_to_sides(const sunder_i_pairing *g, const doub
     return p;
 }
 
-sunder_i_position sunder_i_squares_position(const sunder_i_squares *q, const double at[4], uint32_t i, uint32_t j)
+sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *q, const double at[4], uint32_t i,
+                                                   uint32_t j)
 {
-    const sunder_i_position p = position_to_sides(q->g, at, 0, i, j);
-    const sunder_i_position r = p == SUNDER_I_OUTSIDE ? p : position_to_sides(q->g, at, 1, j, i);
+    const sunder_i_square_position p = position_to_sides(q->g, at, 0, i, j);
+    const sunder_i_square_position r = p == SUNDER_I_OUTSIDE ? p : position_to_sides(q->g, at, 1, j, i);
     return p < r ? p : r;
 }

@@ -18,8 +18,8 @@ typedef struct item {
 } item;
 
 typedef struct builder {
-    sunder_i_inner *out;
-    const sunder_i_pairing *g;
+    sunder_i_quadtree *out;
+    const sunder_i_operands *g;
     int side, deepest;
     uint32_t *edges, *pieces; /* lists of the boxes on the stack, one after the other */
     size_t edges_n, edges_capacity, pieces_n, pieces_capacity;
@@ -82,10 +82,10 @@ static bool look_at(builder *b, const item *parent, item *it, bool *quarter)
     it->piece_to = b->pieces_n;
     const bool crossed = it->edge_to > it->edge_from;
     *quarter = crossed && it->depth < b->deepest;
-    int32_t what = SUNDER_I_INNER_REST;
+    int32_t what = SUNDER_I_QUADTREE_REST;
     for (size_t i = it->piece_from; !crossed && i < it->piece_to; i++)
         if (has_point(b, b->pieces[i], it->box)) {
-            what = SUNDER_I_INNER_FULL;
+            what = SUNDER_I_QUADTREE_FULL;
             break;
         }
     b->out->child[it->node] = what;
@@ -94,7 +94,7 @@ static bool look_at(builder *b, const item *parent, item *it, bool *quarter)
 
 static bool quarter(builder *b, const item *parent)
 {
-    sunder_i_inner *o = b->out;
+    sunder_i_quadtree *o = b->out;
     if (!sunder_i_reserve(&o->child, &o->nodes_capacity, o->nodes + 4, sizeof *o->child)) return false;
     const uint32_t first = (uint32_t)o->nodes;
     o->child[parent->node] = (int32_t)first;
@@ -102,7 +102,7 @@ static bool quarter(builder *b, const item *parent)
     for (int k = 0; k < 4; k++) {
         item it = {.depth = parent->depth + 1, .node = first + (uint32_t)k};
         bool more;
-        sunder_i_inner_quarter(parent->box, k, it.box);
+        sunder_i_quadtree_quarter(parent->box, k, it.box);
         if (!look_at(b, parent, &it, &more)) return false;
         if (more)
             b->stack[b->stack_n++] = it;
@@ -117,7 +117,7 @@ static bool quarter(builder *b, const item *parent)
 static bool quarter_all(builder *b)
 {
     const sunder_shape *s = b->g->shape[b->side];
-    sunder_i_inner *o = b->out;
+    sunder_i_quadtree *o = b->out;
     item root = {.edge_to = s->vertices, .piece_to = s->pieces};
     if (!sunder_i_reserve(&b->edges, &b->edges_capacity, s->vertices, sizeof *b->edges) ||
         !sunder_i_reserve(&b->pieces, &b->pieces_capacity, s->pieces, sizeof *b->pieces) ||
@@ -140,19 +140,19 @@ static bool quarter_all(builder *b)
 
 /* Nodes without a full one below are of no use: whoever comes to them need not look further. Children come after their
  * parents. */
-static void drop_rest(sunder_i_inner *o)
+static void drop_rest(sunder_i_quadtree *o)
 {
     for (size_t k = o->nodes; k-- > 0;) {
         const int32_t c = o->child[k];
         if (c < 0) continue;
         bool rest = true;
-        for (int32_t i = c; i < c + 4; i++) rest = rest && o->child[i] == SUNDER_I_INNER_REST;
-        if (rest) o->child[k] = SUNDER_I_INNER_REST;
+        for (int32_t i = c; i < c + 4; i++) rest = rest && o->child[i] == SUNDER_I_QUADTREE_REST;
+        if (rest) o->child[k] = SUNDER_I_QUADTREE_REST;
     }
 }
 
 /* Boundary of length l passes through some l / w boxes of width w. */
-static int depth_for(const sunder_i_pairing *g, int side)
+static int depth_for(const sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side], *all = g->box[side];
@@ -167,19 +167,19 @@ static int depth_for(const sunder_i_pairing *g, int side)
     return depth;
 }
 
-bool sunder_i_inner_build(sunder_i_inner *inner, const sunder_i_pairing *g, int side)
+bool sunder_i_quadtree_build(sunder_i_quadtree *quadtree, const sunder_i_operands *g, int side)
 {
-    memset(inner, 0, sizeof *inner);
-    builder b = {.out = inner, .g = g, .side = side, .deepest = depth_for(g, side)};
+    memset(quadtree, 0, sizeof *quadtree);
+    builder b = {.out = quadtree, .g = g, .side = side, .deepest = depth_for(g, side)};
     const bool ok = quarter_all(&b);
-    if (ok) drop_rest(inner);
+    if (ok) drop_rest(quadtree);
     sunder_i_free(b.edges);
     sunder_i_free(b.pieces);
     return ok;
 }
 
-void sunder_i_inner_free(sunder_i_inner *inner)
+void sunder_i_quadtree_free(sunder_i_quadtree *quadtree)
 {
-    sunder_i_free(inner->child);
-    memset(inner, 0, sizeof *inner);
+    sunder_i_free(quadtree->child);
+    memset(quadtree, 0, sizeof *quadtree);
 }

@@ -17,7 +17,7 @@
 #define HOLD_TRIES 16
 #define HOLD_PATIENT 5
 #define HOLD_MOST 18 /* doublings */
-#define DEEPEST 28 /* for tries to be numbered; by then a square holds nothing but rounding */
+#define DEEPEST 28   /* for tries to be numbered; by then a square holds nothing but rounding */
 #define ORIGIN_TRIES 1024
 /* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
  * microseconds, and what else could be done takes all pairs of pieces. */
@@ -62,9 +62,9 @@ bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
     static const double origin[4] = {0, 0, 0, 0};
     *covered = sunder_i_squares_boxes_hold(q, origin);
     if (*covered) return true;
-    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
-    *covered = how == SUNDER_I_HELD;
-    if (*covered || how == SUNDER_I_HOLD_FAILED) return *covered;
+    const sunder_i_holding how = sunder_i_squares_one_holds(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
+    *covered = how == SUNDER_I_HOLDING_FOUND;
+    if (*covered || how == SUNDER_I_HOLDING_NO_MEMORY) return *covered;
     const bool all = sunder_i_squares_gather(q, origin, SIZE_MAX);
     *covered = q->held;
     return *covered || (all && sunder_i_squares_take_subsums(q));
@@ -77,7 +77,7 @@ bool sunder_i_squares_cut(sunder_i_squares *q, const sunder_i_square *s)
     const uint32_t first = 1 + 4 * q->cuts++;
     for (int k = 0; k < 4; k++) {
         sunder_i_square part = {.depth = s->depth + 1, .place = first + (uint32_t)k, .best = {q->best[0], q->best[1]}};
-        sunder_i_inner_quarter(s->box, k, part.box);
+        sunder_i_quadtree_quarter(s->box, k, part.box);
         part.distance = distance_of(part.box);
         if (!push(q, part)) return false;
     }
@@ -90,16 +90,17 @@ static uint32_t tries_to_hold(int depth)
     return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
 }
 
-sunder_i_finding sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
+sunder_i_square_state sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
 {
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
     q->held = q->gap == 0 && sunder_i_squares_boxes_hold(q, s->box); /* with a gap it is asked what holds it */
     q->pairs = 0;
     if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
     if (q->held) return SUNDER_I_SQUARE_CLOSED;
-    const sunder_i_held_by_one how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
-    if (how == SUNDER_I_HOLD_FAILED) return SUNDER_I_SQUARE_NO_MEMORY;
-    if (how != SUNDER_I_NOT_HELD) return how == SUNDER_I_HELD ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
+    const sunder_i_holding how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
+    if (how == SUNDER_I_HOLDING_NO_MEMORY) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (how != SUNDER_I_HOLDING_NONE)
+        return how == SUNDER_I_HOLDING_FOUND ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
     const size_t few = (size_t)FEW_PAIRS << patience;
     if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? SUNDER_I_SQUARE_OPEN : SUNDER_I_SQUARE_CLOSED;
     if (q->held) return SUNDER_I_SQUARE_CLOSED;
@@ -117,7 +118,7 @@ sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *q, double limit, do
     while (q->n && q->heap[0].distance <= limit + 64 * q->g->error) {
         const sunder_i_square s = sunder_i_squares_first(q);
         if (sunder_i_squares_too_many(q, &s)) return SUNDER_I_SQUARES_TOO_MANY;
-        const sunder_i_finding what = sunder_i_squares_look(q, &s);
+        const sunder_i_square_state what = sunder_i_squares_look(q, &s);
         if (what == SUNDER_I_SQUARE_NO_MEMORY || (what == SUNDER_I_SQUARE_IN_PARTS && !sunder_i_squares_cut(q, &s)))
             return SUNDER_I_SQUARES_NO_MEMORY;
         if (what != SUNDER_I_SQUARE_OPEN) continue;
@@ -142,7 +143,7 @@ static bool make_tables(sunder_i_squares *q, int side)
     return true;
 }
 
-sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach, double gap)
+sunder_i_squares *sunder_i_squares_new(sunder_i_operands *g, double reach, double gap)
 {
     sunder_i_squares *q = sunder_i_calloc(1, sizeof *q);
     if (!q) return NULL;
@@ -153,11 +154,10 @@ sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *g, double reach, double
     const double r = reach + 64 * g->error;
     q->reach = (float)(sunder_i_float_scale(g) * r);
     for (int k = 0; k < SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY; k++) q->memory[k][0] = q->memory[k][1] = 1;
-    const bool ok = sunder_i_inner_build(&q->inner[0], g, 0) && sunder_i_inner_build(&q->inner[1], g, 1) &&
-                    sunder_i_bodies_build(&q->bodies[0], g, 0, &q->inner[0]) &&
-                    sunder_i_bodies_build(&q->bodies[1], g, 1, &q->inner[1]) &&
-                    make_tables(q, 0) && make_tables(q, 1) &&
-                    push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
+    const bool ok = sunder_i_quadtree_build(&q->quadtree[0], g, 0) && sunder_i_quadtree_build(&q->quadtree[1], g, 1) &&
+                    sunder_i_bodies_build(&q->bodies[0], g, 0, &q->quadtree[0]) &&
+                    sunder_i_bodies_build(&q->bodies[1], g, 1, &q->quadtree[1]) && make_tables(q, 0) &&
+                    make_tables(q, 1) && push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
     if (ok) return q;
     sunder_i_squares_free(q);
     return NULL;
@@ -167,7 +167,7 @@ void sunder_i_squares_free(sunder_i_squares *q)
 {
     if (!q) return;
     for (int k = 0; k < 2; k++) {
-        sunder_i_inner_free(&q->inner[k]);
+        sunder_i_quadtree_free(&q->quadtree[k]);
         sunder_i_bodies_free(&q->bodies[k]);
         sunder_i_free(q->first_piece[k]);
         sunder_i_free(q->corner[k]);

@@ -17,14 +17,14 @@ typedef enum sunder_i_squares_next {
 
 /* Of all translations with coordinates up to `reach`, with subsums grown by a disc of radius `gap`. NULL if memory is
  * out. */
-sunder_i_squares *sunder_i_squares_new(sunder_i_pairing *pairing, double reach, double gap);
+sunder_i_squares *sunder_i_squares_new(sunder_i_operands *operands, double reach, double gap);
 void sunder_i_squares_free(sunder_i_squares *squares);
 
-/* The next open square that comes within `limit` units of the origin. The pairing's subsums become those of which the
+/* The next open square that comes within `limit` units of the origin. The operands' subsums become those of which the
  * boxes come near it, and *candidates those that pass through it; both in the lattice's arena, above *mark. */
 sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *squares, double limit, double box[4], sunder_i_mark *mark,
                                            sunder_i_candidates *candidates);
-/* The pairing's subsums become those that may cover the origin, unless *covered says that one does. False if memory is
+/* The operands' subsums become those that may cover the origin, unless *covered says that one does. False if memory is
  * out. */
 bool sunder_i_squares_take_origin(sunder_i_squares *squares, bool *covered);
 

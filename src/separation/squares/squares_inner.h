@@ -2,8 +2,8 @@
 #ifndef SUNDER_I_SQUARES_INNER_H
 #define SUNDER_I_SQUARES_INNER_H
 
-#include "separation/squares/bodies.h"
 #include "separation/obstacle/cones.h"
+#include "separation/squares/bodies.h"
 #include "separation/squares/squares.h"
 
 typedef struct sunder_i_square {
@@ -22,67 +22,67 @@ typedef struct sunder_i_node_pair {
 } sunder_i_node_pair;
 
 struct sunder_i_squares {
-    sunder_i_pairing *g;
-    sunder_i_inner inner[2];
+    sunder_i_operands *g;
+    sunder_i_quadtree quadtree[2];
     sunder_i_bodies bodies[2];
-    uint32_t *first_piece[2];   /* [vertices] the first piece that each is a corner of */
-    sunder_i_cone *corner[2];   /* [vertices] once it is known */
-    uint8_t *state[2];          /* [vertices] UNKNOWN, ... */
+    uint32_t *first_piece[2]; /* [vertices] the first piece that each is a corner of */
+    sunder_i_cone *corner[2]; /* [vertices] once it is known */
+    uint8_t *state[2];        /* [vertices] UNKNOWN, ... */
     sunder_i_square *heap;
     size_t n, capacity, seen, most;
     uint32_t cuts;
     double gap; /* subsums are grown by a disc of this radius; 0: they are not */
     /* of the square at hand */
-    sunder_i_extents extents;
-    sunder_i_aim aim;
-    const double *at;   /* its box, less what any sum grows by */
-    uint32_t holder[2]; /* the bodies whose sum holds it, if it is held by one */
+    sunder_i_dop dop;
+    sunder_i_query query;
+    const double *at;    /* its box, less what any sum grows by */
+    uint32_t holder[2];  /* the bodies whose sum holds it, if it is held by one */
     uint32_t (*pair)[2]; /* pieces of P and of Q whose subsums come near it */
     size_t pairs, pairs_capacity;
-    uint32_t tries; /* of the search for what may hold it */
-    bool held;      /* by the subsum that was looked at last */
+    uint32_t tries;   /* of the search for what may hold it */
+    bool held;        /* by the subsum that was looked at last */
     uint32_t best[2]; /* the nodes whose chiefs' sum is nearest to holding it, of those tried */
     float best_depth;
     sunder_i_node_pair *node; /* a heap, the most promising on top */
     size_t nodes, nodes_capacity;
     uint32_t memory[SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY][2]; /* by place: what held the last one */
-    float reach; /* of the memory */
+    float reach;                                                           /* of the memory */
 };
 
 /* A square and a subsum: one of its sides has it outside for certain, or all have it inside. */
-typedef enum sunder_i_position { SUNDER_I_OUTSIDE, SUNDER_I_ACROSS, SUNDER_I_WITHIN } sunder_i_position;
+typedef enum sunder_i_square_position { SUNDER_I_OUTSIDE, SUNDER_I_ACROSS, SUNDER_I_WITHIN } sunder_i_square_position;
 
-sunder_i_position sunder_i_squares_position(const sunder_i_squares *squares, const double square[4], uint32_t i,
-                                            uint32_t j);
+sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *squares, const double square[4], uint32_t i,
+                                                   uint32_t j);
 
 /* Does the sum of a box inside P and one inside -Q hold the square? */
 bool sunder_i_squares_boxes_hold(sunder_i_squares *squares, const double square[4]);
 
-typedef enum sunder_i_held_by_one {
-    SUNDER_I_HELD,
-    SUNDER_I_NOT_HELD,
-    SUNDER_I_NOT_FOUND,
-    SUNDER_I_HOLD_FAILED /* memory is out */
-} sunder_i_held_by_one;
+typedef enum sunder_i_holding {
+    SUNDER_I_HOLDING_FOUND,
+    SUNDER_I_HOLDING_NONE,
+    SUNDER_I_HOLDING_UNDECIDED,
+    SUNDER_I_HOLDING_NO_MEMORY /* memory is out */
+} sunder_i_holding;
 
 /* Does the sum of two bodies? Those of the pair of nodes `first` are asked first. NOT_FOUND: after as many tries, as
  * are given, many are left. */
-sunder_i_held_by_one sunder_i_squares_one_holds(sunder_i_squares *squares, const double square[4],
-                                                const uint32_t first[2], uint32_t tries);
+sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *squares, const double square[4], const uint32_t first[2],
+                                            uint32_t tries);
 
 /* Lists the pairs near the square; false if there are more than `most`, or if one of them holds it (squares->held), or
  * if memory is out. */
 bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], size_t most);
 
-typedef enum sunder_i_finding {
+typedef enum sunder_i_square_state {
     SUNDER_I_SQUARE_CLOSED, /* held, or free: nothing comes near it (no pairs, and it is not held) */
     SUNDER_I_SQUARE_OPEN,
     SUNDER_I_SQUARE_IN_PARTS,
     SUNDER_I_SQUARE_NO_MEMORY
-} sunder_i_finding;
+} sunder_i_square_state;
 
 /* What is to be done with a square; if it is open its pairs are listed. */
-sunder_i_finding sunder_i_squares_look(sunder_i_squares *squares, const sunder_i_square *square);
+sunder_i_square_state sunder_i_squares_look(sunder_i_squares *squares, const sunder_i_square *square);
 /* The nearest square, taken out; there must be one. */
 sunder_i_square sunder_i_squares_first(sunder_i_squares *squares);
 /* Puts in the quarters of a square that was just looked at. False if memory is out. */
@@ -90,7 +90,7 @@ bool sunder_i_squares_cut(sunder_i_squares *squares, const sunder_i_square *squa
 /* Too many squares, or too small ones: this leads nowhere. */
 bool sunder_i_squares_too_many(const sunder_i_squares *squares, const sunder_i_square *square);
 
-/* The pairing's subsums become the pairs listed. False if memory is out. */
+/* The operands' subsums become the pairs listed. False if memory is out. */
 bool sunder_i_squares_take_subsums(sunder_i_squares *squares);
 /* The candidates of the pairs listed that come near the square. */
 bool sunder_i_squares_take_candidates(sunder_i_squares *squares, const double square[4], double limit,

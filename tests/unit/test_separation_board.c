@@ -24,10 +24,10 @@ static bool box_has(const sunder_i_subsum *s, double x, double y)
 }
 
 /* A point of the board: in a held square inside the holder; in an open one every subsum whose box has it is listed. */
-static void check_point(const sunder_i_pairing *g, double x, double y, size_t *held, size_t *open)
+static void check_point(const sunder_i_operands *g, double x, double y, size_t *held, size_t *open)
 {
-    const sunder_i_held *h = g->held;
-    const uint32_t square = sunder_i_held_square(h, x, y);
+    const sunder_i_board *h = g->board;
+    const uint32_t square = sunder_i_board_square(h, x, y);
     assert_true(square < h->n * h->n);
     if (h->holder[square]) {
         assert_true(inside(g->subsum + h->holder[square] - 1, x, y));
@@ -44,18 +44,18 @@ static void check_point(const sunder_i_pairing *g, double x, double y, size_t *h
 }
 
 /* A segment that is held has no point in an open square; one inside a held square is held. */
-static void check_segment(const sunder_i_pairing *g, rng *r, size_t *held, size_t *open)
+static void check_segment(const sunder_i_operands *g, rng *r, size_t *held, size_t *open)
 {
-    const sunder_i_held *h = g->held;
+    const sunder_i_board *h = g->board;
     const double reach = h->reach, length = reach * rng_unit(r) * (rng_once_in(r, 2) ? 0.05 : 0.5);
     const double ax = reach * (2 * rng_unit(r) - 1), ay = reach * (2 * rng_unit(r) - 1);
     const double dx = length * (2 * rng_unit(r) - 1), dy = length * (2 * rng_unit(r) - 1);
-    const bool is = sunder_i_held_segment(h, g->error, ax, ay, dx, dy);
+    const bool is = sunder_i_board_segment(h, g->error, ax, ay, dx, dy);
     ++*(is ? held : open);
     bool all = true, one = true; /* square held; all in one square */
-    const uint32_t first = sunder_i_held_square(h, ax, ay);
+    const uint32_t first = sunder_i_board_square(h, ax, ay);
     for (int i = 0; i <= 64; i++) {
-        const uint32_t square = sunder_i_held_square(h, ax + dx * i / 64, ay + dy * i / 64);
+        const uint32_t square = sunder_i_board_square(h, ax + dx * i / 64, ay + dy * i / 64);
         all = all && (square == h->n * h->n || h->holder[square]); /* out of reach does not count */
         one = one && square == first;
     }
@@ -76,23 +76,23 @@ static void test_board(void **state)
     for (size_t i = 0; i < test_count(24); i++) {
         rng r = rng_start(seed, i);
         polyset p, q;
-        sunder_i_pairing g;
+        sunder_i_operands g;
         random_family(&p, &q, &r, i % 2 ? FAMILY_STAR : FAMILY_ROBOT, 30, 120);
         sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
-        const sunder_i_pairing_options options = {.reflect_q = true, .force_wide = i % 4 == 0};
-        assert_int_equal(sunder_i_pairing_init(&g, a, b, &options, NULL), SUNDER_OK);
+        const sunder_i_operands_options options = {.reflect_q = true, .force_wide = i % 4 == 0};
+        assert_int_equal(sunder_i_operands_init(&g, a, b, &options, NULL), SUNDER_OK);
         double reach = 0;
         for (int k = 0; k < 4; k++) reach = fmax(reach, fabs(g.box[0][k] + g.box[1][k]));
         reach *= 0.25 + rng_unit(&r);
-        assert_true(sunder_i_pairing_reach(&g, 2 * reach));
-        assert_true(sunder_i_held_build(&g, reach));
+        assert_true(sunder_i_operands_reach(&g, 2 * reach));
+        assert_true(sunder_i_board_build(&g, reach));
         for (int k = 0; k < 400; k++) {
             check_point(&g, reach * (2 * rng_unit(&r) - 1), reach * (2 * rng_unit(&r) - 1), &held[0], &open[0]);
             check_segment(&g, &r, &held[1], &open[1]);
         }
-        sunder_i_held_free(&g);
-        assert_null(g.held);
-        sunder_i_pairing_free(&g);
+        sunder_i_board_free(&g);
+        assert_null(g.board);
+        sunder_i_operands_free(&g);
         sunder_shape_free(a);
         sunder_shape_free(b);
         polyset_free(&p);
@@ -123,11 +123,11 @@ static void test_out_of_memory(void **state)
     random_star(&q, &r, 70, 1000);
     failing_begin();
     sunder_shape *s[2] = {polyset_shape(&p), polyset_shape(&q)};
-    sunder_i_pairing g;
-    const sunder_i_pairing_options options = {.reflect_q = true};
-    assert_int_equal(sunder_i_pairing_init(&g, s[0], s[1], &options, NULL), SUNDER_OK);
-    assert_true(sunder_i_pairing_reach(&g, 2000) && g.subsums >= SUNDER_I_HELD_FROM);
-    sunder_i_pairing_free(&g);
+    sunder_i_operands g;
+    const sunder_i_operands_options options = {.reflect_q = true};
+    assert_int_equal(sunder_i_operands_init(&g, s[0], s[1], &options, NULL), SUNDER_OK);
+    assert_true(sunder_i_operands_reach(&g, 2000) && g.subsums >= SUNDER_I_BOARD_FROM);
+    sunder_i_operands_free(&g);
     assert_true(failing_loop(separate, s, false));
     sunder_shape_free(s[0]);
     sunder_shape_free(s[1]);

@@ -13,7 +13,7 @@ typedef struct vec {
     sunder_i_big x, y;
 } vec;
 
-static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->pairing->placed.lattice.arena; }
+static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->operands->placed.lattice.arena; }
 
 /* The problem in units that divide the lattice's, such that these points are integers in them. */
 static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder_i_point *point, size_t n)
@@ -22,7 +22,7 @@ static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder
     sunder_i_gap_problem q = *p;
     for (size_t i = 0; i < n && !m->failed; i++) {
         if (sunder_i_point_is_plain(point[i])) continue;
-        const sunder_i_big w = sunder_i_vector_get(m, &p->pairing->placed.lattice, point[i]).w;
+        const sunder_i_big w = sunder_i_vector_get(m, &p->operands->placed.lattice, point[i]).w;
         const sunder_i_big g = sunder_i_big_gcd(m, q.over, w);
         if (!m->failed) q.over = sunder_i_big_mul(m, q.over, sunder_i_big_div_floor(m, w, g));
     }
@@ -34,20 +34,20 @@ static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
 {
     sunder_i_arena *m = arena_of(p);
     if (m->failed) return (vec){{NULL, 0}, {NULL, 0}};
-    const sunder_i_vector v = sunder_i_vector_get(m, &p->pairing->placed.lattice, a);
+    const sunder_i_vector v = sunder_i_vector_get(m, &p->operands->placed.lattice, a);
     if (sunder_i_is_one(p->over)) return (vec){v.x, v.y};
     const sunder_i_big factor = sunder_i_big_div_floor(m, p->over, v.w);
     return (vec){sunder_i_big_mul(m, v.x, factor), sunder_i_big_mul(m, v.y, factor)};
 }
 
 /* Both points of a curve; of an arc they are one. */
-static void points_of(const sunder_i_curve *curve, sunder_i_point out[2])
+static void points_of(const sunder_i_gap_curve *curve, sunder_i_point out[2])
 {
     out[0] = curve->a;
     out[1] = curve->arc ? curve->a : curve->d;
 }
 
-static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sunder_i_curve *curve)
+static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve)
 {
     sunder_i_point point[2];
     points_of(curve, point);
@@ -85,10 +85,7 @@ static sunder_i_big dot(const sunder_i_gap_problem *p, vec u, vec v)
     return add(p, mul(p, u.x, v.x), mul(p, u.y, v.y));
 }
 
-static sunder_i_surd surd(const sunder_i_gap_problem *p, sunder_i_big v)
-{
-    return sunder_i_surd_big(arena_of(p), v);
-}
+static sunder_i_surd surd(const sunder_i_gap_problem *p, sunder_i_big v) { return sunder_i_surd_big(arena_of(p), v); }
 
 static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_big f)
 {
@@ -115,12 +112,12 @@ static sunder_i_surd difference(const sunder_i_gap_problem *p, sunder_i_surd a, 
 
 typedef struct line {
     vec d, n;
-    sunder_i_big square;   /* q */
+    sunder_i_big square;  /* q */
     sunder_i_surd length; /* L */
     sunder_i_surd c;      /* C */
 } line;
 
-static line moved_line(const sunder_i_gap_problem *p, const sunder_i_curve *curve, sunder_i_roots *roots)
+static line moved_line(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_roots *roots)
 {
     line l = {.d = get(p, curve->d)};
     l.n = (vec){l.d.y, sunder_i_big_neg(l.d.x)};
@@ -130,7 +127,8 @@ static line moved_line(const sunder_i_gap_problem *p, const sunder_i_curve *curv
     return l;
 }
 
-static void finish(sunder_i_spot *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y, sunder_i_big w)
+static void finish(sunder_i_surd_point *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y,
+                   sunder_i_big w)
 {
     w = sunder_i_times(arena_of(p), w, p->over);
     const bool negative = sunder_i_big_sign(w) < 0;
@@ -141,13 +139,12 @@ static void finish(sunder_i_spot *out, const sunder_i_gap_problem *p, sunder_i_s
 }
 
 /* c (1 - g / |c|). */
-static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curve, sunder_i_spot *out)
+static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
 {
     const vec c = get(p, curve->a);
     const sunder_i_big square = dot(p, c, c);
     if (sunder_i_big_sign(square) == 0) {
-        finish(out, p, surd(p, sunder_i_big_neg(p->gap)), surd(p, square),
-               scaled(p, sunder_i_big_i64(arena_of(p), 1)));
+        finish(out, p, surd(p, sunder_i_big_neg(p->gap)), surd(p, square), scaled(p, sunder_i_big_i64(arena_of(p), 1)));
         return;
     }
     sunder_i_surd length;
@@ -156,7 +153,7 @@ static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_curve *curve,
     finish(out, p, scale(p, k, c.x), scale(p, k, c.y), scaled(p, square));
 }
 
-void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve *curve, sunder_i_spot *out)
+void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
 {
     const sunder_i_gap_problem q = over_curve(problem, curve), *const p = &q;
     out->roots.n = 0;
@@ -169,8 +166,8 @@ void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_curve
 }
 
 /* c + (n k + sign d s) / (q N) with k = C - N n.c and s = sqrt(G^2 q - k^2). */
-static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_curve *side, const sunder_i_curve *arc, int sign,
-                     sunder_i_spot *out)
+static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *side, const sunder_i_gap_curve *arc,
+                     int sign, sunder_i_surd_point *out)
 {
     sunder_i_arena *a = arena_of(p);
     const line l = moved_line(p, side, &out->roots);
@@ -188,8 +185,8 @@ static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_curve *side, 
 }
 
 /* The middle, and on either side of it v turned left times sqrt((4 G^2 - Q N^2) Q) / (2 Q N), Q = |v|^2. */
-static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_curve *c, const sunder_i_curve *d, int sign,
-                    sunder_i_spot *out)
+static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *c, const sunder_i_gap_curve *d, int sign,
+                    sunder_i_surd_point *out)
 {
     sunder_i_arena *arena = arena_of(p);
     const vec a = get(p, c->a), b = get(p, d->a), v = {sub(p, b.x, a.x), sub(p, b.y, a.y)};
@@ -205,8 +202,8 @@ static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_curve *c, cons
     return true;
 }
 
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_curve *c, const sunder_i_curve *d,
-                           int sign, sunder_i_spot *out)
+bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
+                           const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out)
 {
     sunder_i_point point[4];
     points_of(c, point);
@@ -224,8 +221,8 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_c
 
 /* ---- Along a line of rational length ---- */
 
-bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curve *side, sunder_i_big along,
-                        unsigned long bits, sunder_i_spot *out)
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side, sunder_i_big along,
+                        unsigned long bits, sunder_i_surd_point *out)
 {
     const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
     along = sunder_i_times(arena_of(p), along, p->over);
@@ -240,8 +237,8 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_curv
     return true;
 }
 
-bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_curve *side, const sunder_i_spot *at,
-                           unsigned long bits, sunder_i_big *along)
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side,
+                           const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along)
 {
     /* The side's own units drop out: at is in those of the lattice. */
     const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
@@ -250,32 +247,31 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_c
     const line l = moved_line(p, side, &roots);
     if (roots.n) return false;
     const sunder_i_surd s = sum(p, scale(p, at->x, l.d.x), scale(p, at->y, l.d.y));
-    *along = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, s, bits),
-                                    mul(p, at->w, l.length.part[0]));
+    *along = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, s, bits), mul(p, at->w, l.length.part[0]));
     return true;
 }
 
 /* ---- Rational points ---- */
 
-sunder_i_spot sunder_i_spot_rational(sunder_i_pairing *g, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *g, sunder_i_big x, sunder_i_big y, sunder_i_big w)
 {
     sunder_i_arena *a = &g->placed.lattice.arena;
-    return (sunder_i_spot){{.n = 0}, sunder_i_surd_big(a, x), sunder_i_surd_big(a, y), w};
+    return (sunder_i_surd_point){{.n = 0}, sunder_i_surd_big(a, x), sunder_i_surd_big(a, y), w};
 }
 
-sunder_i_spot sunder_i_spot_doubles(sunder_i_pairing *g, double dx, double dy)
+sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *g, double dx, double dy)
 {
     sunder_i_big x, y, w;
     sunder_i_vector_doubles(g, dx, dy, &x, &y, &w);
-    return sunder_i_spot_rational(g, x, y, w);
+    return sunder_i_surd_point_rational(g, x, y, w);
 }
 
-bool sunder_i_spot_is_rational(const sunder_i_spot *s) { return s->roots.n == 0; }
+bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *s) { return s->roots.n == 0; }
 
 /* ---- The gap ---- */
 
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *s, uint32_t k,
-                          const sunder_i_spot *at, bool *inward, sunder_i_reach *reach)
+                          const sunder_i_surd_point *at, bool *inward, sunder_i_gap_nearest *reach)
 {
     sunder_i_arena *a = arena_of(problem);
     const sunder_i_mark mark = sunder_i_arena_mark(a);
@@ -290,7 +286,7 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);
     int order = 1;
     *inward = sunder_i_surd_sign(a, roots, turn) > 0;
-    *reach = SUNDER_I_REACH_CORNER;
+    *reach = SUNDER_I_GAP_NEAREST_CORNER;
     if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the corner */
         const sunder_i_surd norm = sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
         const sunder_i_surd wide = sunder_i_surd_shl(a, norm, 2 * p->gap_bits);
@@ -298,19 +294,19 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     } else if (sunder_i_surd_sign(a, roots, difference(p, along, surd(p, mul(p, square, at->w)))) < 0) {
         const sunder_i_surd wide = sunder_i_surd_shl(a, sunder_i_surd_mul(a, roots, turn, turn), 2 * p->gap_bits);
         order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, mul(p, limit, square))));
-        *reach = SUNDER_I_REACH_SIDE;
+        *reach = SUNDER_I_GAP_NEAREST_SIDE;
     }
     sunder_i_arena_release(a, mark);
     return order;
 }
 
-int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_spot *at)
+int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_surd_point *at)
 {
     bool inside = true;
     int least = 1;
     for (uint32_t k = 0; k < s->sides && least >= 0; k++) {
         bool inward;
-        sunder_i_reach reach;
+        sunder_i_gap_nearest reach;
         const int order = sunder_i_gap_cmp_side(p, s, k, at, &inward, &reach);
         if (order < least) least = order;
         inside = inside && inward;
@@ -325,7 +321,7 @@ static sunder_i_surd norm(sunder_i_arena *a, const sunder_i_roots *roots, sunder
     return sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, x, x), sunder_i_surd_mul(a, roots, y, y));
 }
 
-int sunder_i_spot_cmp(sunder_i_pairing *g, const sunder_i_spot *u, const sunder_i_spot *v)
+int sunder_i_surd_point_cmp(sunder_i_operands *g, const sunder_i_surd_point *u, const sunder_i_surd_point *v)
 {
     sunder_i_arena *a = &g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
@@ -342,24 +338,26 @@ int sunder_i_spot_cmp(sunder_i_pairing *g, const sunder_i_spot *u, const sunder_
     return c;
 }
 
-void sunder_i_spot_scaled(sunder_i_pairing *g, const sunder_i_spot *at, unsigned long bits, sunder_i_big xy[2])
+void sunder_i_surd_point_scaled(sunder_i_operands *g, const sunder_i_surd_point *at, unsigned long bits,
+                                sunder_i_big xy[2])
 {
     sunder_i_arena *a = &g->placed.lattice.arena;
     xy[0] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, at->x, bits), at->w);
     xy[1] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, at->y, bits), at->w);
 }
 
-unsigned long sunder_i_spot_digits(sunder_i_pairing *g, const sunder_i_spot *at, double about, sunder_i_big xy[2])
+unsigned long sunder_i_surd_point_digits(sunder_i_operands *g, const sunder_i_surd_point *at, double about,
+                                         sunder_i_big xy[2])
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const long size = about > 0 && about < INFINITY ? ilogb(about) + l->approx_shift : 0;
     for (unsigned long bits = size < 76 ? (unsigned long)(76 - size) : 0;; bits = 2 * bits + 1) {
-        sunder_i_spot_scaled(g, at, bits, xy);
+        sunder_i_surd_point_scaled(g, at, bits, xy);
         if (sunder_i_big_bits(xy[0]) >= 72 || sunder_i_big_bits(xy[1]) >= 72 || l->arena.failed) return bits;
     }
 }
 
-double sunder_i_spot_length_down(sunder_i_pairing *g, const sunder_i_big xy[2], unsigned long bits)
+double sunder_i_surd_point_length_down(sunder_i_operands *g, const sunder_i_big xy[2], unsigned long bits)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_arena *a = &l->arena;

@@ -80,7 +80,7 @@ static void check_worse(void **state)
         for (int e = 0; e < 2; e++) {
             const sunder_i_pair was = {ps[e], qs[e], NULL, NULL}, is = {ps[1 - e], qs[1 - e], NULL, NULL};
             bool worse;
-            assert_int_equal(sunder_i_is_worse(&was, &is, &worse, NULL), SUNDER_OK);
+            assert_int_equal(sunder_i_pair_worsened(&was, &is, &worse, NULL), SUNDER_OK);
             const bool expected = stands_worse(&s[1 - e], &s[e]);
             if (worse != expected)
                 fail_msg("trial %zu: %s, but %s\n%s\n%s\n%s\n%s", k, worse ? "worse" : "no worse",

@@ -1,4 +1,4 @@
-#include "separation/obstacle/line.h"
+#include "separation/obstacle/carrier.h"
 #include "separation/obstacle/board.h"
 
 #include <math.h>
@@ -16,20 +16,20 @@ static inline sunder_i_fraction narrow_fraction(sunder_i_i128 num, sunder_i_i128
     return (sunder_i_fraction){num, den, fast_double(num) / fast_double(den)};
 }
 
-sunder_i_line sunder_i_line_make(sunder_i_pairing *g, sunder_i_point a, sunder_i_point d)
+sunder_i_carrier sunder_i_carrier_make(sunder_i_operands *g, sunder_i_point a, sunder_i_point d)
 {
     const sunder_i_lattice *l = &g->placed.lattice;
-    return (sunder_i_line){a,
-                           sunder_i_pairing_add(g, a, d),
-                           d,
-                           sunder_i_approx(l, a.x),
-                           sunder_i_approx(l, a.y),
-                           sunder_i_approx(l, d.x),
-                           sunder_i_approx(l, d.y),
-                           sunder_i_point_is_plain(a) && sunder_i_point_is_plain(d)};
+    return (sunder_i_carrier){a,
+                              sunder_i_operands_add(g, a, d),
+                              d,
+                              sunder_i_approx(l, a.x),
+                              sunder_i_approx(l, a.y),
+                              sunder_i_approx(l, d.x),
+                              sunder_i_approx(l, d.y),
+                              sunder_i_point_is_plain(a) && sunder_i_point_is_plain(d)};
 }
 
-sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *line)
+sunder_i_fraction sunder_i_carrier_foot(sunder_i_operands *g, const sunder_i_carrier *line)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (line->plain) {
@@ -45,7 +45,7 @@ sunder_i_fraction sunder_i_line_foot(sunder_i_pairing *g, const sunder_i_line *l
     return sunder_i_fraction_cmp(l, &foot, &one) >= 0 ? one : foot;
 }
 
-int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
+int sunder_i_carrier_cmp(sunder_i_operands *g, const sunder_i_fraction *s, const sunder_i_fraction *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (s->den == 0 || t->den == 0) return sunder_i_fraction_cmp(l, s, t);
@@ -58,15 +58,15 @@ int sunder_i_line_cmp(sunder_i_pairing *g, const sunder_i_fraction *s, const sun
 }
 
 /* Of plain numbers, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
-static inline void narrow_linear(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
+static inline void narrow_linear(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
                                  sunder_i_i128 *b)
 {
     *a = sunder_i_narrow_cross(s->side[k], sunder_i_narrow_sub(line->a, s->corner[k]));
     *b = sunder_i_narrow_cross(s->side[k], line->d);
 }
 
-int sunder_i_line_side(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t,
-                       const sunder_i_subsum *s, uint32_t k)
+int sunder_i_carrier_side(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                          const sunder_i_subsum *s, uint32_t k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     l->counts.orientation_tests++;
@@ -112,7 +112,7 @@ static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
 }
 
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
-static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+static bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
                    const sunder_i_subsum *s)
 {
     if (s->sides >= SUNDER_I_SIDES_MANY) {
@@ -129,13 +129,13 @@ static bool inside(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
     if (certain) return true;
     for (uint32_t k = 0; k < s->sides; k++) {
         const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
-        if (v <= s->bound[k] && sunder_i_line_side(g, line, t, s, k) <= 0) return false;
+        if (v <= s->bound[k] && sunder_i_carrier_side(g, line, t, s, k) <= 0) return false;
     }
     return true;
 }
 
 /* Does subsum k cover the point? False too if memory is out. */
-static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
+static bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
                    size_t k)
 {
     const double e = g->error;
@@ -147,10 +147,10 @@ static bool covers(sunder_i_pairing *g, const sunder_i_line *line, const sunder_
 }
 
 /* With a board of squares: the last subsum first, then those near the square. */
-static long cover_on_board(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x,
+static long cover_on_board(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                            double y, uint32_t square, size_t first)
 {
-    const sunder_i_held *h = g->held;
+    const sunder_i_board *h = g->board;
     if (h->holder[square]) return (long)h->holder[square] - 1;
     if (first < g->subsums && covers(g, line, t, x, y, first)) return (long)first;
     for (uint32_t i = square ? h->list_end[square - 1] : 0; i < h->list_end[square]; i++) {
@@ -160,12 +160,12 @@ static long cover_on_board(sunder_i_pairing *g, const sunder_i_line *line, const
     return -1;
 }
 
-long sunder_i_line_cover(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_fraction *t, double x, double y,
-                         size_t *first)
+long sunder_i_carrier_cover(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                            double y, size_t *first)
 {
-    if (g->held) {
-        const uint32_t square = sunder_i_held_square(g->held, x, y);
-        if (square < g->held->n * g->held->n) {
+    if (g->board) {
+        const uint32_t square = sunder_i_board_square(g->board, x, y);
+        if (square < g->board->n * g->board->n) {
             const long k = cover_on_board(g, line, t, x, y, square, first ? *first : g->subsums);
             if (first && k >= 0) *first = (size_t)k;
             return k;
@@ -205,7 +205,7 @@ uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *s, double dx, double dy)
 }
 
 /* How far the corner is to the left of the line, times its length. */
-static double height(const sunder_i_line *line, const sunder_i_subsum *s, uint32_t k)
+static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
 {
     if (k >= s->sides) k -= s->sides;
     return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
@@ -215,7 +215,8 @@ static double height(const sunder_i_line *line, const sunder_i_subsum *s, uint32
  * never again. So between any corner that is certainly to its right and one that is certainly to its left there is one
  * side through which it leaves, found by halving; only corners that doubles cannot place are left between, and the
  * sides at them. Backwards it is the other way round. */
-static stretch leaving(const sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s, bool forwards)
+static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
+                       bool forwards)
 {
     const stretch all = {0, s->sides};
     if (s->sides < SUNDER_I_SIDES_MANY) return all;
@@ -244,16 +245,16 @@ static stretch leaving(const sunder_i_pairing *g, const sunder_i_line *line, con
     return (stretch){low, high - low};
 }
 
-static void take_first(sunder_i_pairing *g, const sunder_i_fraction *t, bool forwards, sunder_i_fraction *best,
+static void take_first(sunder_i_operands *g, const sunder_i_fraction *t, bool forwards, sunder_i_fraction *best,
                        bool *any)
 {
-    const int c = *any ? sunder_i_line_cmp(g, t, best) : 0;
+    const int c = *any ? sunder_i_carrier_cmp(g, t, best) : 0;
     if (!*any || (forwards ? c < 0 : c > 0)) *best = *t;
     *any = true;
 }
 
-sunder_i_fraction sunder_i_line_exit(sunder_i_pairing *g, const sunder_i_line *line, const sunder_i_subsum *s,
-                                     bool forwards)
+sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
+                                        bool forwards)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_fraction best = {0, 1, 0};
