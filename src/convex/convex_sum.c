@@ -1,5 +1,8 @@
+/* The sum of two pieces whose corners may be Steiner points, (x / w, y / w): directions are lattice vectors all the same,
+ * so only corners have wide numbers, and each is made once. */
 #include "convex/convex_sum.h"
 
+#include "convex/merge.h"
 #include "predicate/predicate.h"
 
 static bool is_one(sunder_i_big w) { return w.size == 1 && w.limb[0] == 1; }
@@ -37,18 +40,15 @@ bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p
     const uint32_t qf = sunder_i_piece_first(q, j), qe = q->piece_end[j];
     sunder_i_convex_sum s;
     if (!make_room(arena, pe - pf + qe - qf, &s)) return false;
-    for (uint32_t a = pf, b = qf; a < pe || b < qe;) {
-        /* A piece whose sides are all used waits in its first corner. */
+    sunder_i_merge m = sunder_i_merge_of(pe - pf, qe - qf);
+    while (SUNDER_I_MERGE_NEXT(&m, sunder_i_angle_cmp(l, p->along[pf + m.next_a], q->along[qf + m.next_b]))) {
         const uint32_t k = s.corners++;
-        s.of_p[k] = p->piece_corner[a < pe ? a : pf];
-        s.of_q[k] = q->piece_corner[b < qe ? b : qf];
+        s.of_p[k] = p->piece_corner[pf + m.a];
+        s.of_q[k] = q->piece_corner[qf + m.b];
         add_corners(arena, &p->corner[s.of_p[k]], &q->corner[s.of_q[k]], s.xyw[k]);
-        const int c = a >= pe ? 1 : b >= qe ? -1 : sunder_i_angle_cmp(l, p->along[a], q->along[b]);
-        s.side_p[k] = c <= 0;
-        s.side_q[k] = c >= 0;
-        s.along[k] = c <= 0 ? p->along[a] : q->along[b];
-        if (s.side_p[k]) a++;
-        if (s.side_q[k]) b++;
+        s.side_p[k] = m.of_a;
+        s.side_q[k] = m.of_b;
+        s.along[k] = m.of_a ? p->along[pf + m.a] : q->along[qf + m.b];
     }
     if (arena->failed || l->arena.failed) return false;
     *out = s;

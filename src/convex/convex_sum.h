@@ -1,5 +1,5 @@
-/* Minkowski sums of two convex pieces, the subsums: their sides merged by angle, in linear time [BKOS08, section
- * 13.4]. */
+/* The Minkowski sum of two convex pieces of decompositions, corners with denominators among them: their sides merged
+ * by angle (merge.h). */
 #ifndef SUNDER_I_CONVEX_SUM_H
 #define SUNDER_I_CONVEX_SUM_H
 

@@ -6,6 +6,8 @@
  * side, so no vertex is straight, and the sum starts in its own smallest corner: it is canonical as it comes. */
 #include "minkowski/convex_operands.h"
 
+#include "convex/merge.h"
+
 static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at)
 {
     uint32_t least = 0;
@@ -14,12 +16,22 @@ static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const s
     return least;
 }
 
-/* Which of the sides a -> a' and b -> b' comes first; 0: they have one direction. */
-static int order(sunder_i_lattice *l, const sunder_i_point a[2], const sunder_i_point b[2])
+typedef struct side {
+    sunder_i_point along;
+    bool back; /* does it lead to a smaller point? */
+} side;
+
+static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at, uint32_t v)
 {
-    const bool back_a = sunder_i_point_cmp(l, a[1], a[0]) < 0, back_b = sunder_i_point_cmp(l, b[1], b[0]) < 0;
-    if (back_a != back_b) return back_a ? 1 : -1;
-    return -sunder_i_cross_sign(l, sunder_i_point_sub(l, a[1], a[0]), sunder_i_point_sub(l, b[1], b[0]));
+    const sunder_i_point from = at[v], to = at[shape->next[v]];
+    return (side){sunder_i_point_sub(l, to, from), sunder_i_point_cmp(l, to, from) < 0};
+}
+
+/* Which comes first; 0: they have one direction. */
+static int order(sunder_i_lattice *l, const side *s, const side *t)
+{
+    if (s->back != t->back) return s->back ? 1 : -1;
+    return -sunder_i_cross_sign(l, s->along, t->along);
 }
 
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q) { return p->pieces == 1 && q->pieces == 1; }
@@ -34,17 +46,16 @@ sunder_status sunder_i_convex_build(sunder_sum *sum, const sunder_shape *p, cons
     sum->ring_end = sunder_i_alloc(1, sizeof *sum->ring_end);
     sum->poly_end = sunder_i_alloc(1, sizeof *sum->poly_end);
     if (!sum->vertex || !sum->ring_vertex || !sum->ring_end || !sum->poly_end) return sunder_i_no_memory(err);
-    uint32_t n = 0, i = smallest(l, p, at_p), j = smallest(l, q, at_q), a = 0, b = 0;
-    while (a < p->vertices || b < q->vertices) {
-        const sunder_i_point side_p[2] = {at_p[i], at_p[p->next[i]]}, side_q[2] = {at_q[j], at_q[q->next[j]]};
-        sum->vertex[n] = sunder_i_hpoint_of(l, sunder_i_point_add(l, side_p[0], side_q[0]));
-        sum->ring_vertex[n] = n;
-        n++;
-        const int c = a == p->vertices ? 1 : b == q->vertices ? -1 : order(l, side_p, side_q);
-        if (c <= 0) i = p->next[i], a++;
-        if (c >= 0) j = q->next[j], b++;
+    uint32_t n = 0, i = smallest(l, p, at_p), j = smallest(l, q, at_q);
+    sunder_i_merge m = sunder_i_merge_of(p->vertices, q->vertices);
+    side s = side_from(l, p, at_p, i), t = side_from(l, q, at_q, j);
+    while (SUNDER_I_MERGE_NEXT(&m, order(l, &s, &t))) {
+        sum->vertex[n++] = sunder_i_hpoint_of(l, sunder_i_point_add(l, at_p[i], at_q[j]));
+        if (m.of_a) s = side_from(l, p, at_p, i = p->next[i]);
+        if (m.of_b) t = side_from(l, q, at_q, j = q->next[j]);
     }
     if (l->arena.failed) return sunder_i_no_memory(err);
+    for (uint32_t v = 0; v < n; v++) sum->ring_vertex[v] = v;
     sum->vertices = n;
     sum->ring_end[0] = n;
     sum->poly_end[0] = sum->rings = sum->polygons = 1;

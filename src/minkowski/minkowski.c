@@ -39,8 +39,9 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
         sum->seconds[2] = sunder_i_now() - start;
         return status;
     }
-    sunder_i_subsums subsums;
-    status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &subsums, err);
+    sunder_i_pieces subsums;
+    sunder_i_directions directions;
+    status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &directions, &subsums, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
     /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
@@ -48,7 +49,8 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
         status = sunder_i_bury_candidates(&subsums, err);
     sum->seconds[1] = sunder_i_now() - start;
     if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
-    sunder_i_subsums_free(&subsums);
+    sunder_i_pieces_free(&subsums);
+    sunder_i_directions_free(&directions);
     sum->seconds[2] = sunder_i_now() - start - sum->seconds[1];
     return status;
 }

@@ -5,7 +5,7 @@
  * neither is boundary; they would come out as degenerate segments and points, which the union of closed members has
  * none of. */
 #include "outline/buried.h"
-#include "convex/hulls.h"
+#include "convex/pieces.h"
 #include "outline/outline.h"
 #include "morphology/morphology.h"
 
@@ -40,23 +40,21 @@ static bool drop_degenerate(sunder_sum *sum)
 static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_point *at,
                                   const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
 {
-    sunder_i_hulls pieces, *const list[] = {&pieces};
-    sunder_i_point *direction = NULL;
-    uint32_t classes;
+    sunder_i_pieces pieces, *const list[] = {&pieces};
+    sunder_i_directions directions = {0};
     if (shape->pieces == 0) return SUNDER_OK;
-    if (!sunder_i_hulls_init(&pieces, shape->pieces, shape->piece_end[shape->pieces - 1]))
+    if (!sunder_i_pieces_init(&pieces, shape->pieces, shape->piece_end[shape->pieces - 1]))
         return sunder_i_no_memory(err);
-    sunder_i_hulls_add_shape(&pieces, shape, at);
+    sunder_i_pieces_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
-    if (sunder_i_hulls_rank(&sum->lattice, list, 1, &direction, &classes)) {
-        sunder_i_subsums parts = sunder_i_hulls_parts(&pieces, &sum->lattice, direction, classes);
-        if (shape->polygons > 1) status = sunder_i_bury_candidates(&parts, err);
-        if (status == SUNDER_OK) status = sunder_i_stages_run(&parts, options, NULL, NULL, sum, err);
+    if (sunder_i_pieces_rank(&sum->lattice, list, 1, &directions)) {
+        if (shape->polygons > 1) status = sunder_i_bury_candidates(&pieces, err);
+        if (status == SUNDER_OK) status = sunder_i_stages_run(&pieces, options, NULL, NULL, sum, err);
     } else
         status = sunder_i_no_memory(err);
     if (status == SUNDER_OK && !drop_degenerate(sum)) status = sunder_i_no_memory(err);
-    sunder_i_free(direction);
-    sunder_i_hulls_free(&pieces);
+    sunder_i_directions_free(&directions);
+    sunder_i_pieces_free(&pieces);
     return status;
 }
 

@@ -16,7 +16,7 @@
 #ifndef SUNDER_I_DIAGONALS_H
 #define SUNDER_I_DIAGONALS_H
 
-#include "convex/hulls.h"
+#include "convex/pieces.h"
 #include "shape/shape.h"
 
 typedef struct sunder_i_diagonals {
@@ -32,6 +32,6 @@ void sunder_i_diagonals_free(sunder_i_diagonals *diagonals);
 /* Appends the quadrilaterals. at: where the vertices of the shape stand, differences multiples of 2^bits. The list has
  * room. Memory in the lattice's arena, whose `failed` tells. */
 void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *lattice, const sunder_i_point *at,
-                            sunder_i_hulls *list);
+                            sunder_i_pieces *list);
 
 #endif

@@ -7,7 +7,7 @@
 #ifndef SUNDER_I_SPACE_H
 #define SUNDER_I_SPACE_H
 
-#include "convex/hulls.h"
+#include "convex/pieces.h"
 #include "motion/place.h"
 
 /* A stretch of the outline between two vertices of the sum: a side of O, or of a degenerate segment. */
@@ -28,7 +28,8 @@ typedef struct sunder_i_part_tree {
 typedef struct sunder_i_space {
     sunder_sum *sum; /* the outline of O; owns the lattice */
     sunder_i_ground ground;
-    sunder_i_hulls part;
+    sunder_i_pieces part;
+    sunder_i_directions directions; /* of the sides of parts */
     double (*corner)[2];      /* [part.corners] close to the corners of parts, as the ground says */
     uint32_t robot_pieces;    /* parts [i * robot_pieces, (i + 1) * robot_pieces) are of obstacle piece i */
     uint32_t *piece_obstacle; /* [pieces] whose it is */

@@ -215,7 +215,7 @@ static bool gather_points(const sunder_i_coverage *c, degenerates *d, sunder_sum
     return out->point && sunder_i_sort_indices(out->point, out->points, compare_points, d);
 }
 
-sunder_status sunder_i_boundary_build(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_boundary_build(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err)
 {
     sunder_i_lattice *lattice = subsums->lattice;

@@ -13,7 +13,7 @@
 
 /* Takes the places of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with
  * SUNDER_ENOMEM; the caller then frees the sum. */
-sunder_status sunder_i_boundary_build(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_boundary_build(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
 
 #endif

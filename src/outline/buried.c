@@ -18,7 +18,7 @@ typedef struct box {
 /* Squares of 2^shift units; in each the subsums of which the box reaches into it. The units are those of a narrow
  * lattice; of a wide one the coordinates are rounded to 60 bits of the largest, and may be off by so much each. */
 typedef struct grid {
-    const sunder_i_subsums *subsums;
+    const sunder_i_pieces *subsums;
     const sunder_i_point *corner;
     sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
     int64_t error;
@@ -56,8 +56,8 @@ static bool is_within(const grid *g, const box *b, sunder_i_point p)
  * or for the diagonal that it is on, or too near to be told on which side: then for the two triangles beside that. */
 static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
 {
-    const sunder_i_subsums *s = g->subsums;
-    const uint32_t first = sunder_i_subsum_first(s, subsum);
+    const sunder_i_pieces *s = g->subsums;
+    const uint32_t first = sunder_i_pieces_first(s, subsum);
     const sunder_i_point *c = g->corner + first;
     uint32_t low = 1, high = s->end[subsum] - first - 1;
     if (turn(g, c[0], c[low], p) <= 0 || turn(g, c[0], c[high], p) >= 0) return false;
@@ -81,20 +81,20 @@ static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
  * half a unit where that is rounded. False if memory is out, or if all is next to nothing, where doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
-    const sunder_i_subsums *s = g->subsums;
+    const sunder_i_pieces *s = g->subsums;
     g->corner = s->corner;
     if (s->lattice->narrow) return true;
     double most = 0;
     int exponent;
-    for (size_t k = 0; k < s->sides; k++)
+    for (size_t k = 0; k < s->corners; k++)
         most = fmax(most, fmax(fabs(sunder_i_approx(s->lattice, s->corner[k].x)),
                                fabs(sunder_i_approx(s->lattice, s->corner[k].y))));
     if (!(most > 0x1p-900)) return false;
     frexp(most, &exponent);
-    g->rounded = sunder_i_alloc(s->sides, sizeof *g->rounded);
+    g->rounded = sunder_i_alloc(s->corners, sizeof *g->rounded);
     *no_memory = !g->rounded;
     if (*no_memory) return false;
-    for (size_t k = 0; k < s->sides; k++)
+    for (size_t k = 0; k < s->corners; k++)
         g->rounded[k] = (sunder_i_point){llrint(ldexp(sunder_i_approx(s->lattice, s->corner[k].x), 60 - exponent)),
                                          llrint(ldexp(sunder_i_approx(s->lattice, s->corner[k].y), 60 - exponent))};
     g->corner = g->rounded;
@@ -104,9 +104,9 @@ static bool take_corners(grid *g, bool *no_memory)
 
 static void measure(grid *g)
 {
-    const sunder_i_subsums *s = g->subsums;
+    const sunder_i_pieces *s = g->subsums;
     for (size_t i = 0; i < s->n; i++) {
-        const uint32_t first = sunder_i_subsum_first(s, i);
+        const uint32_t first = sunder_i_pieces_first(s, i);
         const sunder_i_point a = g->corner[first];
         box b = {{a.x, a.y}, {a.x, a.y}};
         for (uint32_t k = first + 1; k < s->end[i]; k++) {
@@ -242,12 +242,12 @@ static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_
 /* A side that is buried saves some thousand instructions, about what 64 looks cost; where sides are held by several
  * subsums together, not by one, that is noticed soon, and the rest is left to the cells. The smallest subsums come
  * first: of features one within the other only the last, which nothing holds, is looked for in vain. */
-static void bury(sunder_i_subsums *s, grid *g)
+static void bury(sunder_i_pieces *s, grid *g)
 {
-    g->allowed = 4 * LOOKS + 4 * s->n;
+    g->allowed = 4 * LOOKS + 4 * (size_t)s->n;
     for (size_t left = s->n; left-- > 0 && g->spent < g->allowed && sunder_i_step();) {
         const uint32_t i = g->order[left];
-        const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
+        const uint32_t first = sunder_i_pieces_first(s, i), end = s->end[i];
         uint32_t holder = NONE;
         for (uint32_t k = first; k < end; k++) {
             if (!s->candidate[k]) continue;
@@ -258,7 +258,7 @@ static void bury(sunder_i_subsums *s, grid *g)
     }
 }
 
-sunder_status sunder_i_bury_candidates(sunder_i_subsums *subsums, sunder_error *err)
+sunder_status sunder_i_bury_candidates(sunder_i_pieces *subsums, sunder_error *err)
 {
     if (subsums->n == 0) return SUNDER_OK;
     grid g = {.subsums = subsums,

@@ -2,10 +2,10 @@
 #ifndef SUNDER_I_BURIED_H
 #define SUNDER_I_BURIED_H
 
-#include "convex/subsums.h"
+#include "convex/pieces.h"
 
 /* Takes the mark of a candidate from sides that are inside one subsum, ends included: nothing on them is boundary or
  * degenerate. Not all such are found. Fails only with SUNDER_ENOMEM. */
-sunder_status sunder_i_bury_candidates(sunder_i_subsums *subsums, sunder_error *err);
+sunder_status sunder_i_bury_candidates(sunder_i_pieces *subsums, sunder_error *err);
 
 #endif

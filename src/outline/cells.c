@@ -392,19 +392,19 @@ static sunder_status descend(builder *b, sunder_error *err)
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_cells_pair(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                   const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    if (subsums->sides == 0) return SUNDER_OK;
-    const bool runs = subsums->sides < (size_t)1 << RUN_BITS;
+    if (subsums->corners == 0) return SUNDER_OK;
+    const bool runs = subsums->corners < (size_t)1 << RUN_BITS;
     builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX,
                  .run_shift = runs ? RUN_BITS : 32,
                  .subsums = subsums,
                  .lines = lines,
                  .options = options,
                  .out = out};
-    out->fate = sunder_i_calloc(subsums->sides, sizeof *out->fate);
+    out->fate = sunder_i_calloc(subsums->corners, sizeof *out->fate);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);

@@ -33,7 +33,7 @@ typedef struct sunder_i_cell_pairs {
 enum { SUNDER_I_COVERED = 0, SUNDER_I_OPEN = 1, SUNDER_I_WHOLE = 2 };
 
 /* Fails with SUNDER_ENOMEM, or SUNDER_ECANCEL. */
-sunder_status sunder_i_cells_pair(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_cells_pair(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                   const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err);
 void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing);
 

@@ -125,9 +125,9 @@ void sunder_i_cells_end_trial(builder *b)
  * not do so. */
 bool sunder_i_cells_fates(builder *b)
 {
-    const sunder_i_subsums *s = b->subsums;
+    const sunder_i_pieces *s = b->subsums;
     for (uint32_t i = 0; i < s->n; i++)
-        for (uint32_t k = sunder_i_subsum_first(s, i); k < s->end[i]; k++) {
+        for (uint32_t k = sunder_i_pieces_first(s, i); k < s->end[i]; k++) {
             uint8_t *fate = &b->out->fate[k];
             if ((*fate & (PASSES | ALONE)) == 0)
                 *fate = SUNDER_I_COVERED;

@@ -62,7 +62,7 @@ enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
 typedef struct builder {
     run single_most;    /* the greatest number of a single side */
     uint32_t run_shift; /* RUN_BITS, or past the number */
-    const sunder_i_subsums *subsums;
+    const sunder_i_pieces *subsums;
     const sunder_i_lines *lines;
     const sunder_sum_options *options;
     sunder_i_cell_pairs *out;

@@ -9,20 +9,20 @@
  * page by page. */
 static bool make_room(builder *b)
 {
-    const sunder_i_subsums *s = b->subsums;
-    const size_t bytes = s->sides * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
+    const sunder_i_pieces *s = b->subsums;
+    const size_t bytes = s->corners * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
     b->side = sunder_i_alloc(bytes + bytes / 2, 1);
     if (!b->side) return false;
-    b->crossing = (crossing *)(void *)(b->side + s->sides);
-    b->reach = (box *)(void *)(b->crossing + s->sides);
-    b->before = sunder_i_alloc(s->sides + 1, sizeof *b->before);
+    b->crossing = (crossing *)(void *)(b->side + s->corners);
+    b->reach = (box *)(void *)(b->crossing + s->corners);
+    b->before = sunder_i_alloc(s->corners + 1, sizeof *b->before);
     if (!b->before) return false;
     uint32_t n = 0;
-    for (size_t k = 0; k < s->sides; k++) {
+    for (size_t k = 0; k < s->corners; k++) {
         b->before[k] = n;
         n += b->lines->of[k] != SUNDER_I_NO_LINE;
     }
-    b->before[s->sides] = n;
+    b->before[s->corners] = n;
     return true;
 }
 
@@ -30,13 +30,13 @@ static bool make_room(builder *b)
  * relative to themselves. */
 static bool approximate(builder *b, box *all)
 {
-    const sunder_i_subsums *s = b->subsums;
+    const sunder_i_pieces *s = b->subsums;
     sunder_i_lattice *l = s->lattice;
     double most = 0;
     *all = nothing;
     const bool narrow = l->narrow;
     for (size_t i = 0; i < s->n; i++) {
-        const uint32_t first = sunder_i_subsum_first(s, i), end = s->end[i];
+        const uint32_t first = sunder_i_pieces_first(s, i), end = s->end[i];
         if (!sunder_i_step()) return false;
         box own = nothing;
         for (uint32_t k = first; k < end; k++) {
@@ -76,7 +76,7 @@ static bool approximate(builder *b, box *all)
 /* Twice the area of a subsum, nearly. */
 static double extent_of(const builder *b, size_t subsum)
 {
-    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum);
+    const uint32_t first = sunder_i_pieces_first(b->subsums, subsum);
     const approx_side *o = &b->side[first];
     double area = 0;
     for (uint32_t k = first; k < b->subsums->end[subsum]; k++) {
@@ -101,7 +101,7 @@ static bool one_quadrant(const approx_side *s, const approx_side *t)
 /* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
 static void add_runs(builder *b, uint32_t subsum)
 {
-    const uint32_t first = sunder_i_subsum_first(b->subsums, subsum), end = b->subsums->end[subsum];
+    const uint32_t first = sunder_i_pieces_first(b->subsums, subsum), end = b->subsums->end[subsum];
     const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
     const size_t before = b->runs_n;
     for (uint32_t k = first; k < end;) {
@@ -116,11 +116,11 @@ static void add_runs(builder *b, uint32_t subsum)
 /* The root holds every side of every subsum, the largest subsums first: those are the ones that close cells. */
 static bool list_all(builder *b, const box *all, cell *root)
 {
-    const sunder_i_subsums *s = b->subsums;
+    const sunder_i_pieces *s = b->subsums;
     double *extent = sunder_i_alloc(s->n, sizeof *extent);
     uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
     bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&
-              sunder_i_reserve(&b->runs, &b->runs_capacity, s->sides, sizeof *b->runs);
+              sunder_i_reserve(&b->runs, &b->runs_capacity, s->corners, sizeof *b->runs);
     for (uint32_t i = 0; ok && i < s->n; i++) {
         order[i] = i;
         extent[i] = extent_of(b, i);
@@ -130,7 +130,7 @@ static bool list_all(builder *b, const box *all, cell *root)
         add_runs(b, order[i]);
         ok = sunder_i_step();
     }
-    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->sides, 0, 0, 1, 1, 0};
+    *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->corners, 0, 0, 1, 1, 0};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
     sunder_i_free(extent);
     sunder_i_free(order);

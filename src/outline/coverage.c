@@ -21,7 +21,7 @@ typedef struct event {
 #define NO_CORNER UINT32_MAX
 
 typedef struct finder {
-    const sunder_i_subsums *subsums;
+    const sunder_i_pieces *subsums;
     const sunder_i_lines *lines;
     const uint8_t *fate;
     sunder_i_coverage *out;
@@ -45,7 +45,7 @@ static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t co
 /* ---- One subsum and one line ---- */
 
 typedef struct polygon {
-    const sunder_i_subsums *s;
+    const sunder_i_pieces *s;
     uint32_t first, n;
 } polygon;
 
@@ -128,8 +128,8 @@ static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint
 
 static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
 {
-    const sunder_i_subsums *s = f->subsums;
-    const uint32_t first = sunder_i_subsum_first(s, subsum), forward = line->class, back = forward + s->classes;
+    const sunder_i_pieces *s = f->subsums;
+    const uint32_t first = sunder_i_pieces_first(s, subsum), forward = line->class, back = forward + s->classes;
     const polygon p = {s, first, s->end[subsum] - first};
     /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
     const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
@@ -248,7 +248,7 @@ static uint32_t corner_place(finder *f, uint32_t corner, bool between)
 
 static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
 {
-    const sunder_i_subsums *s = f->subsums;
+    const sunder_i_pieces *s = f->subsums;
     bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* the side before k */
     uint32_t first_place = SUNDER_I_NO_PLACE, to = SUNDER_I_NO_PLACE;
     for (uint32_t k = first; k < end; k++) {
@@ -303,13 +303,13 @@ static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
         i = j;
     }
     for (size_t i = 0; ok && pairing->whole && i < f->subsums->n; i++) {
-        take_whole_sides(f, sunder_i_subsum_first(f->subsums, i), f->subsums->end[i]);
+        take_whole_sides(f, sunder_i_pieces_first(f->subsums, i), f->subsums->end[i]);
         ok = !f->no_memory;
     }
     return ok && !f->subsums->lattice->arena.failed;
 }
 
-sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_coverage_find(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                      sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);

@@ -34,7 +34,7 @@ typedef struct sunder_i_coverage {
 } sunder_i_coverage;
 
 /* Consumes the order of pairing->pair. Fails with SUNDER_ENOMEM. */
-sunder_status sunder_i_coverage_find(const sunder_i_subsums *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_coverage_find(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
                                      sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err);
 void sunder_i_coverage_free(sunder_i_coverage *coverage);
 

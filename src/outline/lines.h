@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_LINES_H
 #define SUNDER_I_LINES_H
 
-#include "convex/subsums.h"
+#include "convex/pieces.h"
 
 #define SUNDER_I_NO_LINE UINT32_MAX
 
@@ -18,7 +18,7 @@ typedef struct sunder_i_lines {
 } sunder_i_lines;
 
 /* Fails with SUNDER_ENOMEM. */
-sunder_status sunder_i_lines_group(const sunder_i_subsums *subsums, sunder_i_lines *out, sunder_error *err);
+sunder_status sunder_i_lines_group(const sunder_i_pieces *subsums, sunder_i_lines *out, sunder_error *err);
 void sunder_i_lines_free(sunder_i_lines *lines);
 
 #endif

@@ -4,7 +4,7 @@
 #include "outline/cells.h"
 
 typedef struct stages {
-    const sunder_i_subsums *parts;
+    const sunder_i_pieces *parts;
     const sunder_sum_options *options;
     sunder_status (*keep)(const sunder_i_coverage *coverage, void *user, sunder_error *err);
     void *user;
@@ -26,7 +26,7 @@ static sunder_status run_along(const stages *s, const sunder_i_lines *lines, sun
     return status;
 }
 
-sunder_status sunder_i_stages_run(const sunder_i_subsums *parts, const sunder_sum_options *options,
+sunder_status sunder_i_stages_run(const sunder_i_pieces *parts, const sunder_sum_options *options,
                                   sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
                                                         sunder_error *err),
                                   void *user, sunder_sum *sum, sunder_error *err)

@@ -8,7 +8,7 @@
  *
  * keep     NULL, or is called with the coverage while there is one.
  * Fails    SUNDER_ENOMEM, SUNDER_ECANCEL; the caller frees the sum. */
-sunder_status sunder_i_stages_run(const sunder_i_subsums *parts, const sunder_sum_options *options,
+sunder_status sunder_i_stages_run(const sunder_i_pieces *parts, const sunder_sum_options *options,
                                   sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
                                                         sunder_error *err),
                                   void *user, sunder_sum *sum, sunder_error *err);

@@ -1,10 +1,11 @@
 /* Layers of members that overlap and touch, grown by a convex shape: sides inside a single subsum are dropped before
  * anything else then. Against the oracle byte for byte, and against the same sum on big integers, where none is
  * dropped. */
+#include "convex/subsums.h"
 #include "generate.h"
-#include "outline/buried.h"
 #include "minkowski/minkowski.h"
 #include "oracle.h"
+#include "outline/buried.h"
 #include "sum_text.h"
 
 #include <math.h>
@@ -92,17 +93,20 @@ static void count_candidates(const polyset *p, const polyset *q, size_t count[2]
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
     sunder_i_placed placed;
-    sunder_i_subsums s;
+    sunder_i_pieces s;
+    sunder_i_directions directions;
     const sunder_i_place_options how = {0};
     assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
     assert_true(placed.lattice.narrow);
-    assert_int_equal(sunder_i_subsums_build(&placed.lattice, a, placed.p, b, placed.q, &s, NULL), SUNDER_OK);
+    assert_int_equal(sunder_i_subsums_build(&placed.lattice, a, placed.p, b, placed.q, &directions, &s, NULL),
+                     SUNDER_OK);
     for (int pass = 0; pass < 2; pass++) {
         if (pass) assert_int_equal(sunder_i_bury_candidates(&s, NULL), SUNDER_OK);
         count[pass] = 0;
-        for (size_t k = 0; k < s.sides; k++) count[pass] += s.candidate[k];
+        for (size_t k = 0; k < s.corners; k++) count[pass] += s.candidate[k];
     }
-    sunder_i_subsums_free(&s);
+    sunder_i_pieces_free(&s);
+    sunder_i_directions_free(&directions);
     sunder_i_placed_free(&placed);
     sunder_shape_free(a);
     sunder_shape_free(b);

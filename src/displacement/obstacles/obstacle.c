@@ -9,6 +9,8 @@
 
 #include "base/memory.h"
 
+#include "convex/merge.h"
+
 #include <math.h>
 
 static double *reserve(sunder_i_scratch *scratch, size_t n)
@@ -52,24 +54,21 @@ size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t n
 {
     double *d = reserve(scratch, na + nb);
     if (!d) return 0;
-    size_t i = extreme(a, na, 1), j = extreme(b, nb, -1), left_a = na, left_b = nb, n = 0;
+    size_t i = extreme(a, na, 1), j = extreme(b, nb, -1), n = 0;
     double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];
     i = edge_at(a, na, i, 1, u);
     j = edge_at(b, nb, j, -1, v);
     /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by turning. */
-    while (left_a + left_b) {
-        const bool take_a = left_b == 0 || (left_a && turns_first(u, v));
+    sunder_i_merge m = sunder_i_merge_of((uint32_t)na, (uint32_t)nb);
+    while (SUNDER_I_MERGE_NEXT(&m, turns_first(u, v) ? -1 : 1)) {
         d[2 * n] = x;
         d[2 * n++ + 1] = y;
-        x += take_a ? u[0] : v[0];
-        y += take_a ? u[1] : v[1];
-        if (take_a) {
+        x += m.of_a ? u[0] : v[0];
+        y += m.of_a ? u[1] : v[1];
+        if (m.of_a)
             i = edge_at(a, na, i, 1, u);
-            left_a--;
-        } else {
+        else
             j = edge_at(b, nb, j, -1, v);
-            left_b--;
-        }
     }
     return n;
 }

@@ -4,6 +4,7 @@
 
 #include "base/sort.h"
 #include "base/watch.h"
+#include "convex/merge.h"
 
 #include <math.h>
 #include <string.h>
@@ -136,13 +137,12 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 static uint32_t merge(sunder_i_operands *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
                       sunder_i_point *side)
 {
-    uint32_t n = 0, i = 0, j = 0;
-    while (i < a->n || j < b->n) {
-        corner[n] = sunder_i_operands_add(g, a->corner[i], b->corner[j]);
-        const int turn = i == a->n ? -1 : j == b->n ? 1 : sunder_i_operands_cross(g, a->side[i], b->side[j]);
-        side[n++] = turn > 0 ? a->side[i] : turn < 0 ? b->side[j] : sunder_i_operands_add(g, a->side[i], b->side[j]);
-        i += turn >= 0;
-        j += turn <= 0;
+    uint32_t n = 0;
+    sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
+    while (SUNDER_I_MERGE_NEXT(&m, -sunder_i_operands_cross(g, a->side[m.next_a], b->side[m.next_b]))) {
+        const sunder_i_point u = a->side[m.a], v = b->side[m.b];
+        corner[n] = sunder_i_operands_add(g, a->corner[m.a], b->corner[m.b]);
+        side[n++] = !m.of_b ? u : !m.of_a ? v : sunder_i_operands_add(g, u, v);
     }
     return n;
 }

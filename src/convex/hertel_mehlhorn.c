@@ -1,4 +1,6 @@
-#include "convex/join.h"
+/* Hertel and Mehlhorn's merging [HM83]: diagonals are taken out one after the other, each unless the corner at one of
+ * its ends would become reflex. Each try costs O(1) by the half-edges beside it, so all is linear. */
+#include "convex/hertel_mehlhorn.h"
 
 #include "predicate/predicate.h"
 
@@ -84,44 +86,42 @@ static void dissolve(mesh *m, uint32_t h, uint32_t g)
     m->origin[h] = m->origin[g] = NONE;
 }
 
-static void collect(mesh *m, sunder_i_joined *out)
+static void collect(mesh *m, const sunder_shape *shape, sunder_i_pieces *out)
 {
-    uint32_t corners = 0;
     for (uint32_t h = 0; h < m->n; h++) {
         if (m->origin[h] == NONE) continue;
+        const uint32_t first = out->corners;
         for (uint32_t g = h; m->origin[g] != NONE; g = m->next[g]) {
-            out->vertex[corners++] = m->origin[g];
+            out->vertex[out->corners++] = m->origin[g];
             m->origin[g] = NONE;
         }
-        out->end[out->pieces++] = corners;
+        out->end[out->n++] = out->corners;
+        for (uint32_t k = first; k < out->corners; k++) {
+            const uint32_t u = out->vertex[k], v = out->vertex[k + 1 < out->corners ? k + 1 : first];
+            out->corner[k] = m->at[u];
+            out->candidate[k] = sunder_i_is_boundary(shape, u, v);
+        }
     }
 }
 
-bool sunder_i_join_pieces(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                          sunder_i_joined *out)
+bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
+                              sunder_i_pieces *out)
 {
-    memset(out, 0, sizeof *out);
-    if (shape->pieces == 0) return true;
+    const uint32_t corners = shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
     mesh m = {.lattice = lattice, .at = at};
-    out->end = sunder_i_alloc(shape->pieces, sizeof *out->end);
-    out->vertex = sunder_i_alloc(shape->piece_end[shape->pieces - 1], sizeof *out->vertex);
-    const bool ok = out->end && out->vertex && mesh_init(&m, shape);
+    if (!sunder_i_pieces_init(out, shape->pieces, corners)) return false;
+    out->vertex = sunder_i_alloc(corners, sizeof *out->vertex);
+    const bool ok = out->vertex && (corners == 0 || mesh_init(&m, shape));
     for (uint32_t h = 0; ok && h < m.n; h++) {
         if (m.origin[h] == NONE || sunder_i_is_boundary(shape, m.origin[h], end_of(&m, h))) continue;
         const uint32_t g = find(&m, end_of(&m, h), m.origin[h]);
-        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other they stay. */
+        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other they stay.
+         */
         if (g == NONE || m.next[h] == g || m.next[g] == h) continue;
         if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve(&m, h, g);
     }
-    if (ok) collect(&m, out);
+    if (ok) collect(&m, shape, out);
     mesh_free(&m);
-    if (!ok) sunder_i_joined_free(out);
+    if (!ok) sunder_i_pieces_free(out);
     return ok;
-}
-
-void sunder_i_joined_free(sunder_i_joined *joined)
-{
-    sunder_i_free(joined->end);
-    sunder_i_free(joined->vertex);
-    memset(joined, 0, sizeof *joined);
 }

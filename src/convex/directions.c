@@ -1,0 +1,69 @@
+/* Directions ranked: vectors turned into one half-plane, sorted there by their cross products, and numbered; those
+ * that were turned come half a turn later. */
+#include "convex/directions.h"
+
+#include "base/sort.h"
+#include "predicate/predicate.h"
+
+#include <string.h>
+
+typedef struct keys {
+    sunder_i_lattice *lattice;
+    const sunder_i_point *key; /* in [0, pi) */
+} keys;
+
+static int compare_keys(void *context, uint32_t a, uint32_t b)
+{
+    const keys *k = context;
+    return -sunder_i_cross_sign(k->lattice, k->key[a], k->key[b]); /* both in one half-plane */
+}
+
+/* Classes in the order of their angles, and which each key has. */
+static void number_classes(const keys *k, const uint32_t *order, size_t n, uint32_t *class, sunder_i_directions *out)
+{
+    uint32_t c = 0;
+    for (size_t i = 0; i < n; i++) {
+        const sunder_i_point key = k->key[order[i]];
+        if (i == 0 || sunder_i_cross_sign(k->lattice, k->key[order[i - 1]], key) != 0)
+            out->vector[c++] = key;
+        else if (!sunder_i_point_is_plain(out->vector[c - 1]) && sunder_i_point_is_plain(key))
+            out->vector[c - 1] = key; /* any will do, and numbers stay short */
+        class[order[i]] = c - 1;
+    }
+    out->classes = c;
+}
+
+static bool sort(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *order, bool *turned, uint32_t *rank,
+                 sunder_i_directions *out)
+{
+    keys k = {l, side};
+    for (size_t i = 0; i < n; i++) {
+        order[i] = (uint32_t)i;
+        turned[i] = sunder_i_half_plane(l, side[i]) == 1;
+        if (turned[i]) side[i] = sunder_i_point_neg(l, side[i]);
+    }
+    if (!sunder_i_sort_indices(order, n, compare_keys, &k)) return false;
+    number_classes(&k, order, n, rank, out);
+    for (size_t i = 0; i < n; i++)
+        if (turned[i]) rank[i] += out->classes;
+    return !l->arena.failed; /* else the ranks are not those of convex pieces */
+}
+
+bool sunder_i_directions_rank(sunder_i_lattice *lattice, sunder_i_point *side, size_t n, uint32_t *rank,
+                              sunder_i_directions *out)
+{
+    uint32_t *order = sunder_i_alloc(n, sizeof *order);
+    bool *turned = sunder_i_alloc(n, sizeof *turned);
+    *out = (sunder_i_directions){0, sunder_i_alloc(n, sizeof *out->vector)};
+    const bool ok = order && turned && out->vector && sort(lattice, side, n, order, turned, rank, out);
+    sunder_i_free(order);
+    sunder_i_free(turned);
+    if (!ok) sunder_i_directions_free(out);
+    return ok;
+}
+
+void sunder_i_directions_free(sunder_i_directions *directions)
+{
+    sunder_i_free(directions->vector);
+    memset(directions, 0, sizeof *directions);
+}
