@@ -118,7 +118,8 @@ int main(int argc, char **argv)
     if (command) {
         status = run(command, argc - 2, argv + 2);
     } else if (!first) {
-        gis_fail_usage(&error, "which command? separate, check, sum, pair, buffer or route; `sunder --help` tells more");
+        gis_fail_usage(&error, "which command? separate, check, sum, pair, buffer or route; `sunder --help` tells "
+                       "more");
         status = gis_say_failure(&error);
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());

@@ -1,4 +1,5 @@
-/* interrupt.c: see interrupt.h. */
+/* interrupt.c: see interrupt.h. A handler may call next to nothing and may meet the program at any point: so it sets a
+ * flag that all work looks at, and, if the work does not look, walks a list that is changed only while signals wait. */
 #define _GNU_SOURCE
 #include "base/interrupt.h"
 

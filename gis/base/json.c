@@ -1,7 +1,9 @@
-/* json.c: see json.h. */
+/* json.c: see json.h. A value knows whether a comma is due before it, so that whoever writes a list need not know which
+ * of its members comes first; memory that runs out is remembered, and asked for once, at the end. */
 #include "base/json.h"
 
 #include <inttypes.h>
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -144,15 +146,19 @@ void gis_json_raw(gis_json *out, const char *text)
 }
 
 /* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no
- * shorter decimal than what it prints does. 17 always read back. (Subnormals have fewer digits: they start lower.) */
+ * shorter decimal than what it prints does. 17 always read back. Subnormals (all below 1e-300) have fewer digits: they
+ * start at one. */
+enum { DIGITS_TOLD_APART = DBL_DIG, DIGITS_ENOUGH = DBL_DECIMAL_DIG };
+static const double few_digits_below = 1e-300;
+
 void gis_number_text(double value, char text[GIS_NUMBER_MAX])
 {
     if (value == 0) {
         strcpy(text, "0");
         return;
     }
-    int digits = fabs(value) < 1e-300 ? 1 : 15;
-    for (; digits <= 17; digits++) {
+    int digits = fabs(value) < few_digits_below ? 1 : DIGITS_TOLD_APART;
+    for (; digits <= DIGITS_ENOUGH; digits++) {
         snprintf(text, GIS_NUMBER_MAX, "%.*g", digits, value);
         if (strtod(text, NULL) == value)
             return;

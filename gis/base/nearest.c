@@ -40,9 +40,11 @@ static size_t distance(const char *a, size_t n, const char *b, size_t m)
 }
 
 /* Is the part at one end of the word? Short ones are at the end of too many. */
+enum { SHORTEST_PART = 4 };
+
 static bool begins_or_ends(const char *word, size_t n, const char *part, size_t m)
 {
-    return m >= 4 && m < n && (strncasecmp(word, part, m) == 0 || strncasecmp(word + n - m, part, m) == 0);
+    return m >= SHORTEST_PART && m < n && (strncasecmp(word, part, m) == 0 || strncasecmp(word + n - m, part, m) == 0);
 }
 
 gis_nearest gis_nearest_to(const char *word, size_t n)
@@ -54,6 +56,8 @@ void gis_nearest_offer(gis_nearest *search, const char *word, size_t n)
 {
     if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST)
         return;
+    /* One slip in a word of four letters, two in one of eight: with more, all short options would be near each
+     * other. */
     size_t tolerated = search->n <= 4 ? 1 : search->n <= 8 ? 2 : 3;
     size_t found = distance(search->word, search->n, word, n);
     if (found > tolerated && begins_or_ends(word, n, search->word, search->n))

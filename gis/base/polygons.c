@@ -1,4 +1,6 @@
-/* polygons.c: see polygons.h. */
+/* polygons.c: see polygons.h. Vertices, rings and polygons are counted from the start of the set, so that the last of
+ * them are taken back by setting the counts back. That a signal has come is asked wherever vertices are added: all that
+ * makes many of them ends there. */
 #include "base/polygons.h"
 
 #include "base/interrupt.h"

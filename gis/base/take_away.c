@@ -1,4 +1,5 @@
-/* take_away.c: see take_away.h. */
+/* take_away.c: see take_away.h. Everything is relative to open directories (unlinkat, openat without following links):
+ * so no path is put together, which would need memory, and nobody can lead the removal elsewhere meanwhile. */
 #define _GNU_SOURCE
 #include "base/take_away.h"
 

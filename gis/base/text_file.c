@@ -1,4 +1,5 @@
-/* text_file.c: see text_file.h. */
+/* text_file.c: see text_file.h. The temporary file lies in the same directory, so that putting it in place is a rename,
+ * which happens or does not. */
 #define _GNU_SOURCE
 #include "base/text_file.h"
 

@@ -3,7 +3,7 @@
  * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a
  * quarter of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin
  * and its corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that
- * this leaves in straight walls are taken out in the end (straight.c).
+ * this leaves in straight walls are taken out in the end (round/straight.c).
  *
  * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
  * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
@@ -85,6 +85,9 @@ static bool round_result(sunder_status status, const sunder_sum *sum, const sund
     return gis_round_sum(sum, out, error);
 }
 
+/* What finding the blocks and making them take of the whole, about; the rest is uniting them. For the bar alone. */
+static const double find_share = 0.2, make_share = 0.6;
+
 /* ---- Blocks ----------------------------------------------------------------------------------------------- */
 
 typedef struct in_block {
@@ -159,7 +162,7 @@ static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const 
 static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, const sunder_sum_options *how,
                         in_block *members, size_t *n, double *deviation, gis_error *error)
 {
-    part first = {how, 0, 0.2};
+    part first = {how, 0, find_share};
     const sunder_sum_options stage = {.progress = tell_part, .progress_user = &first, .threads = how->threads};
     sunder_shape *joined;
     sunder_sum *sum = NULL;
@@ -222,7 +225,7 @@ static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_p
 static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, const sunder_sum_options *how,
                          gis_error *error)
 {
-    part last = {how, 0.8, 1};
+    part last = {how, find_share + make_share, 1};
     const sunder_sum_options stage = {.progress = tell_part, .progress_user = &last, .threads = how->threads};
     sunder_shape *shape;
     sunder_sum *sum = NULL;
@@ -259,7 +262,8 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
         for (end = i + 1; end < n && members[end].block == members[i].block;)
             end++;
         gis_buffer_set block = {.member = feature + i, .members = end - i};
-        part middle = {how, 0.2 + 0.6 * (double)i / (double)n, 0.2 + 0.6 * (double)end / (double)n};
+        part middle = {how, find_share + make_share * (double)i / (double)n,
+                       find_share + make_share * (double)end / (double)n};
         const sunder_sum_options stage = {.progress = tell_part, .progress_user = &middle, .threads = how->threads};
         ok = gis_buffer_make_set(buffer, &block, &stage, error) && append_block(set, &block, &polygons, error);
         gis_buffer_set_clear(&block);

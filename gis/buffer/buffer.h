@@ -65,8 +65,6 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
 /* makes a dissolved set block by block, the shape turned for each. */
 bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
                             gis_error *error);
-/* Takes corners out that are straight but for a few units in the last place (straight.c). */
-bool gis_buffer_straighten(gis_rounded *rounded, gis_error *error);
 void gis_buffer_clear(gis_buffer *buffer);
 
 /* LAYER, and, if wanted, LAYER_degenerate_segments and LAYER_degenerate_points. */

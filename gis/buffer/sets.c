@@ -1,4 +1,5 @@
-/* sets.c: which features are grown together, and the growing of one such set. */
+/* sets.c: which features are grown together, and the growing of one such set: joined as they stand, made by the core
+ * exactly, rounded. What rounding moves is added up, never estimated. */
 #include "buffer/buffer.h"
 
 #include "layer/fields.h"
@@ -249,7 +250,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     if (status != SUNDER_OK)
         return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
-              (!buffer->request->align || gis_buffer_straighten(&set->result, error)) &&
+              (!buffer->request->align || gis_straighten(&set->result, error)) &&
               (!buffer->request->degenerate || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
     if (ok)

@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
+#include "commands/stages.h"
 #include "read/source_files.h"
 
 #include <stdio.h>
@@ -34,10 +35,10 @@ static bool open_sink(buffer_run *run, gis_error *error)
 static bool make_and_write(buffer_run *run, gis_error *error)
 {
     gis_sink_result result;
-    gis_progress_stage(&run->progress, 0.1, 0.9);
+    gis_progress_stage(&run->progress, GIS_BUFFER_READ, GIS_BUFFER_MADE);
     if (!open_sink(run, error) || !gis_buffer_make(&run->buffer, &run->progress, error))
         return false;
-    gis_progress_stage(&run->progress, 0.9, 1);
+    gis_progress_stage(&run->progress, GIS_BUFFER_MADE, 1);
     if (!gis_write_buffer(run->sink, &run->buffer, error) || !gis_sink_finish(run->sink, &result, error))
         return false;
     if (!result.exact)
@@ -100,9 +101,11 @@ int gis_command_buffer(const gis_options *options)
                       .to = gis_resolve_destinations(options),
                       .progress = gis_resolve_progress(options),
                       .start = gis_clock()};
-    bool taken, ok = gis_resolve_buffer(options, &run.request, &error) && gis_destinations_check(&run.to, &taken, &error);
-    gis_progress_stage(&run.progress, 0, 0.1);
-    ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) && make_and_write(&run, &error) && deliver(&run, taken, &error);
+    bool taken, ok = gis_resolve_buffer(options, &run.request, &error) &&
+                     gis_destinations_check(&run.to, &taken, &error);
+    gis_progress_stage(&run.progress, 0, GIS_BUFFER_READ);
+    ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) && make_and_write(&run, &error) &&
+         deliver(&run, taken, &error);
     int status = ok ? GIS_DONE : gis_say_failure(&error);
     gis_sink_free(run.sink);
     gis_buffer_clear(&run.buffer);

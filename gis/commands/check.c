@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
+#include "commands/stages.h"
 #include "layer/output.h"
 
 #include <cpl_conv.h>
@@ -44,10 +45,10 @@ static bool check_and_write(check_run *run, gis_error *error)
     gis_sink_result result;
     if (!open_sink(run, error))
         return false;
-    gis_progress_stage(&run->progress, 0.3, 0.9);
+    gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
         return false;
-    gis_progress_stage(&run->progress, 0.9, 1);
+    gis_progress_stage(&run->progress, GIS_CHECK_CHECKED, 1);
     if (run->sink && (!gis_write_conflicts(run->sink, &run->input, run->report, "", error) ||
                       !gis_sink_finish(run->sink, &result, error)))
         return false;
@@ -149,7 +150,7 @@ int gis_command_check(const gis_options *options)
                      .to = gis_resolve_destinations(options),
                      .progress = gis_resolve_progress(options)};
     bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
-    gis_progress_stage(&run.progress, 0, 0.3);
+    gis_progress_stage(&run.progress, 0, GIS_CHECK_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
          gis_layer_input_read(&run.request, &run.input, &error) && check_and_write(&run, &error) &&
          deliver(&run, taken, &error);

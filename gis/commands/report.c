@@ -1,4 +1,4 @@
-/* report.c: see report.h. */
+/* report.c: see report.h. Keys stand in the order in which the interface lists them; scripts may rely on the keys. */
 #include "commands/report.h"
 
 #include "base/message.h"

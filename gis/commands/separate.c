@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
+#include "commands/stages.h"
 #include "layer/output.h"
 #include "read/ruler.h"
 
@@ -91,10 +92,10 @@ static bool solve_and_write(separate_run *run, gis_error *error)
     gis_sink_result result;
     if (!open_sink(run, error))
         return false;
-    gis_progress_stage(&run->progress, 0.1, 0.8);
+    gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_SOLVED);
     if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
-    gis_progress_stage(&run->progress, 0.8, 1);
+    gis_progress_stage(&run->progress, GIS_SEPARATE_SOLVED, 1);
     double begin = gis_clock();
     if (!write_layers(run, error) || !gis_sink_finish(run->sink, &result, error))
         return false;
@@ -272,7 +273,7 @@ int gis_command_separate(const gis_options *options)
                         .progress = gis_resolve_progress(options),
                         .start = gis_clock()};
     bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
-    gis_progress_stage(&run.progress, 0, 0.1);
+    gis_progress_stage(&run.progress, 0, GIS_SEPARATE_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
          gis_layer_input_read(&run.request, &run.input, &error);
     run.read = gis_clock() - run.start;

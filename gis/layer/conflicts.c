@@ -1,4 +1,4 @@
-/* conflicts.c: one conflict as a row, and the layer of conflicts. */
+/* conflicts.c: one conflict as a row, and the layer of conflicts. check prints the same rows as lines. */
 #include "layer/output.h"
 
 #include <cpl_conv.h>

@@ -1,5 +1,5 @@
-/* output.c: the layers of separate but the conflicts. What is written of a feature is what the core says of it: its move
- * and the place that this leads to are the doubles that were proved. */
+/* output.c: the layers of separate but the conflicts. What is written of a feature is what the core says of it: its
+ * move and the place that this leads to are the doubles that were proved. */
 #include "layer/output.h"
 
 #include "base/interrupt.h"

@@ -1,4 +1,5 @@
-/* run.c: a layer handed to the core, by the rules. */
+/* run.c: a layer handed to the core, by the rules. That a number is out of range the core says; whoever gave it as an
+ * option has called the program wrongly. */
 #include "layer/input.h"
 
 static sunder_layer_options core_options(const gis_layer_input *input)

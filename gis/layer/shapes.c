@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Corners of the polygon that a shape with arcs is grown by. With 16 it reaches a fiftieth farther than the disc that it
- * contains, whose radius is itself under a thousandth of the arc's (GDAL's chords span four degrees). */
+/* Corners of the polygon that a shape with arcs is grown by. With 16 it reaches a fiftieth farther than the disc that
+ * it contains, whose radius is itself under a thousandth of the arc's (GDAL's chords span four degrees). */
 static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"

@@ -92,8 +92,8 @@ void gis_help_command(const gis_command *command)
         printf("OBSTACLES, SHAPE: a data source, WKT, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N],\n"
                "square:SIDE, rectangle:WxH. ");
     if (command->bit & GIS_BUFFER)
-        printf("SHAPE: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N] (around the disc), inside-disc:R[:N],\n"
-               "square:SIDE or rectangle:WxH. ");
+        printf("SHAPE: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N] (around the disc), "
+               "inside-disc:R[:N],\nsquare:SIDE or rectangle:WxH. ");
     printf("Lengths: 3 (the layer's unit), 3m, 10ft, 10us-ft, 0.2mm (on the sheet, with --scale).\n"
            "Exit status: 0 done, 1 failed, 2 wrong usage%s. See also man sunder.\n"
            "Example: sunder %s %s\n",

@@ -1,4 +1,5 @@
-/* geometry_wind.c: turning the rings of polygons. */
+/* geometry_wind.c: turning the rings of polygons. The direction of a ring is the turn at its lowest vertex, which the
+ * library's predicate tells exactly: no sum of products whose sign rounding could spoil. */
 #include "read/geometry.h"
 
 #include <cpl_conv.h>

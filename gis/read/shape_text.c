@@ -1,5 +1,5 @@
-/* shape_text.c: see shape_text.h. A text is told from a data source by its first words alone, but a file of that very
- * name is a data source: who has one called "POLYGON (...)" means it. */
+/* shape_text.c: see shape_text.h. A text is told from a data source by how it begins; but what begins as WKT and is the
+ * name of a file is a data source: who has one called "POLYGON (...)" means it. */
 #include "read/shape_text.h"
 
 #include "base/interrupt.h"

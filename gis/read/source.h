@@ -15,7 +15,8 @@
 /* Kinds of layer that a command takes; combine with |. A layer of unknown type, or of collections, counts as all. */
 enum { GIS_TAKES_POLYGONS = 1, GIS_TAKES_POINTS = 2, GIS_TAKES_LINES = 4 };
 
-/* What to read: which features of which layer of what is at `path`; zeroed members mean "not given". Strings are borrowed for the call. Lists end with NULL. */
+/* What to read: which features of which layer of what is at `path`; zeroed members mean "not given". Strings are
+ * borrowed for the call. Lists end with NULL. */
 typedef struct gis_source_request {
     const char *path;
     const char *const *drivers;      /* --if */

@@ -1,4 +1,5 @@
-/* source_files.c: see source_files.h. */
+/* source_files.c: see source_files.h. Files that exist are compared by device and inode: links, dots and mounts give
+ * one file many names. */
 #include "read/source_files.h"
 
 #include <cpl_conv.h>

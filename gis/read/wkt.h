@@ -1,6 +1,6 @@
 /* wkt.h: POLYGON and MULTIPOLYGON texts into plain arrays. Decimals become the nearest doubles, whatever their length;
- * Z and M are read and dropped; EMPTY is the empty set. Other types, and anything else, are errors that name the place.
- */
+ * Z and M are read and dropped; EMPTY is the empty set. Other types, and anything else, are errors that name the
+ * place. */
 #ifndef GIS_WKT_H
 #define GIS_WKT_H
 

@@ -10,19 +10,14 @@
  * generously; those that hang together are a group. Then the question is exact: the interior of the union of n
  * polygons, each with a connected interior, has n components exactly if they are apart in the sense above. A group that
  * is not is bent through its vertices, united, and rounded again, until all is well. */
-#include "round/round.h"
+#include "round/constants.h"
+#include "round/steps.h"
 
 #include "base/interrupt.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-
-/* How near is near: either of the two moved by less than a unit when it was rounded, and by up to four more and another
- * rounding where it was bent. More mending is accounted for by how far it moved. */
-static const double near_ulps = 16;
-/* One round nearly always does. */
-enum { APART_ROUNDS = 12 };
 
 /* ---- Groups: disjoint sets of polygons, by parents --------------------------------------------------------------- */
 
@@ -138,7 +133,7 @@ static void join_along(const gis_polygons *set, const grid *g, const double *a, 
     size_t pieces = 1;
     for (int k = 0; k < 2; k++) {
         ulp[k] = gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
-        reach[k] = near_ulps * ulp[k] + 4 * moved;
+        reach[k] = GIS_NEAR_ULPS * ulp[k] + GIS_NEAR_MOVES * moved;
         size_t from = cell_along(g, k, fmin(a[k], b[k])), to = cell_along(g, k, fmax(a[k], b[k]));
         pieces = to - from + 1 > pieces ? to - from + 1 : pieces;
     }
@@ -148,8 +143,8 @@ static void join_along(const gis_polygons *set, const grid *g, const double *a, 
         size_t low[2], high[2];
         for (int k = 0; k < 2; k++) {
             to[k] = i < pieces ? (1 - t) * a[k] + t * b[k] : b[k];
-            low[k] = cell_along(g, k, fmin(from[k], to[k]) - reach[k] - near_ulps * ulp[k]);
-            high[k] = cell_along(g, k, fmax(from[k], to[k]) + reach[k] + near_ulps * ulp[k]);
+            low[k] = cell_along(g, k, fmin(from[k], to[k]) - reach[k] - GIS_NEAR_ULPS * ulp[k]);
+            high[k] = cell_along(g, k, fmax(from[k], to[k]) + reach[k] + GIS_NEAR_ULPS * ulp[k]);
             from[k] = to[k];
         }
         for (size_t row = low[1]; row <= high[1]; row++)
@@ -211,7 +206,7 @@ static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, d
     return ok && gis_go_on(error);
 }
 
-/* ---- One group ----------------------------------------------------------------------------------------------------- */
+/* ---- One group -------------------------------------------------------------------------------------------- */
 
 static bool unite(const gis_polygons *group, sunder_validity validity, sunder_sum **out, gis_error *error)
 {
@@ -246,7 +241,7 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
     return ok;
 }
 
-/* ---- All of them, until all is well --------------------------------------------------------------------------------- */
+/* ---- All of them, until all is well ----------------------------------------------------------------------- */
 
 /* The set of the next round: groups that are well as they were, the others as what became of them. */
 typedef struct rebuilding {
@@ -337,7 +332,7 @@ bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *
 {
     bool again = rounded->set.polygons > 1 && rounded->deviation > 0;
     for (int round = 0; again; round++) {
-        if (round == APART_ROUNDS)
+        if (round == GIS_APART_ROUNDS)
             return gis_fail(error, "rounded to doubles the polygons are no longer apart; `sunder sum --exact` gives "
                             "exact ones as JSON");
         if (!part_once(rounded, round, suspects, &again, error))

@@ -4,29 +4,19 @@
  * rings meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps mend it:
  *
  *  - an edge is bent through every vertex that lies within a few ulps of it: a new vertex there, equal to that one.
- * This moves the edge by no more than that, and rings that crossed by a hair touch again (snap rounding, with the
- * vertices as the hot pixels);
+ *    This moves the edge by no more than that, and rings that crossed by a hair touch again (snap rounding, with the
+ *    vertices as the hot pixels);
  *  - if it is invalid still, it is replaced by what its rings enclose by the even-odd rule, taken exactly by the core,
  *    and rounded: what was folded over by a hair falls away, and needles of no width with it. It may become several.
  *
  * Rounding the second can break things once more, at other places: both are repeated. In doubles distances are measured
  * only to choose where to bend; the core's exact validation decides what is well. */
-#include "round/round.h"
+#include "round/constants.h"
+#include "round/steps.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-/* How near a vertex must be to an edge to bend it, in units in the last place, which are those of x
- * along x and those of y along y: that makes squares of the cells that round to one vertex, whatever the place. At
- * first: both ends of the edge and the vertex have moved by half a unit in each coordinate, and the sum of the three is
- * below this. Later: what passes through the square that rounds to the vertex, as in snap rounding; where features are
- * no larger than a few units the first would throw everything into everything, again and again. */
-static const double near_ulps = 4, pixel_ulps = 0.75;
-/* After so many bends in a row one more would be found seldom, and the next round will see it. */
-enum { BENDS_IN_A_ROW = 4 };
-/* One round nearly always does, three have been seen; a polygon that is still broken after so many is given up. */
-enum { MENDING_ROUNDS = 12 };
 
 static bool same_vertex(const double *a, const double *b)
 {
@@ -58,7 +48,8 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
         ends[r - first] = set->ring_end[r] - start;
     *out = NULL;
     sunder_error why;
-    sunder_status status = sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_VALIDITY_STRICT, out, &why);
+    sunder_status status =
+        sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_VALIDITY_STRICT, out, &why);
     free(ends);
     return status == SUNDER_OK || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
 }
@@ -164,7 +155,9 @@ static bool is_near(const double *a, const double *b, const double *c, const dou
 /* The vertices near to ab, in their order along it; bends has room for all vertices. */
 static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, double ulps, bend *bends)
 {
-    const double reach[2] = {ulps * gis_ulp(fmax(fabs(a[0]), fabs(b[0]))), ulps * gis_ulp(fmax(fabs(a[1]), fabs(b[1])))};
+    double reach[2];
+    for (int k = 0; k < 2; k++)
+        reach[k] = ulps * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
     double xmin = fmin(a[0], b[0]) - reach[0], xmax = fmax(a[0], b[0]) + reach[0];
     double ymin = fmin(a[1], b[1]) - reach[1], ymax = fmax(a[1], b[1]) + reach[1];
     size_t low = 0, high = n, found = 0;
@@ -226,13 +219,13 @@ static bool bend_all(const gis_polygons *from, double ulps, gis_polygons *to, do
 bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error)
 {
     double now = 0;
-    if (!bend_all(from, round == 0 ? near_ulps : pixel_ulps, to, &now, error))
+    if (!bend_all(from, round == 0 ? GIS_BEND_ULPS : GIS_PIXEL_ULPS, to, &now, error))
         return false;
     *moved += now;
-    for (int i = 1; round > 0 && i < BENDS_IN_A_ROW && now > 0; i++) {
+    for (int i = 1; round > 0 && i < GIS_BENDS_IN_A_ROW && now > 0; i++) {
         gis_polygons bent = {0};
         now = 0;
-        bool ok = bend_all(to, pixel_ulps, &bent, &now, error);
+        bool ok = bend_all(to, GIS_PIXEL_ULPS, &bent, &now, error);
         gis_polygons_clear(to);
         *to = bent;
         *moved += now;
@@ -325,7 +318,7 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
     bool ok = gis_polygons_append(&work, set, first, set->rings, error);
     set->vertices = first ? set->ring_end[first - 1] : 0;
     set->rings = first;
-    for (int round = 0; ok && round < MENDING_ROUNDS && work.polygons; round++) {
+    for (int round = 0; ok && round < GIS_MENDING_ROUNDS && work.polygons; round++) {
         gis_polygons again = {0};
         double now = 0;
         for (size_t p = 0; ok && p < work.polygons; p++)

@@ -3,7 +3,7 @@
  * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. Rings that fall together so are
  * left out, polygons that rounding has broken are mended (mend.c), and those that it has brought into each other are
  * united there (apart.c). The core's exact validation says what is well, before and after. */
-#include "round/round.h"
+#include "round/steps.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* input.c: obstacles of a layer of any kind, or of a text, and the robot. A feature is one obstacle with all that it has:
- * polygons as a shape, lines and points as chains. */
+/* input.c: obstacles of a layer of any kind, or of a text, and the robot. A feature is one obstacle with all that it
+ * has: polygons as a shape, lines and points as chains. */
 #include "route/input.h"
 
 #include "base/interrupt.h"

@@ -1,4 +1,5 @@
-/* lock.c: see lock.h. */
+/* lock.c: see lock.h. Questions are put by F_GETLK, which takes no lock and so disturbs nobody; what it cannot know (a
+ * file system without locks) counts as nobody there. */
 #define _GNU_SOURCE
 #include "sqlite/lock.h"
 
@@ -70,9 +71,12 @@ bool gis_sqlite_being_written(const char *path)
     return meets(path, F_WRLCK, PENDING, 2);
 }
 
+/* Milliseconds between two attempts: much shorter than a person notices, much longer than an attempt takes. */
+enum { MOMENT = 20 };
+
 static void wait_a_moment(void)
 {
-    const struct timespec moment = {0, 20000000};
+    const struct timespec moment = {0, MOMENT * 1000000L};
     nanosleep(&moment, NULL);
 }
 
@@ -85,7 +89,7 @@ int gis_sqlite_lock(const char *path, gis_error *error)
         gis_fail(error, "%s: %s", path, strerror(errno));
         return -1;
     }
-    for (int waited = 0;; waited += 20) {
+    for (int waited = 0;; waited += MOMENT) {
         struct flock lock = range(F_WRLCK, PENDING, ALL);
         if (fcntl(file, SET_LOCK, &lock) == 0)
             return file;
@@ -104,8 +108,8 @@ int gis_sqlite_lock(const char *path, gis_error *error)
 
 bool gis_sqlite_fail_in_use(const char *path, gis_error *error)
 {
-    return gis_fail(error, "%s is in use by another program, which did not let go of it within %g s: close it there, or "
-                    "write another file", path, gis_sqlite_patience() / 1000.);
+    return gis_fail(error, "%s is in use by another program, which did not let go of it within %g s: close it there, "
+                    "or write another file", path, gis_sqlite_patience() / 1000.);
 }
 
 bool gis_sqlite_has_journal(const char *path)

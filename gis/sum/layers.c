@@ -1,4 +1,5 @@
-/* layers.c: the layers of a sum: polygons, a feature each; degenerate segments; degenerate points. */
+/* layers.c: the layers of a sum: polygons, a feature each; degenerate segments; degenerate points. Polygons go through
+ * rounding, which keeps them valid; segments and points are places, which may fall together. */
 #include "sum/layers.h"
 
 #include "read/geometry.h"

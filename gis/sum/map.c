@@ -1,8 +1,10 @@
-/* map.c: the planar map beneath a sum, as layers for inspection. */
+/* map.c: the planar map beneath a sum, as layers for inspection. Every vertex is rounded once, so that edges and faces
+ * that meet in the map meet in the layers; a face that rounding has broken is mended like a polygon of a sum. */
 #include "sum/layers.h"
 
 #include "base/interrupt.h"
 #include "read/geometry.h"
+#include "round/steps.h"
 
 #include <math.h>
 #include <stdlib.h>

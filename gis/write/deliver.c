@@ -1,5 +1,5 @@
-/* deliver.c: see deliver.h. What can fail comes first and what cannot be undone last, so that a failure at any step finds
- * everything as it was. */
+/* deliver.c: see deliver.h. What can fail comes first and what cannot be undone last, so that a failure at any step
+ * finds everything as it was. */
 #include "write/deliver.h"
 
 #include "base/interrupt.h"

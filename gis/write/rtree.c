@@ -70,14 +70,16 @@ static bool flush(rows *all, gis_error *error)
     return run(all->dataset, all->sql, error);
 }
 
-/* Appends a row's text (it ends with a comma). SQLite takes statements of a million bytes. */
+/* Of a statement, in bytes. SQLite takes a million; from a quarter of that on longer ones save nothing that counts. */
+enum { STATEMENT_SIZE = 250000 };
+
+/* Appends a row's text (it ends with a comma). */
 static bool add_row(rows *all, const char *text, size_t length, gis_error *error)
 {
-    static const size_t limit = 250000;
-    if (all->n + length > limit && !flush(all, error))
+    if (all->n + length > STATEMENT_SIZE && !flush(all, error))
         return false;
     if (all->n + length + all->head_length + 1 > all->capacity) {
-        all->capacity = all->n + length + all->head_length + limit + 1;
+        all->capacity = all->n + length + all->head_length + STATEMENT_SIZE + 1;
         all->sql = CPLRealloc(all->sql, all->capacity);
     }
     if (all->n == 0) {
@@ -188,10 +190,13 @@ static uint32_t hilbert(uint32_t x, uint32_t y)
     return along;
 }
 
+/* Cells of the Hilbert curve's grid along an axis: finer than the boxes of any layer need to be told apart. */
+enum { GRID = 65536 };
+
 static uint32_t cell_of(double centre, double from, double to)
 {
     double t = to > from ? (centre - from) / (to - from) : 0;
-    return (uint32_t)(fmin(fmax(t, 0), 1) * 65535);
+    return (uint32_t)(fmin(fmax(t, 0), 1) * (GRID - 1));
 }
 
 static int compare_places(const void *a, const void *b)

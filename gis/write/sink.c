@@ -1,4 +1,5 @@
-/* sink.c: the life of a sink. */
+/* sink.c: the life of a sink: what a request means for the place that it names, what is made ready before the work,
+ * what is undone after a failure. */
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "sqlite/lock.h"

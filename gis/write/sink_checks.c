@@ -1,4 +1,5 @@
-/* sink_checks.c: what can be refused before any work is done. */
+/* sink_checks.c: what can be refused before any work is done: a place that is taken, or is an input, or where others
+ * are at work; a format that would change the coordinates. What can only be known afterwards is read back. */
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "read/source_files.h"

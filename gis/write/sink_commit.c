@@ -1,4 +1,5 @@
-/* sink_commit.c: the end of the writing: close, look at what was written, put it in place. */
+/* sink_commit.c: the end of the writing: close, look at what was written, put it in place. In this order, since a
+ * driver may keep errors back until it closes, and what is in place cannot be called back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/interrupt.h"
 #include "sqlite/calls.h"
@@ -51,8 +52,9 @@ bool gis_sink_fail_reading(const gis_sink_layer *layer, size_t after, const char
 static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     gis_sink *sink = layer->sink;
-    bool may_be_empty = sink->request.allow_inexact ? !sink->format.keeps_vertices && !EQUAL(sink->format.name, "GeoJSON")
-                                                    : EQUAL(sink->format.name, "GeoJSONSeq");
+    bool may_be_empty = sink->request.allow_inexact
+                            ? !sink->format.keeps_vertices && !EQUAL(sink->format.name, "GeoJSON")
+                            : EQUAL(sink->format.name, "GeoJSONSeq");
     if (layer->written == 0 && may_be_empty)
         return true; /* some formats have nothing to say of a layer without features */
     if (!sink->format.only_written)
@@ -166,12 +168,14 @@ static bool apply_strict(const gis_sink *sink, gis_error *error)
 
 /* ---- Out of memory's files -------------------------------------------------------------------------------- */
 
+/* Copied at a time, in bytes; a signal is heard in between. */
+enum { COPIED_AT_ONCE = 1 << 16 };
+
 static bool copy_stream(VSILFILE *from, FILE *to_stdout, VSILFILE *to)
 {
-    static const size_t size = 1 << 16;
-    char *buffer = CPLMalloc(size);
+    char *buffer = CPLMalloc(COPIED_AT_ONCE);
     bool done = true;
-    for (size_t got; done && !gis_interrupted() && (got = VSIFReadL(buffer, 1, size, from)) > 0;)
+    for (size_t got; done && !gis_interrupted() && (got = VSIFReadL(buffer, 1, COPIED_AT_ONCE, from)) > 0;)
         done = to_stdout ? fwrite(buffer, 1, got, to_stdout) == got : VSIFWriteL(buffer, 1, got, to) == got;
     CPLFree(buffer);
     return done && !gis_interrupted();

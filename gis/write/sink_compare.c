@@ -239,7 +239,9 @@ static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *wor
 /* What a geometry has besides X and Y, or all of it, may have been dropped without a word. */
 static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
 {
-    OGRGeometryH geometry = sent->made ? sent->made : sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
+    OGRGeometryH geometry = sent->made;
+    if (!geometry && sent->feature && sent->moved)
+        geometry = OGR_F_GetGeometryRef(sent->feature);
     if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry))
         return;
     gis_list *losses = &layer->sink->losses;

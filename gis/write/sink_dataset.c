@@ -1,4 +1,5 @@
-/* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update. */
+/* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update, so that what stood there
+ * before is untouched until all is written and read back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "sqlite/calls.h"
 #include "write/sink_internal.h"
@@ -41,8 +42,8 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listener_clear(&listener);
 }
 
-/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing fails.
- */
+/* What came to this place since the run began is nobody's to replace, unless that was asked for: then publishing
+ * fails. */
 static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
     if (sink->place != GIS_PLACE_FILE || !may_replace)
@@ -163,7 +164,8 @@ static bool end_last_line(const gis_sink *sink, const char *file, gis_error *err
     if (text && VSIFCloseL(text) != 0)
         done = false;
     CPLFree(path);
-    return done || gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path, file);
+    return done || gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path,
+                            file);
 }
 
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)

@@ -123,8 +123,8 @@ static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
 
 /* ---- Fields whose values must come back -------------------------------------------------------------------- */
 
-/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something equivalent.
- */
+/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something
+ * equivalent. */
 static bool is_plain(OGRFieldDefnH field)
 {
     OGRFieldType type = OGR_Fld_GetType(field);

@@ -193,8 +193,8 @@ bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *se
 bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error);
 /* Writes the layer, which is closed, again with more digits, and closes it. */
 bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error);
-/* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills changes.
- */
+/* Compares the features of a written layer with what was sent; lowers result->exact, raises ->deviation, fills
+ * changes. */
 bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_result *result, gis_error *error);
 
 #endif

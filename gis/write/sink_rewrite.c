@@ -115,8 +115,8 @@ static bool has_run(const char *text)
     return point && (strstr(point, "999999") || strstr(point, "000000"));
 }
 
-/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read back.
- */
+/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read
+ * back. */
 static bool loses(double x)
 {
     char text[64];

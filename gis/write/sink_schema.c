@@ -1,4 +1,5 @@
-/* sink_schema.c: layers made with all that the source's layer has, as far as the format knows it. */
+/* sink_schema.c: layers made with all that the source's layer has, as far as the format knows it. What the format knows
+ * is asked of its driver; what came of it is looked at afterwards (sink_losses.c). */
 #include "write/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -270,13 +271,16 @@ static void create_copy(gis_sink_layer *layer)
     if (index < 0)
         gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
                      OGR_Fld_GetNameRef(like), layer->sink->format.name, OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
-    const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(layer->layer), index));
+    OGRFeatureDefnH made = OGR_L_GetLayerDefn(layer->layer);
+    const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(made, index));
     if (name && strcmp(name, OGR_Fld_GetNameRef(like)) != 0)
         gis_list_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
     CPLFree(layer->field_map);
     layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
-    for (int i = 0; i < n; i++)
-        layer->field_map[i] = EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), OGR_Fld_GetNameRef(like)) ? index : -1;
+    for (int i = 0; i < n; i++) {
+        bool is_it = EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(source, i)), OGR_Fld_GetNameRef(like));
+        layer->field_map[i] = is_it ? index : -1;
+    }
 }
 
 static void create_own_fields(gis_sink_layer *layer)

@@ -1,4 +1,5 @@
-/* sink_write.c: features on their way out. */
+/* sink_write.c: features on their way out. What is sent is remembered until it has been read back: by a digest where
+ * the format keeps every value, else as it is. */
 #include "write/sink_internal.h"
 
 #include "base/interrupt.h"

@@ -1,4 +1,5 @@
-/* stage.c: the hidden directory and what is put in it. */
+/* stage.c: the hidden directory and what is put in it. Its maker holds a lock on it as long
+ * as it lives: by that a stage whose maker was killed is told from one at work (stage_remains.c). */
 #define _GNU_SOURCE
 #include "write/stage_internal.h"
 
@@ -169,7 +170,10 @@ static bool copy_file(const char *from, const char *to, mode_t mode, gis_error *
     return done || gis_fail(error, "%s: cannot be copied: %s", from, strerror(reason));
 }
 
-/* Recurses on directories within directories: datasets nest them one deep at most, and 8 is where we stop. */
+/* Datasets nest directories one deep at most; something that nests them so deep is none, or goes in circles. */
+enum { DEEPEST = 8 };
+
+/* Recurses on directories within directories. */
 static bool copy_tree(const char *from, const char *to, int depth, gis_error *error)
 {
     struct stat status;
@@ -177,8 +181,8 @@ static bool copy_tree(const char *from, const char *to, int depth, gis_error *er
         return gis_fail(error, "%s: %s", from, strerror(errno));
     if (!S_ISDIR(status.st_mode))
         return copy_file(from, to, status.st_mode, error);
-    if (depth > 8 || mkdir(to, status.st_mode & 0777) != 0)
-        return gis_fail(error, "%s: cannot be copied: %s", from, depth > 8 ? "too deep" : strerror(errno));
+    if (depth > DEEPEST || mkdir(to, status.st_mode & 0777) != 0)
+        return gis_fail(error, "%s: cannot be copied: %s", from, depth > DEEPEST ? "too deep" : strerror(errno));
     char **names = VSIReadDir(from);
     bool done = true;
     for (char **name = names; done && name && *name; name++) {

@@ -3,6 +3,7 @@
  * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
  * red; arrows are blue, conflicts magenta. Teal, red, blue and magenta stay apart for most colour-blind readers because
  * they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
+#include "sunder.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
@@ -129,14 +130,15 @@ static void add_symbol(text *to, kind of, const char *name, const char *colour, 
 
 /* ---- Renderers -------------------------------------------------------------------------------------------- */
 
-typedef struct category {
-    const char *value, *colour, *outline;
-} category;
-
-static const category statuses[] = {
-    {"unmoved", "190,190,190,255", "130,130,130,255"}, {"moved", "27,158,119,255", "15,95,70,255"},
-    {"fixed", "64,64,64,255", "20,20,20,255"},         {"blocked", "215,25,28,255", "120,0,0,255"},
-    {"skipped", "235,235,230,255", "190,190,185,255"},
+/* Of the statuses in sunder_st, whose words are the core's. */
+static const struct {
+    const char *colour, *outline;
+} statuses[] = {
+    [SUNDER_FEATURE_UNMOVED] = {"190,190,190,255", "130,130,130,255"},
+    [SUNDER_FEATURE_MOVED] = {"27,158,119,255", "15,95,70,255"},
+    [SUNDER_FEATURE_FIXED] = {"64,64,64,255", "20,20,20,255"},
+    [SUNDER_FEATURE_BLOCKED] = {"215,25,28,255", "120,0,0,255"},
+    [SUNDER_FEATURE_SKIPPED] = {"235,235,230,255", "190,190,185,255"},
 };
 enum { STATUSES = sizeof statuses / sizeof *statuses };
 
@@ -144,9 +146,10 @@ static void add_by_status(text *to, kind of)
 {
     add(to, "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
             "enableorderby=\"0\">\n<categories>\n");
-    for (int i = 0; i < STATUSES; i++)
-        add(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", statuses[i].value,
-            statuses[i].value, i);
+    for (int i = 0; i < STATUSES; i++) {
+        const char *word = sunder_feature_status_string((sunder_feature_status)i);
+        add(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", word, word, i);
+    }
     add(to, "</categories>\n<symbols>\n");
     for (int i = 0; i < STATUSES; i++) {
         char name[12];

@@ -1,25 +1,20 @@
 /* straight.c: walls that a turned shape has left with a corner too many.
  *
- * The sides of a shape that --align has turned are parallel to the walls up to rounding only. Where a wall should run
- * on in a straight line there is a corner instead, of some 1e-16: a house that was a rectangle would have eight
- * corners. Such a corner lies within a few units in the last place of the line between its neighbours, and goes. What
- * that moves counts in the deviation; the polygons are looked at again as after rounding. */
-#include "buffer/buffer.h"
+ * The sides of a shape that was turned (sunder buffer --align) are parallel to the walls up to rounding only. Where a
+ * wall should run on in a straight line there is a corner instead, of some 1e-16: a house that was a rectangle would
+ * have eight corners. Such a corner lies within a few units in the last place of the line between its neighbours, and
+ * goes. What that moves counts in the deviation; the polygons are looked at again as after rounding. */
+#include "round/constants.h"
+#include "round/steps.h"
 
 #include <math.h>
-
-/* Both ends of a side and the corner were rounded by half a unit each, once for each union, and the turned shape
- * itself. */
-static const double straight_ulps = 4;
-/* So many corners in a row at most: each that has gone is held against the side that comes of it. */
-enum { ROW = 8 };
 
 /* Is vertex v within reach of the inside of ab? *moved is raised by how far it is. */
 static bool is_straight(const double *a, const double *b, const double *v, double *moved)
 {
     double unit[2], off;
     for (int k = 0; k < 2; k++)
-        unit[k] = straight_ulps * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
+        unit[k] = GIS_STRAIGHT_ULPS * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
     double t = gis_place_along(a, b, v, unit, &off);
     if (!(t > 0 && t < 1 && off <= 1))
         return false;
@@ -37,7 +32,7 @@ static bool append_ring(const double *xy, size_t n, gis_polygons *to, double *mo
         return false;
     for (size_t i = 1; i < n; i++) {
         const double *a = xy + 2 * kept, *b = xy + 2 * (i + 1 < n ? i + 1 : 0);
-        bool straight = i - kept <= ROW;
+        bool straight = i - kept <= GIS_STRAIGHT_ROW;
         double here = farthest;
         for (size_t v = kept + 1; straight && v <= i; v++)
             straight = is_straight(a, b, xy + 2 * v, &here);
@@ -62,7 +57,7 @@ static bool append_ring(const double *xy, size_t n, gis_polygons *to, double *mo
     return gis_polygons_end_ring(to, error);
 }
 
-bool gis_buffer_straighten(gis_rounded *rounded, gis_error *error)
+bool gis_straighten(gis_rounded *rounded, gis_error *error)
 {
     const gis_polygons *from = &rounded->set;
     gis_rounded to = {.repaired = rounded->repaired};
