@@ -35,15 +35,13 @@ const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
 {
     (void)number;
-    if (class == CE_Warning && !gis_interrupted())
-        gis_say_warning("%s", words);
+    if (class == CE_Warning && !gis_interrupted()) gis_say_warning("%s", words);
 }
 
 static const gis_command *find_command(const char *name)
 {
     for (size_t i = 0; i < gis_n_commands; i++)
-        if (strcmp(gis_commands[i].name, name) == 0)
-            return &gis_commands[i];
+        if (strcmp(gis_commands[i].name, name) == 0) return &gis_commands[i];
     return NULL;
 }
 
@@ -54,8 +52,7 @@ static void configure(const gis_options *options)
     for (size_t i = 0; pairs && pairs[i]; i++) {
         char *key = NULL;
         const char *value = CPLParseNameValue(pairs[i], &key);
-        if (key)
-            CPLSetConfigOption(key, value);
+        if (key) CPLSetConfigOption(key, value);
         CPLFree(key);
     }
 }

@@ -15,10 +15,8 @@ static void flatten(char *text)
 {
     size_t end = 0;
     for (size_t i = 0; text[i]; i++) {
-        if (text[i] == '\n' || text[i] == '\r' || text[i] == '\t')
-            text[i] = ' ';
-        if (text[i] != ' ')
-            end = i + 1;
+        if (text[i] == '\n' || text[i] == '\r' || text[i] == '\t') text[i] = ' ';
+        if (text[i] != ' ') end = i + 1;
     }
     text[end] = '\0';
 }
@@ -59,27 +57,23 @@ bool gis_fail_usage(gis_error *error, const char *format, ...)
 bool gis_no_memory(gis_error *error)
 {
     gis_fail(error, "out of memory");
-    if (error)
-        error->no_memory = !gis_interrupted();
+    if (error) error->no_memory = !gis_interrupted();
     return false;
 }
 
 static bool list_add_text(gis_list *list, const char *text)
 {
     for (size_t i = 0; i < list->n; i++)
-        if (strcmp(list->items[i], text) == 0)
-            return true;
+        if (strcmp(list->items[i], text) == 0) return true;
     if (list->n == list->capacity) {
         size_t capacity = list->capacity ? 2 * list->capacity : 8;
         char **items = realloc(list->items, capacity * sizeof *items);
-        if (!items)
-            return false;
+        if (!items) return false;
         list->items = items;
         list->capacity = capacity;
     }
     char *copy = strdup(text);
-    if (!copy)
-        return false;
+    if (!copy) return false;
     list->items[list->n++] = copy;
     return true;
 }
@@ -97,8 +91,7 @@ bool gis_list_add(gis_list *list, const char *format, ...)
 
 void gis_list_clear(gis_list *list)
 {
-    for (size_t i = 0; i < list->n; i++)
-        free(list->items[i]);
+    for (size_t i = 0; i < list->n; i++) free(list->items[i]);
     free(list->items);
     *list = (gis_list){0};
 }
@@ -111,8 +104,7 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
     (void)number;
     gis_listener *listener = CPLGetErrorHandlerUserData();
     if (class == CE_Warning) {
-        if (listener->warnings.n < WARNINGS_KEPT)
-            gis_list_add(&listener->warnings, "%s", text);
+        if (listener->warnings.n < WARNINGS_KEPT) gis_list_add(&listener->warnings, "%s", text);
     } else if (class >= CE_Failure) {
         if (listener->failures++ == 0) {
             snprintf(listener->first, sizeof listener->first, "%s", text);

@@ -47,13 +47,10 @@ static void clear_away(void)
 static void lose_patience(void)
 {
     static const char words[] = "sunder: error: " GIS_INTERRUPTED "\n";
-    if (atomic_load(&outcome) == GIS_DECIDING)
-        alarm(PATIENCE);
-    if (atomic_load(&outcome) != GIS_OPEN)
-        return;
+    if (atomic_load(&outcome) == GIS_DECIDING) alarm(PATIENCE);
+    if (atomic_load(&outcome) != GIS_OPEN) return;
     clear_away();
-    if (!atomic_load(&told))
-        (void)!write(STDERR_FILENO, words, sizeof words - 1);
+    if (!atomic_load(&told)) (void)!write(STDERR_FILENO, words, sizeof words - 1);
     _exit(atomic_load(&told) ? atomic_load(&told) : GIS_FAILED);
 }
 
@@ -134,15 +131,13 @@ void gis_watch(void)
 void gis_hold(void)
 {
     sigset_t set = all_of_them();
-    if (held++ == 0)
-        pthread_sigmask(SIG_BLOCK, &set, NULL);
+    if (held++ == 0) pthread_sigmask(SIG_BLOCK, &set, NULL);
 }
 
 void gis_release(void)
 {
     sigset_t set = all_of_them();
-    if (--held == 0)
-        pthread_sigmask(SIG_UNBLOCK, &set, NULL);
+    if (--held == 0) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }
 
 void gis_set_outcome(gis_outcome now)
@@ -154,8 +149,7 @@ bool gis_decide(gis_error *error)
 {
     gis_hold();
     bool done = gis_go_on(error);
-    if (done)
-        gis_set_outcome(GIS_DECIDING);
+    if (done) gis_set_outcome(GIS_DECIDING);
     gis_release();
     return done;
 }
@@ -190,12 +184,10 @@ gis_leftover *gis_leftover_former(const char *path, const char *back_to)
 
 void gis_leftover_forget(gis_leftover *leftover)
 {
-    if (!leftover)
-        return;
+    if (!leftover) return;
     gis_hold();
     gis_leftover **at = &leftovers;
-    while (*at != leftover)
-        at = &(*at)->next;
+    while (*at != leftover) at = &(*at)->next;
     *at = leftover->next;
     gis_release();
     CPLFree(leftover->path);

@@ -22,8 +22,7 @@ const char *gis_json_text(const gis_json *out)
 
 static void append(gis_json *out, const char *bytes, size_t n)
 {
-    if (out->failed)
-        return;
+    if (out->failed) return;
     if (out->capacity - out->length <= n) {
         size_t capacity = out->capacity * 2 + n + 256;
         char *text = realloc(out->text, capacity);
@@ -41,8 +40,7 @@ static void append(gis_json *out, const char *bytes, size_t n)
 
 static void begin_value(gis_json *out)
 {
-    if (out->need_comma)
-        append(out, ", ", 2);
+    if (out->need_comma) append(out, ", ", 2);
     out->need_comma = true;
 }
 
@@ -160,7 +158,6 @@ void gis_number_text(double value, char text[GIS_NUMBER_MAX])
     int digits = fabs(value) < few_digits_below ? 1 : DIGITS_TOLD_APART;
     for (; digits <= DIGITS_ENOUGH; digits++) {
         snprintf(text, GIS_NUMBER_MAX, "%.*g", digits, value);
-        if (strtod(text, NULL) == value)
-            return;
+        if (strtod(text, NULL) == value) return;
     }
 }

@@ -27,17 +27,14 @@ static const double same_unit = 1e-9;
 bool gis_length_parse_number(const char *text, size_t n, double *value)
 {
     char digits[64];
-    if (n == 0 || n >= sizeof digits)
-        return false;
+    if (n == 0 || n >= sizeof digits) return false;
     for (size_t i = 0; i < n; i++)
-        if (!strchr("0123456789+-.eE", text[i]) || text[i] == '\0')
-            return false;
+        if (!strchr("0123456789+-.eE", text[i]) || text[i] == '\0') return false;
     memcpy(digits, text, n);
     digits[n] = '\0';
     char *end;
     double read = strtod(digits, &end);
-    if (end != digits + n || !isfinite(read))
-        return false;
+    if (end != digits + n || !isfinite(read)) return false;
     *value = read;
     return true;
 }
@@ -105,13 +102,10 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
                         "give the layer a CRS (--input-crs), or reproject it first", what);
     }
     size_t from = 0, to = 0;
-    while (units[from].unit != given->unit)
-        from++;
-    while (to < N_UNITS && !is_unit(&units[to], rule->unit_metres))
-        to++;
+    while (units[from].unit != given->unit) from++;
+    while (to < N_UNITS && !is_unit(&units[to], rule->unit_metres)) to++;
     double value = given->value;
-    if (given->unit == GIS_SHEET_MILLIMETRE)
-        value *= rule->scale;
+    if (given->unit == GIS_SHEET_MILLIMETRE) value *= rule->scale;
     if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
         value = value * units[from].numerator / units[from].denominator / rule->unit_metres;
     else if (units[to].numerator * units[from].denominator != units[from].numerator * units[to].denominator)

@@ -12,8 +12,7 @@ static void print_line(const char *kind, const char *text)
 {
     fflush(stdout); /* so that the order is right where both go to one terminal */
     fprintf(stderr, "sunder: %s: ", kind);
-    for (const char *c = text; *c; c++)
-        fputc((unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c, stderr);
+    for (const char *c = text; *c; c++) fputc((unsigned char)*c < ' ' || *c == 0x7f ? ' ' : *c, stderr);
     fputc('\n', stderr);
 }
 

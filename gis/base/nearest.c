@@ -21,8 +21,7 @@ static size_t least(size_t a, size_t b)
 static size_t distance(const char *a, size_t n, const char *b, size_t m)
 {
     size_t row[LONGEST + 1], last[LONGEST + 1], before[LONGEST + 1] = {0};
-    for (size_t k = 0; k <= m; k++)
-        last[k] = k;
+    for (size_t k = 0; k <= m; k++) last[k] = k;
     for (size_t i = 1; i <= n; i++) {
         row[0] = i;
         for (size_t k = 1; k <= m; k++) {
@@ -54,16 +53,13 @@ gis_nearest gis_nearest_to(const char *word, size_t n)
 
 void gis_nearest_offer(gis_nearest *search, const char *word, size_t n)
 {
-    if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST)
-        return;
+    if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST) return;
     /* One slip in a word of four letters, two in one of eight: with more, all short options would be near each
      * other. */
     size_t tolerated = search->n <= 4 ? 1 : search->n <= 8 ? 2 : 3;
     size_t found = distance(search->word, search->n, word, n);
-    if (found > tolerated && begins_or_ends(word, n, search->word, search->n))
-        found = tolerated;
-    if (found > tolerated || found >= n || (search->best && found >= search->distance))
-        return;
+    if (found > tolerated && begins_or_ends(word, n, search->word, search->n)) found = tolerated;
+    if (found > tolerated || found >= n || (search->best && found >= search->distance)) return;
     search->best = word;
     search->best_n = n;
     search->distance = found;

@@ -18,15 +18,12 @@ void gis_polygons_clear(gis_polygons *set)
 
 static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, gis_error *error)
 {
-    if (needed <= *capacity)
-        return true;
+    if (needed <= *capacity) return true;
     size_t larger = *capacity * 2 + 16;
-    if (larger < needed)
-        larger = needed;
+    if (larger < needed) larger = needed;
     void **memory = array;
     void *grown = larger > SIZE_MAX / size ? NULL : realloc(*memory, larger * size);
-    if (!grown)
-        return gis_no_memory(error);
+    if (!grown) return gis_no_memory(error);
     *memory = grown;
     *capacity = larger;
     return true;
@@ -40,8 +37,7 @@ bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error)
 
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error)
 {
-    if (!gis_polygons_reserve(set, 1, error))
-        return false;
+    if (!gis_polygons_reserve(set, 1, error)) return false;
     set->xy[2 * set->vertices] = x;
     set->xy[2 * set->vertices + 1] = y;
     set->vertices++;
@@ -50,16 +46,14 @@ bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error
 
 bool gis_polygons_end_ring(gis_polygons *set, gis_error *error)
 {
-    if (!reserve(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error))
-        return false;
+    if (!reserve(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error)) return false;
     set->ring_end[set->rings++] = set->vertices;
     return true;
 }
 
 bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error)
 {
-    if (!reserve(&set->poly_end, &set->poly_capacity, set->polygons + 1, sizeof *set->poly_end, error))
-        return false;
+    if (!reserve(&set->poly_end, &set->poly_capacity, set->polygons + 1, sizeof *set->poly_end, error)) return false;
     set->poly_end[set->polygons++] = set->rings;
     return true;
 }
@@ -68,10 +62,8 @@ bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t fir
 {
     for (size_t r = first; r < last; r++) {
         for (size_t v = r ? from->ring_end[r - 1] : 0; v < from->ring_end[r]; v++)
-            if (!gis_polygons_vertex(set, from->xy[2 * v], from->xy[2 * v + 1], error))
-                return false;
-        if (!gis_polygons_end_ring(set, error))
-            return false;
+            if (!gis_polygons_vertex(set, from->xy[2 * v], from->xy[2 * v + 1], error)) return false;
+        if (!gis_polygons_end_ring(set, error)) return false;
     }
     return gis_polygons_end_polygon(set, error);
 }
@@ -83,13 +75,10 @@ bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, dou
             size_t n;
             const double *xy = sunder_shape_ring(shape, p, r, &n);
             for (size_t v = 0; v < n; v++)
-                if (!gis_polygons_vertex(set, xy[2 * v] + dx, xy[2 * v + 1] + dy, error))
-                    return false;
-            if (!gis_polygons_end_ring(set, error))
-                return false;
+                if (!gis_polygons_vertex(set, xy[2 * v] + dx, xy[2 * v + 1] + dy, error)) return false;
+            if (!gis_polygons_end_ring(set, error)) return false;
         }
-        if (!gis_polygons_end_polygon(set, error))
-            return false;
+        if (!gis_polygons_end_polygon(set, error)) return false;
     }
     return true;
 }

@@ -36,15 +36,13 @@ static void print_bar(gis_progress *progress, double fraction)
 bool gis_progress_call(double fraction, void *user)
 {
     gis_progress *progress = user;
-    if (progress->kind == GIS_PROGRESS_NONE)
-        return !gis_interrupted();
+    if (progress->kind == GIS_PROGRESS_NONE) return !gis_interrupted();
     double inside = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
     double whole = progress->from + inside * (progress->to - progress->from);
     if (progress->kind == GIS_PROGRESS_BAR) {
         print_bar(progress, whole);
     } else {
-        while (progress->shown < (int)(whole * 100))
-            fprintf(stderr, "%d\n", ++progress->shown);
+        while (progress->shown < (int)(whole * 100)) fprintf(stderr, "%d\n", ++progress->shown);
     }
     return !gis_interrupted();
 }
@@ -52,6 +50,5 @@ bool gis_progress_call(double fraction, void *user)
 void gis_progress_done(gis_progress *progress)
 {
     gis_progress_stage(progress, 1, 1);
-    if (progress->kind == GIS_PROGRESS_BAR)
-        fputs(" - done.\n", stderr);
+    if (progress->kind == GIS_PROGRESS_BAR) fputs(" - done.\n", stderr);
 }

@@ -15,8 +15,7 @@ double gis_clock(void)
 uint64_t gis_peak_rss(void)
 {
     struct rusage usage;
-    if (getrusage(RUSAGE_SELF, &usage) != 0)
-        return 0;
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__
     return (uint64_t)usage.ru_maxrss;
 #else

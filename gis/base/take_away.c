@@ -19,8 +19,7 @@ static void empty(int directory, int depth);
 
 static void remove_entry(int directory, const char *name, int depth)
 {
-    if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0 || unlinkat(directory, name, 0) == 0)
-        return;
+    if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0 || unlinkat(directory, name, 0) == 0) return;
     int inside = openat(directory, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (inside >= 0) {
         empty(inside, depth + 1);
@@ -34,8 +33,7 @@ static void remove_entry(int directory, const char *name, int depth)
 static void empty(int directory, int depth)
 {
     _Alignas(uint64_t) char entries[ROOM];
-    if (depth > DEEPEST)
-        return;
+    if (depth > DEEPEST) return;
     for (int round = 0; round < 2; round++) {
         lseek(directory, 0, SEEK_SET);
         for (long got; (got = syscall(SYS_getdents64, directory, entries, sizeof entries)) > 0;)
@@ -57,8 +55,7 @@ void gis_take_away(const char *path)
 
 void gis_take_away(const char *path)
 {
-    if (unlink(path) != 0)
-        rmdir(path);
+    if (unlink(path) != 0) rmdir(path);
 }
 
 #endif

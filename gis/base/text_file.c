@@ -16,8 +16,7 @@ static char *beside(const char *path, const char *ending)
 {
     size_t size = strlen(path) + strlen(ending) + 32;
     char *name = malloc(size);
-    if (name)
-        snprintf(name, size, "%s.%ld.%s", path, (long)getpid(), ending);
+    if (name) snprintf(name, size, "%s.%ld.%s", path, (long)getpid(), ending);
     return name;
 }
 
@@ -53,11 +52,9 @@ bool gis_text_file_write(gis_text_file *file, const char *path, const char *text
     struct stat info;
     char *resolved = lstat(path, &info) == 0 && S_ISLNK(info.st_mode) ? realpath(path, NULL) : NULL;
     file->path = resolved ? resolved : strdup(path);
-    if (!file->path)
-        return gis_no_memory(error);
+    if (!file->path) return gis_no_memory(error);
     bool special = stat(file->path, &info) == 0 && !S_ISREG(info.st_mode);
-    if (!special && !(file->temporary = beside(file->path, "part")))
-        return gis_no_memory(error);
+    if (!special && !(file->temporary = beside(file->path, "part"))) return gis_no_memory(error);
     int reason;
     if (special ? write_bytes(file->path, "w", text, length, &reason) : write_temporary(file, text, length, &reason))
         return true;
@@ -67,8 +64,7 @@ bool gis_text_file_write(gis_text_file *file, const char *path, const char *text
 static bool step_aside(gis_text_file *file, const char *what, gis_error *error)
 {
     char *former = beside(file->path, "former");
-    if (!former)
-        return gis_no_memory(error);
+    if (!former) return gis_no_memory(error);
     if (rename(file->path, former) == 0) {
         file->former = former;
         file->former_leftover = gis_leftover_former(former, file->path);
@@ -81,8 +77,7 @@ static bool step_aside(gis_text_file *file, const char *what, gis_error *error)
 
 bool gis_text_file_place(gis_text_file *file, const char *what, gis_error *error)
 {
-    if (!file->temporary)
-        return true;
+    if (!file->temporary) return true;
     gis_hold();
     bool done = step_aside(file, what, error);
     if (done && rename(file->temporary, file->path) != 0) {
@@ -103,10 +98,8 @@ void gis_text_file_end(gis_text_file *file, bool keep)
         (void)!rename(file->former, file->path);
     else if (!keep && file->placed)
         remove(file->path);
-    if (keep && file->former)
-        remove(file->former);
-    if (file->temporary && !file->placed)
-        remove(file->temporary);
+    if (keep && file->former) remove(file->former);
+    if (file->temporary && !file->placed) remove(file->temporary);
     gis_leftover_forget(file->leftover);
     gis_leftover_forget(file->former_leftover);
     gis_release();

@@ -26,8 +26,7 @@ static void add_sides(const sunder_shape *shape, double sum[2])
             for (size_t i = 0; i < n; i++) {
                 const double *a = xy + 2 * i, *b = xy + 2 * (i + 1 < n ? i + 1 : 0);
                 double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot(dx, dy);
-                if (!(length > 0) || !isfinite(length))
-                    continue;
+                if (!(length > 0) || !isfinite(length)) continue;
                 double c = dx / length, s = dy / length, c2 = c * c - s * s, s2 = 2 * c * s;
                 sum[0] += length * (c2 * c2 - s2 * s2);
                 sum[1] += length * 2 * c2 * s2;
@@ -38,8 +37,7 @@ static void add_sides(const sunder_shape *shape, double sum[2])
 static bool turn(const sunder_shape *shape, double angle, gis_polygons *out, gis_error *error)
 {
     double c = cos(angle), s = sin(angle);
-    if (!gis_polygons_append_shape(out, shape, 0, 0, error))
-        return false;
+    if (!gis_polygons_append_shape(out, shape, 0, 0, error)) return false;
     for (size_t v = 0; v < out->vertices; v++) {
         double *xy = out->xy + 2 * v, x = xy[0], y = xy[1];
         xy[0] = c * x - s * y;
@@ -52,8 +50,7 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
 {
     double sum[2] = {0, 0};
     for (size_t i = 0; i < set->members; i++)
-        if (buffer->input.shape[set->member[i]])
-            add_sides(buffer->input.shape[set->member[i]], sum);
+        if (buffer->input.shape[set->member[i]]) add_sides(buffer->input.shape[set->member[i]], sum);
     gis_polygons turned = {0};
     sunder_error why;
     bool ok = turn(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
@@ -80,8 +77,7 @@ static bool tell_part(double fraction, void *user)
 static bool round_result(sunder_status status, const sunder_sum *sum, const sunder_error *why, gis_rounded *out,
                          gis_error *error)
 {
-    if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why->message);
+    if (status != SUNDER_OK) return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why->message);
     return gis_round_sum(sum, out, error);
 }
 
@@ -152,8 +148,7 @@ static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const 
     size_t found = set->polygons;
     void **candidate = CPLQuadTreeSearch(index, &here, &n);
     for (int i = 0; i < n && found == set->polygons; i++)
-        if (is_within(set, (size_t)(uintptr_t)candidate[i], at))
-            found = (size_t)(uintptr_t)candidate[i];
+        if (is_within(set, (size_t)(uintptr_t)candidate[i], at)) found = (size_t)(uintptr_t)candidate[i];
     CPLFree(candidate);
     return found;
 }
@@ -168,8 +163,7 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
     sunder_sum *sum = NULL;
     sunder_error why;
     gis_rounded grown = {0};
-    if (!gis_buffer_join(buffer, set, &joined, deviation, error))
-        return false;
+    if (!gis_buffer_join(buffer, set, &joined, deviation, error)) return false;
     sunder_status status = sunder_minkowski_sum(joined, buffer->shape, &stage, &sum, &why);
     bool ok = round_result(status, sum, &why, &grown, error);
     CPLQuadTree *index = ok ? index_of(&grown.set) : NULL;
@@ -179,16 +173,14 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
     *n = 0;
     for (size_t i = 0; ok && i < set->members; i++) {
         const sunder_shape *shape = buffer->input.shape[set->member[i]];
-        if (!shape || sunder_shape_is_empty(shape))
-            continue;
+        if (!shape || sunder_shape_is_empty(shape)) continue;
         size_t corners;
         const double *corner = sunder_shape_ring(shape, 0, 0, &corners);
         const double at[2] = {corner[0] + inner[0], corner[1] + inner[1]};
         members[(*n)++] = (in_block){block_of(&grown.set, index, at), set->member[i]};
     }
     qsort(members, *n, sizeof *members, by_block);
-    if (index)
-        CPLQuadTreeDestroy(index);
+    if (index) CPLQuadTreeDestroy(index);
     gis_rounded_clear(&grown);
     sunder_sum_free(sum);
     sunder_shape_free(joined);
@@ -200,22 +192,16 @@ static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_p
 {
     const gis_polygons *from = &block->result.set;
     for (size_t p = 0; p < from->polygons; p++)
-        if (!gis_polygons_append(polygons, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error))
-            return false;
+        if (!gis_polygons_append(polygons, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error)) return false;
     all->result.deviation = fmax(all->result.deviation, block->result.deviation);
     all->result.repaired += block->result.repaired;
     double *segment = realloc(all->segment, (4 * (all->segments + block->segments) + 1) * sizeof *segment);
-    if (segment)
-        all->segment = segment;
+    if (segment) all->segment = segment;
     double *point = realloc(all->point, (2 * (all->points + block->points) + 1) * sizeof *point);
-    if (point)
-        all->point = point;
-    if (!segment || !point)
-        return gis_no_memory(error);
-    if (block->segments)
-        memcpy(segment + 4 * all->segments, block->segment, 4 * block->segments * sizeof *segment);
-    if (block->points)
-        memcpy(point + 2 * all->points, block->point, 2 * block->points * sizeof *point);
+    if (point) all->point = point;
+    if (!segment || !point) return gis_no_memory(error);
+    if (block->segments) memcpy(segment + 4 * all->segments, block->segment, 4 * block->segments * sizeof *segment);
+    if (block->points) memcpy(point + 2 * all->points, block->point, 2 * block->points * sizeof *point);
     all->segments += block->segments;
     all->points += block->points;
     return true;
@@ -255,12 +241,10 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
     double before = 0;
     bool ok = ((feature && members) || gis_no_memory(error)) &&
               find_blocks(buffer, set, how, members, &n, &before, error);
-    for (size_t i = 0; ok && i < n; i++)
-        feature[i] = members[i].feature;
+    for (size_t i = 0; ok && i < n; i++) feature[i] = members[i].feature;
     set->none = ok && n == 0;
     for (size_t i = 0, end; ok && i < n; i = end) {
-        for (end = i + 1; end < n && members[end].block == members[i].block;)
-            end++;
+        for (end = i + 1; end < n && members[end].block == members[i].block;) end++;
         gis_buffer_set block = {.member = feature + i, .members = end - i};
         part middle = {how, find_share + make_share * (double)i / (double)n,
                        find_share + make_share * (double)end / (double)n};
@@ -269,8 +253,7 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
         gis_buffer_set_clear(&block);
     }
     ok = ok && (set->none || unite_blocks(set, &polygons, how, error));
-    if (ok)
-        set->result.deviation += before;
+    if (ok) set->result.deviation += before;
     gis_polygons_clear(&polygons);
     free(members);
     free(feature);

@@ -12,19 +12,16 @@
 static bool is_multi(const gis_buffer *buffer)
 {
     OGRwkbGeometryType type = wkbFlatten(gis_source_type(buffer->input.source));
-    if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->request->dissolve)
-        return true;
+    if (type == wkbMultiPolygon || type == wkbMultiSurface || buffer->request->dissolve) return true;
     for (size_t k = 0; k < buffer->sets; k++)
-        if (buffer->set[k].result.set.polygons > 1)
-            return true;
+        if (buffer->set[k].result.set.polygons > 1) return true;
     return false;
 }
 
 static OGRGeometryH geometry_of(const gis_buffer_set *set, bool multi)
 {
     const gis_polygons *polygons = &set->result.set;
-    if (polygons->polygons == 0)
-        return OGR_G_CreateGeometry(multi ? wkbMultiPolygon : wkbPolygon);
+    if (polygons->polygons == 0) return OGR_G_CreateGeometry(multi ? wkbMultiPolygon : wkbPolygon);
     return gis_geometry_polygons(polygons->xy, polygons->ring_end, polygons->poly_end, polygons->polygons, multi);
 }
 
@@ -45,26 +42,20 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
     if (buffer->request->dissolve) {
         request.fields = &number;
         request.n_fields = 1;
-        if (buffer->field >= 0)
-            request.copied = field_of(buffer);
-        if (request.copied && EQUAL(OGR_Fld_GetNameRef(request.copied), number.name))
-            number.name = "n_features";
+        if (buffer->field >= 0) request.copied = field_of(buffer);
+        if (request.copied && EQUAL(OGR_Fld_GetNameRef(request.copied), number.name)) number.name = "n_features";
     }
     gis_sink_layer *layer;
-    if (!gis_sink_add(sink, &request, &layer, error))
-        return false;
+    if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t k = 0; k < buffer->sets; k++) {
         const gis_buffer_set *set = &buffer->set[k];
-        if (!gis_go_on(error))
-            return false;
+        if (!gis_go_on(error)) return false;
         OGRGeometryH geometry = set->none ? NULL : geometry_of(set, multi);
-        if (!geometry && !set->none)
-            return gis_no_memory(error);
+        if (!geometry && !set->none) return gis_no_memory(error);
         const gis_value members = {GIS_INTEGER, {.integer = (GIntBig)set->members}};
         bool of_feature = !buffer->request->dissolve || request.copied;
         OGRFeatureH feature = of_feature ? gis_source_feature(buffer->input.source, set->member[0]) : NULL;
-        if (!gis_sink_write(layer, feature, geometry, &members, error))
-            return false;
+        if (!gis_sink_write(layer, feature, geometry, &members, error)) return false;
     }
     return true;
 }
@@ -78,8 +69,7 @@ typedef struct owner {
 static bool owner_of(const gis_buffer *buffer, const gis_buffer_set *set, owner *out, gis_error *error)
 {
     *out = (owner){.values = {{.kind = GIS_NULL}, {.kind = GIS_NULL}}};
-    if (buffer->request->dissolve)
-        return true;
+    if (buffer->request->dissolve) return true;
     out->values[0] = gis_fid_value(&buffer->input, set->member[0]);
     return gis_id_value(&buffer->input, set->member[0], &out->texts.id[0], &out->values[1], error);
 }
@@ -96,10 +86,8 @@ static bool write_parts(gis_sink_layer *layer, const gis_buffer *buffer, bool po
                                            : gis_geometry_line(set->segment + 4 * i, set->segment + 4 * i + 2);
             ok = geometry ? gis_sink_write(layer, NULL, geometry, whose.values, error) : gis_no_memory(error);
         }
-        if (n > 0)
-            gis_conflict_texts_clear(&whose.texts);
-        if (!ok)
-            return false;
+        if (n > 0) gis_conflict_texts_clear(&whose.texts);
+        if (!ok) return false;
     }
     return true;
 }
@@ -119,9 +107,7 @@ static bool write_degenerate(gis_sink *sink, const gis_buffer *buffer, bool poin
 
 bool gis_write_buffer(gis_sink *sink, const gis_buffer *buffer, gis_error *error)
 {
-    if (!write_main(sink, buffer, error))
-        return false;
-    if (!buffer->request->degenerate || !gis_sink_takes_more(sink))
-        return true;
+    if (!write_main(sink, buffer, error)) return false;
+    if (!buffer->request->degenerate || !gis_sink_takes_more(sink)) return true;
     return write_degenerate(sink, buffer, false, error) && write_degenerate(sink, buffer, true, error);
 }

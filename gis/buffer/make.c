@@ -26,8 +26,7 @@ typedef struct making {
 static bool tell_inside(double fraction, void *user)
 {
     making *m = user;
-    if (m->buffer->sets == 1)
-        return gis_progress_call(fraction, m->progress);
+    if (m->buffer->sets == 1) return gis_progress_call(fraction, m->progress);
     return !gis_interrupted() && !atomic_load(&m->stop);
 }
 
@@ -45,15 +44,13 @@ static void fail(making *m, size_t set, const gis_error *error)
 {
     char who[512] = "";
     const gis_buffer *buffer = m->buffer;
-    if (!buffer->request->dissolve)
-        gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
+    if (!buffer->request->dissolve) gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
     bool stopped = strcmp(error->message, GIS_INTERRUPTED) == 0;
     pthread_mutex_lock(&m->lock);
     if (set < m->failed && !(stopped && atomic_load(&m->stop))) { /* what was stopped as another failed is no reason */
         m->failed = set;
         m->error = *error;
-        if (*who && !stopped)
-            gis_fail(&m->error, "%s: %s", who, error->message);
+        if (*who && !stopped) gis_fail(&m->error, "%s: %s", who, error->message);
     }
     atomic_store(&m->stop, true);
     pthread_mutex_unlock(&m->lock);
@@ -69,8 +66,7 @@ static void *work(void *argument)
                                     .threads = m->buffer->sets == 1 ? m->threads : 1};
     while (!atomic_load(&m->stop)) {
         size_t k = atomic_fetch_add(&m->next, 1);
-        if (k >= m->buffer->sets)
-            break;
+        if (k >= m->buffer->sets) break;
         bool blocks = m->buffer->request->dissolve && m->buffer->request->align;
         if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
             fail(m, k, &error);
@@ -103,14 +99,11 @@ bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *erro
     size_t asked = thread_count(buffer), threads = asked < buffer->sets ? asked : buffer->sets, started = 0;
     making m = {.buffer = buffer, .progress = progress, .failed = buffer->sets, .threads = (unsigned)asked};
     pthread_t *thread = calloc(threads + 1, sizeof *thread);
-    if (!thread)
-        return gis_no_memory(error);
+    if (!thread) return gis_no_memory(error);
     pthread_mutex_init(&m.lock, NULL);
-    while (started + 1 < threads && pthread_create(&thread[started], NULL, work, &m) == 0)
-        started++;
+    while (started + 1 < threads && pthread_create(&thread[started], NULL, work, &m) == 0) started++;
     work(&m);
-    for (size_t i = 0; i < started; i++)
-        pthread_join(thread[i], NULL);
+    for (size_t i = 0; i < started; i++) pthread_join(thread[i], NULL);
     pthread_mutex_destroy(&m.lock);
     free(thread);
     if (atomic_load(&m.stop)) {

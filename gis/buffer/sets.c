@@ -41,11 +41,9 @@ static bool read_keys(const gis_buffer *buffer, dissolve_key *keys, gis_error *e
     for (size_t i = 0; i < buffer->input.n; i++) {
         OGRFeatureH feature = gis_source_feature(buffer->input.source, i);
         keys[i].feature = i;
-        if (!OGR_F_IsFieldSetAndNotNull(feature, buffer->field))
-            continue;
+        if (!OGR_F_IsFieldSetAndNotNull(feature, buffer->field)) continue;
         keys[i].key = gis_field_key(feature, buffer->field);
-        if (!keys[i].key)
-            return gis_no_memory(error);
+        if (!keys[i].key) return gis_no_memory(error);
     }
     return true;
 }
@@ -81,23 +79,18 @@ static bool has_single_values(const gis_buffer *buffer, gis_error *error)
 
 static bool gather_by_field(gis_buffer *buffer, gis_error *error)
 {
-    if (!has_single_values(buffer, error))
-        return false;
+    if (!has_single_values(buffer, error)) return false;
     size_t n = buffer->input.n;
     dissolve_key *keys = calloc(n + 1, sizeof *keys);
-    if (!keys)
-        return gis_no_memory(error);
+    if (!keys) return gis_no_memory(error);
     bool ok = read_keys(buffer, keys, error);
-    if (ok)
-        sort_keys(keys, n);
+    if (ok) sort_keys(keys, n);
     for (size_t i = 0; ok && i < n; i++) {
-        if (i == 0 || keys[i].set != keys[i - 1].set)
-            buffer->set[buffer->sets++].member = buffer->member + i;
+        if (i == 0 || keys[i].set != keys[i - 1].set) buffer->set[buffer->sets++].member = buffer->member + i;
         buffer->set[buffer->sets - 1].members++;
         buffer->member[i] = keys[i].feature;
     }
-    for (size_t i = 0; i < n; i++)
-        free(keys[i].key);
+    for (size_t i = 0; i < n; i++) free(keys[i].key);
     free(keys);
     return ok;
 }
@@ -107,13 +100,10 @@ bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
     size_t n = buffer->input.n;
     buffer->set = calloc(n + 1, sizeof *buffer->set);
     buffer->member = calloc(n + 1, sizeof *buffer->member);
-    if (!buffer->set || !buffer->member)
-        return gis_no_memory(error);
-    if (buffer->field >= 0)
-        return gather_by_field(buffer, error);
+    if (!buffer->set || !buffer->member) return gis_no_memory(error);
+    if (buffer->field >= 0) return gather_by_field(buffer, error);
     buffer->sets = buffer->request->dissolve ? 1 : n;
-    for (size_t i = 0; i < n; i++)
-        buffer->member[i] = i;
+    for (size_t i = 0; i < n; i++) buffer->member[i] = i;
     for (size_t k = 0; k < buffer->sets; k++) {
         buffer->set[k].member = buffer->member + k;
         buffer->set[k].members = buffer->request->dissolve ? n : 1;
@@ -142,8 +132,7 @@ static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double
     sunder_sum *sum;
     sunder_error why;
     gis_rounded rounded = {0};
-    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK) return gis_fail(error, "%s", why.message);
     bool ok = gis_round_sum(sum, &rounded, error);
     for (size_t p = 0; ok && p < rounded.set.polygons; p++)
         ok = gis_polygons_append(all, &rounded.set, p ? rounded.set.poly_end[p - 1] : 0, rounded.set.poly_end[p],
@@ -158,8 +147,7 @@ static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *r
                           double *deviation, gis_error *error)
 {
     const sunder_shape *shape = buffer->input.shape[feature];
-    if (sunder_shape_repaired(shape))
-        return append_repaired(shape, all, deviation, error);
+    if (sunder_shape_repaired(shape)) return append_repaired(shape, all, deviation, error);
     bool ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error);
     for (size_t p = 0; ok && p < rings->set.polygons; p++)
         ok = gis_polygons_append(all, &rings->set, p ? rings->set.poly_end[p - 1] : 0, rings->set.poly_end[p], error);
@@ -198,20 +186,17 @@ static bool keep_degenerate(const sunder_sum *sum, gis_buffer_set *set, gis_erro
     sunder_sum_get_size(sum, &size);
     set->segment = malloc((size.degenerate_segments + 1) * 4 * sizeof *set->segment);
     set->point = malloc((size.degenerate_points + 1) * 2 * sizeof *set->point);
-    if (!set->segment || !set->point)
-        return gis_no_memory(error);
+    if (!set->segment || !set->point) return gis_no_memory(error);
     set->segments = size.degenerate_segments;
     set->points = size.degenerate_points;
     for (size_t i = 0; i < set->segments; i++) {
         uint32_t ends[2];
         sunder_sum_segment(sum, i, ends);
-        if (!place(sum, ends, 2, set->segment + 4 * i, &set->result.deviation, error))
-            return false;
+        if (!place(sum, ends, 2, set->segment + 4 * i, &set->result.deviation, error)) return false;
     }
     for (size_t i = 0; i < set->points; i++) {
         uint32_t vertex = sunder_sum_point(sum, i);
-        if (!place(sum, &vertex, 1, set->point + 2 * i, &set->result.deviation, error))
-            return false;
+        if (!place(sum, &vertex, 1, set->point + 2 * i, &set->result.deviation, error)) return false;
     }
     return true;
 }
@@ -247,14 +232,12 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     sunder_sum *sum;
     sunder_error why;
     sunder_status status = sunder_morphology(p, b, buffer->request->operation, how, &sum, &why);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
+    if (status != SUNDER_OK) return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
     bool ok = gis_round_sum(sum, &set->result, error) &&
               (!buffer->request->align || gis_straighten(&set->result, error)) &&
               (!buffer->request->degenerate || keep_degenerate(sum, set, error));
     sunder_sum_free(sum);
-    if (ok)
-        set->area = gis_buffer_area(&set->result.set);
+    if (ok) set->area = gis_buffer_area(&set->result.set);
     return ok;
 }
 
@@ -268,8 +251,7 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
         shapes += has_shape(buffer, set->member[i]);
         set->none = set->none && !has_polygons(buffer, set->member[i]);
     }
-    if (shapes == 0)
-        return true;
+    if (shapes == 0) return true;
     double before = 0;
     bool ok = (!buffer->request->dissolve || gis_buffer_join(buffer, set, &joined, &before, error)) &&
               (!buffer->request->align || gis_buffer_turned(buffer, set, &turned, error)) &&
@@ -291,8 +273,7 @@ void gis_buffer_set_clear(gis_buffer_set *set)
 
 void gis_buffer_clear(gis_buffer *buffer)
 {
-    for (size_t k = 0; k < buffer->sets; k++)
-        gis_buffer_set_clear(&buffer->set[k]);
+    for (size_t k = 0; k < buffer->sets; k++) gis_buffer_set_clear(&buffer->set[k]);
     free(buffer->set);
     free(buffer->member);
     sunder_shape_free(buffer->shape);

@@ -25,8 +25,7 @@ static bool open_sink(buffer_run *run, gis_error *error)
     static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", NULL};
     const gis_source *source = run->buffer.input.source;
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(source));
-    if (run->request.degenerate)
-        request.suffixes = suffixes;
+    if (run->request.degenerate) request.suffixes = suffixes;
     return gis_source_spare(run->buffer.shape_source, request.path, request.update, error) &&
            gis_sink_open(&request, source, &run->sink, error);
 }
@@ -36,13 +35,10 @@ static bool make_and_write(buffer_run *run, gis_error *error)
 {
     gis_sink_result result;
     gis_progress_stage(&run->progress, GIS_BUFFER_READ, GIS_BUFFER_MADE);
-    if (!open_sink(run, error) || !gis_buffer_make(&run->buffer, &run->progress, error))
-        return false;
+    if (!open_sink(run, error) || !gis_buffer_make(&run->buffer, &run->progress, error)) return false;
     gis_progress_stage(&run->progress, GIS_BUFFER_MADE, 1);
-    if (!gis_write_buffer(run->sink, &run->buffer, error) || !gis_sink_finish(run->sink, &result, error))
-        return false;
-    if (!result.exact)
-        run->buffer.deviation += result.deviation;
+    if (!gis_write_buffer(run->sink, &run->buffer, error) || !gis_sink_finish(run->sink, &result, error)) return false;
+    if (!result.exact) run->buffer.deviation += result.deviation;
     gis_progress_done(&run->progress);
     return true;
 }
@@ -74,8 +70,7 @@ static bool print_summary(const void *made, gis_error *error)
     const gis_buffer *buffer = &run->buffer;
     (void)error; /* what stdio refuses shows when it is flushed */
     printf("%s: %zu features", gis_source_name(buffer->input.source), buffer->input.n);
-    if (run->request.dissolve)
-        printf(" in %zu set%s", buffer->sets, buffer->sets == 1 ? "" : "s");
+    if (run->request.dissolve) printf(" in %zu set%s", buffer->sets, buffer->sets == 1 ? "" : "s");
     printf(", %zu came out empty; %zu vertices, area %.12g\n", buffer->empty, buffer->vertices, buffer->area);
     printf("exact up to rounding: no boundary moved by more than %.3g; %zu polygons were mended for it; %.3g s\n",
            buffer->deviation, buffer->repaired, gis_clock() - run->start);
@@ -85,8 +80,7 @@ static bool print_summary(const void *made, gis_error *error)
 static bool deliver(const buffer_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (run->to.stats)
-        json_buffer(&stats, &run->buffer);
+    if (run->to.stats) json_buffer(&stats, &run->buffer);
     const gis_delivery delivery = {run->to.stats, run->sink, &stats,
                                    taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
     bool ok = gis_deliver(&delivery, error);

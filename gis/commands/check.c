@@ -28,12 +28,10 @@ typedef struct check_run {
 static bool open_sink(check_run *run, gis_error *error)
 {
     const char *path = run->to.output, *source = gis_source_name(run->input.source);
-    if (!path)
-        return true;
+    if (!path) return true;
     size_t size = strlen(source) + sizeof "_conflicts";
     run->layer = malloc(size);
-    if (!run->layer)
-        return gis_no_memory(error);
+    if (!run->layer) return gis_no_memory(error);
     snprintf(run->layer, size, "%s_conflicts", source);
     gis_sink_request request = gis_resolve_sink(run->options, path, run->layer);
     return gis_sink_open(&request, run->input.source, &run->sink, error);
@@ -43,8 +41,7 @@ static bool open_sink(check_run *run, gis_error *error)
 static bool check_and_write(check_run *run, gis_error *error)
 {
     gis_sink_result result;
-    if (!open_sink(run, error))
-        return false;
+    if (!open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
         return false;
@@ -59,8 +56,7 @@ static bool check_and_write(check_run *run, gis_error *error)
 /* Tabs and line breaks in a user's key would break the columns: they become blanks. */
 static void print_text(const char *text)
 {
-    for (; *text; text++)
-        putchar(*text == '\t' || *text == '\n' || *text == '\r' ? ' ' : *text);
+    for (; *text; text++) putchar(*text == '\t' || *text == '\n' || *text == '\r' ? ' ' : *text);
 }
 
 static void print_value(const gis_value *value)
@@ -92,12 +88,10 @@ static bool print_lines(const check_run *run, gis_error *error)
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_go_on(error) && gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
         for (int column = 0; ok && column < N_CONFLICT_COLUMNS; column++) {
-            if (column)
-                putchar('\t');
+            if (column) putchar('\t');
             print_value(&values[column]);
         }
-        if (ok)
-            putchar('\n');
+        if (ok) putchar('\n');
     }
     gis_conflict_texts_clear(&scratch);
     return ok;
@@ -106,8 +100,7 @@ static bool print_lines(const check_run *run, gis_error *error)
 static bool print(const void *checked, gis_error *error)
 {
     const check_run *run = checked;
-    if (!print_lines(run, error))
-        return false;
+    if (!print_lines(run, error)) return false;
     const sunder_conflict_counts *counts = &run->summary.before;
     if (!run->options->given[OPT_QUIET])
         printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, "
@@ -135,8 +128,7 @@ static void json_check(gis_json *out, const check_run *run)
 static bool deliver(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (run->to.stats)
-        json_check(&stats, run);
+    if (run->to.stats) json_check(&stats, run);
     const gis_delivery delivery = {run->to.stats, run->sink, &stats, taken ? NULL : print, run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);

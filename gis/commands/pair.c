@@ -57,8 +57,7 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
                         "given exactly");
     OGRGeometryH line = gis_geometry_line(from, to);
     gis_sink_layer *layer;
-    if (!line)
-        return gis_no_memory(error);
+    if (!line) return gis_no_memory(error);
     if (!gis_sink_add(sink, &request, &layer, error)) {
         OGR_G_DestroyGeometry(line);
         return false;

@@ -66,8 +66,7 @@ static const char *containment_word(unsigned i)
 static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_error *error)
 {
     unsigned policy;
-    if (!gis_resolve_choice(options, OPT_INVALID, invalid_word, &policy, error))
-        return false;
+    if (!gis_resolve_choice(options, OPT_INVALID, invalid_word, &policy, error)) return false;
     *out = (gis_invalid)policy;
     return true;
 }
@@ -138,8 +137,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .list_inside = options->given[OPT_LIST_INSIDE],
         .threads = thread_count(options),
     };
-    if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error))
-        return false;
+    if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
     return resolve_contained(options, &out->contained, error);
 }
@@ -163,8 +161,7 @@ static bool check_selection(const gis_options *options, gis_error *error)
 {
     static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX,
                                                OPT_INPUT_CRS,   OPT_IF,    OPT_OO};
-    if (!gis_shape_is_text(options->operand[0]) || !gis_shape_is_text(options->operand[1]))
-        return true;
+    if (!gis_shape_is_text(options->operand[0]) || !gis_shape_is_text(options->operand[1])) return true;
     for (size_t i = 0; i < sizeof of_sources / sizeof *of_sources; i++)
         if (options->given[of_sources[i]])
             return gis_fail_usage(error, "%.*s selects from a data source, and neither P nor Q is one",
@@ -200,8 +197,7 @@ bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_e
         .keep_map = options->given[OPT_PLANAR_MAP],
     };
     const char *output = gis_resolve_output(options);
-    if (!out->keep_map)
-        return true;
+    if (!out->keep_map) return true;
     if (out->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
         return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
     if (!output || strcmp(output, "/vsistdout/") == 0)
@@ -213,11 +209,9 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
 {
     const char *shape = options->text[OPT_SHAPE];
     unsigned operation;
-    if (!shape)
-        return gis_fail_usage(error, "--shape is missing: what to grow or shrink by, as in --shape square:6");
+    if (!shape) return gis_fail_usage(error, "--shape is missing: what to grow or shrink by, as in --shape square:6");
     const char *meant = gis_shape_is_text(shape) || access(shape, F_OK) == 0 ? NULL : gis_shape_prefix_meant(shape);
-    if (meant)
-        return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
+    if (meant) return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
     if (options->given[OPT_DISSOLVE] && options->given[OPT_DISSOLVE_FIELD])
         return gis_fail_usage(error, "--dissolve makes one set of all features, --dissolve-field one of each value: "
                               "give one of them");
@@ -239,8 +233,7 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
 static bool resolve_place(const gis_options *options, gis_option_id id, gis_place *out, gis_error *error)
 {
     const char *name = gis_option_table[id].names, *text = options->text[id];
-    if (!text)
-        return gis_fail_usage(error, "%s X,Y is missing", name);
+    if (!text) return gis_fail_usage(error, "%s X,Y is missing", name);
     return gis_place_parse(text, out) ||
            gis_fail_usage(error, "%s %s: expected X,Y, each a decimal or num/den", name, text);
 }
@@ -258,10 +251,8 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
         return gis_fail_usage(error, "--free-space needs OUTPUT: it writes layers");
     if (!resolve_place(options, OPT_FROM, &out->from, error) || !resolve_place(options, OPT_TO, &out->to, error))
         return false;
-    if (!options->text[OPT_ROBOT])
-        return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
-    if (!resolve_invalid(options, &out->invalid, error))
-        return false;
+    if (!options->text[OPT_ROBOT]) return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
+    if (!resolve_invalid(options, &out->invalid, error)) return false;
     out->robot = resolve_shape(options, OPT_ROBOT, out->invalid);
     return true;
 }
@@ -294,11 +285,9 @@ const char *gis_resolve_output(const gis_options *options)
 gis_destinations gis_resolve_destinations(const gis_options *options)
 {
     gis_destinations to = {.output = gis_resolve_output(options), .stats = options->text[OPT_STATS]};
-    for (size_t i = 0; i + 1 < options->command->most; i++)
-        to.input[i] = options->operand[i];
+    for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
-    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
-        to.shape[i] = options->text[shapes[i]];
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];
     return to;
 }
 

@@ -41,8 +41,7 @@ static bool find(route_run *run, gis_error *error)
     const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
     sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot,
                                              &run->request.from.at, &run->request.to.at, &how, &run->route, &why);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+    if (status != SUNDER_OK) return gis_fail(error, "%s", why.message);
     gis_progress_done(&progress);
     size_t obstacle;
     sunder_route_status reason = sunder_route_reason(run->route, &obstacle);
@@ -92,8 +91,7 @@ static bool json_route(gis_json *out, const route_run *run, gis_error *error)
     gis_json_key(out, "length");
     gis_json_double(out, found ? sunder_route_length(run->route) : (double)NAN);
     gis_json_key(out, "path");
-    if (!json_path(out, run, error))
-        return false;
+    if (!json_path(out, run, error)) return false;
     gis_json_key(out, "rounded_is_free");
     if (found)
         gis_json_bool(out, sunder_route_rounded_is_free(run->route));
@@ -114,8 +112,7 @@ static bool write_layers(route_run *run, gis_error *error)
     if (!gis_write_route(run->sink, &run->input, run->route, &run->max_deviation, error) ||
         !gis_sink_finish(run->sink, &result, error))
         return false;
-    if (!result.exact)
-        run->max_deviation += result.deviation;
+    if (!result.exact) run->max_deviation += result.deviation;
     return true;
 }
 

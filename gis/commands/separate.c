@@ -36,12 +36,9 @@ static bool write_layers(const separate_run *run, gis_error *error)
     unsigned chosen = run->chosen;
     gis_sink *sink = run->sink;
     const gis_layer_input *input = &run->input;
-    if ((chosen & LAYER_MAIN) && !gis_write_main(sink, input, run->report, error))
-        return false;
-    if ((chosen & LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error))
-        return false;
-    if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error))
-        return false;
+    if ((chosen & LAYER_MAIN) && !gis_write_main(sink, input, run->report, error)) return false;
+    if ((chosen & LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error)) return false;
+    if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error)) return false;
     return !(chosen & LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
 }
 
@@ -53,8 +50,7 @@ static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_e
     *chosen = list ? 0 : apply;
     for (const char *rest = list; rest;) {
         size_t n = strcspn(rest, ","), k = 0;
-        while (k < N_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0))
-            k++;
+        while (k < N_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0)) k++;
         if (k == N_LAYERS)
             return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
                                   rest);
@@ -69,20 +65,14 @@ static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_e
 static bool open_sink(separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!choose_layers(run->options->text[OPT_LAYERS], run->input.points, &run->chosen, error))
-        return false;
-    if (run->chosen & LAYER_DISPLACEMENT)
-        run->suffixes[n++] = "displacement";
-    if (run->chosen & LAYER_CONFLICTS)
-        run->suffixes[n++] = "conflicts";
-    if (run->chosen & LAYER_SYMBOLS)
-        run->suffixes[n++] = "symbols";
+    if (!choose_layers(run->options->text[OPT_LAYERS], run->input.points, &run->chosen, error)) return false;
+    if (run->chosen & LAYER_DISPLACEMENT) run->suffixes[n++] = "displacement";
+    if (run->chosen & LAYER_CONFLICTS) run->suffixes[n++] = "conflicts";
+    if (run->chosen & LAYER_SYMBOLS) run->suffixes[n++] = "symbols";
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
-    if (!gis_sink_open(&request, run->input.source, &run->sink, error))
-        return false;
-    if (!gis_sink_takes_more(run->sink))
-        run->chosen = LAYER_MAIN;
+    if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
+    if (!gis_sink_takes_more(run->sink)) run->chosen = LAYER_MAIN;
     return true;
 }
 
@@ -90,15 +80,13 @@ static bool open_sink(separate_run *run, gis_error *error)
 static bool solve_and_write(separate_run *run, gis_error *error)
 {
     gis_sink_result result;
-    if (!open_sink(run, error))
-        return false;
+    if (!open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_SOLVED);
     if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_SOLVED, 1);
     double begin = gis_clock();
-    if (!write_layers(run, error) || !gis_sink_finish(run->sink, &result, error))
-        return false;
+    if (!write_layers(run, error) || !gis_sink_finish(run->sink, &result, error)) return false;
     run->write = gis_clock() - begin;
     run->verified = run->summary.verified && result.exact;
     gis_progress_done(&run->progress);
@@ -120,8 +108,7 @@ static void json_count(gis_json *out, const char *key, size_t value)
 /* What part of the cost is not proved to be needed; of a cost beyond doubles all of it, as far as a double can tell. */
 static double optimality_gap(const sunder_layer_summary *summary)
 {
-    if (isinf(summary->cost))
-        return 1;
+    if (isinf(summary->cost)) return 1;
     return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
 }
 
@@ -148,8 +135,7 @@ static const char *unit_name(const separate_run *run)
 {
     OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
     char *name = NULL;
-    if (!gis_crs_is_known(crs))
-        return "unknown";
+    if (!gis_crs_is_known(crs)) return "unknown";
     if (run->input.rule.geographic)
         OSRGetAngularUnits(crs, &name);
     else
@@ -160,8 +146,7 @@ static const char *unit_name(const separate_run *run)
 static void json_losses(gis_json *out, const gis_list *losses)
 {
     gis_json_open(out, '[');
-    for (size_t i = 0; i < losses->n; i++)
-        gis_json_string(out, losses->items[i]);
+    for (size_t i = 0; i < losses->n; i++) gis_json_string(out, losses->items[i]);
     gis_json_close(out, ']');
 }
 
@@ -256,8 +241,7 @@ static bool print_summary(const void *separated, gis_error *error)
 static bool deliver(const separate_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (run->to.stats)
-        json_separate(&stats, run);
+    if (run->to.stats) json_separate(&stats, run);
     const gis_delivery delivery = {run->to.stats, run->sink, &stats,
                                    taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
     bool ok = gis_deliver(&delivery, error);

@@ -30,8 +30,7 @@ static bool compute(sum_run *run, gis_error *error)
     run->decompose = run->operands.building;
     if (run->options->given[OPT_REFLECT]) {
         double begin = gis_clock();
-        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK)
-            return gis_fail(error, "Q: %s", why.message);
+        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK) return gis_fail(error, "Q: %s", why.message);
         q = run->reflected;
         run->decompose += gis_clock() - begin;
     }
@@ -40,8 +39,7 @@ static bool compute(sum_run *run, gis_error *error)
     how.progress_user = &progress;
     double begin = gis_clock();
     sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+    if (status != SUNDER_OK) return gis_fail(error, "%s", why.message);
     run->compute = run->decompose + (gis_clock() - begin);
     gis_progress_done(&progress);
     return true;
@@ -50,8 +48,7 @@ static bool compute(sum_run *run, gis_error *error)
 /* One coordinate pair: rationals as strings, or decimals. */
 static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_error *error)
 {
-    if (!gis_go_on(error))
-        return false;
+    if (!gis_go_on(error)) return false;
     gis_json_open(out, '[');
     if (run->options->given[OPT_EXACT]) {
         char *x, *y;
@@ -80,8 +77,7 @@ static bool json_ring(gis_json *out, const sum_run *run, size_t polygon, size_t 
     const uint32_t *vertices = sunder_sum_ring(run->sum, polygon, ring, &n);
     gis_json_open(out, '[');
     for (size_t i = 0; i < n; i++)
-        if (!json_vertex(out, run, vertices[i], error))
-            return false;
+        if (!json_vertex(out, run, vertices[i], error)) return false;
     gis_json_close(out, ']');
     return true;
 }
@@ -90,13 +86,11 @@ static bool json_polygon(gis_json *out, const sum_run *run, size_t polygon, gis_
 {
     gis_json_open(out, '{');
     gis_json_key(out, "outer");
-    if (!json_ring(out, run, polygon, 0, error))
-        return false;
+    if (!json_ring(out, run, polygon, 0, error)) return false;
     gis_json_key(out, "holes");
     gis_json_open(out, '[');
     for (size_t r = 1; r < sunder_sum_rings(run->sum, polygon); r++)
-        if (!json_ring(out, run, polygon, r, error))
-            return false;
+        if (!json_ring(out, run, polygon, r, error)) return false;
     gis_json_close(out, ']');
     gis_json_close(out, '}');
     return true;
@@ -112,8 +106,7 @@ static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
     gis_json_open(out, '[');
     for (size_t p = 0; p < size.polygons; p++) {
         gis_json_line(out);
-        if (!json_polygon(out, run, p, error))
-            return false;
+        if (!json_polygon(out, run, p, error)) return false;
     }
     gis_json_close(out, ']');
     gis_json_line(out);
@@ -123,8 +116,7 @@ static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
         uint32_t ends[2];
         sunder_sum_segment(run->sum, i, ends);
         gis_json_open(out, '[');
-        if (!json_vertex(out, run, ends[0], error) || !json_vertex(out, run, ends[1], error))
-            return false;
+        if (!json_vertex(out, run, ends[0], error) || !json_vertex(out, run, ends[1], error)) return false;
         gis_json_close(out, ']');
     }
     gis_json_close(out, ']');
@@ -132,8 +124,7 @@ static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
     gis_json_key(out, "degenerate_points");
     gis_json_open(out, '[');
     for (size_t i = 0; i < size.degenerate_points; i++)
-        if (!json_vertex(out, run, sunder_sum_point(run->sum, i), error))
-            return false;
+        if (!json_vertex(out, run, sunder_sum_point(run->sum, i), error)) return false;
     gis_json_close(out, ']');
     return true;
 }
@@ -155,8 +146,7 @@ static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
     char *area;
     sunder_error why;
     sunder_sum_get_size(run->sum, &size);
-    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK) return gis_fail(error, "%s", why.message);
     gis_json_key(out, "result");
     gis_json_open(out, '{');
     gis_json_key(out, "polygons");
@@ -190,8 +180,7 @@ static void json_seconds(gis_json *out, const sum_run *run)
                  {"write", run->write}, {"compute", run->compute}, {"total", gis_clock() - run->start}};
     gis_json_key(out, "seconds");
     gis_json_open(out, '{');
-    for (size_t i = 0; i < sizeof times / sizeof *times; i++)
-        gis_json_seconds(out, times[i].key, times[i].seconds);
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) gis_json_seconds(out, times[i].key, times[i].seconds);
     gis_json_close(out, '}');
 }
 
@@ -207,8 +196,7 @@ static void json_operations(gis_json *out, const sum_run *run)
     gis_json_key(out, "phases");
     gis_json_open(out, '{');
     for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
-        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &counts))
-            break;
+        if (!sunder_sum_phase(run->sum, (sunder_phase)i, &counts)) break;
         gis_json_key(out, phase[i]);
         gis_json_open(out, '{');
         gis_json_operations(out, &counts);
@@ -236,16 +224,14 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
     json_operand(out, "p", run->operands.p);
     json_operand(out, "q", run->operands.q);
     gis_json_line(out);
-    if (!json_result(out, run, error))
-        return false;
+    if (!json_result(out, run, error)) return false;
     gis_json_line(out);
     json_operations(out, run);
     gis_json_line(out);
     json_seconds(out, run);
     gis_json_key(out, "peak_rss_bytes");
     gis_json_size(out, gis_peak_rss());
-    if (geometry)
-        gis_json_raw(out, geometry);
+    if (geometry) gis_json_raw(out, geometry);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
     return true;
@@ -271,8 +257,7 @@ static bool write_layers(sum_run *run, gis_error *error)
         (run->how.keep_map && !gis_write_map(run->sink, sunder_sum_map(run->sum), run->operands.crs, error)) ||
         !gis_sink_finish(run->sink, &result, error))
         return false;
-    if (!result.exact)
-        run->max_deviation += result.deviation;
+    if (!result.exact) run->max_deviation += result.deviation;
     return true;
 }
 

@@ -16,8 +16,7 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
 {
     OGRFeatureH feature = gis_source_feature(input->source, i);
     *value = (gis_value){.kind = GIS_NULL};
-    if (input->id_field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, input->id_field))
-        return true;
+    if (input->id_field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, input->id_field)) return true;
     switch (gis_id_type(input)) {
     case OFTInteger64:
         *value = (gis_value){GIS_INTEGER, {.integer = OGR_F_GetFieldAsInteger64(feature, input->id_field)}};
@@ -30,8 +29,7 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
     }
     const char *text = OGR_F_GetFieldAsString(feature, input->id_field);
     char *copied = malloc(strlen(text) + 1);
-    if (!copied)
-        return gis_no_memory(error);
+    if (!copied) return gis_no_memory(error);
     free(*copy);
     *copy = strcpy(copied, text);
     *value = (gis_value){GIS_TEXT, {.text = copied}};
@@ -43,12 +41,10 @@ static bool blockers(const gis_layer_input *input, const sunder_conflict *confli
                      gis_error *error)
 {
     *value = (gis_value){.kind = GIS_NULL};
-    if (conflict->n_blocked_by == 0)
-        return true;
+    if (conflict->n_blocked_by == 0) return true;
     size_t size = conflict->n_blocked_by * 22 + 1, length = 0;
     char *text = malloc(size);
-    if (!text)
-        return gis_no_memory(error);
+    if (!text) return gis_no_memory(error);
     for (size_t k = 0; k < conflict->n_blocked_by; k++)
         length += (size_t)snprintf(text + length, size - length, "%s" CPL_FRMT_GIB, k ? "," : "",
                                    gis_source_fid(input->source, conflict->blocked_by[k]));
@@ -60,8 +56,7 @@ static bool blockers(const gis_layer_input *input, const sunder_conflict *confli
 
 OGRFieldType gis_id_type(const gis_layer_input *input)
 {
-    if (input->id_field < 0)
-        return OFTString;
+    if (input->id_field < 0) return OFTString;
     OGRFieldDefnH field = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(input->source)), input->id_field);
     switch (OGR_Fld_GetType(field)) {
     case OFTInteger:
@@ -117,8 +112,7 @@ bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sun
     const gis_layer_request request = {.suffix = suffix, .type = wkbLineString, .crs = gis_source_crs(input->source),
                                        .fields = fields, .n_fields = N_CONFLICT_COLUMNS, .style = GIS_STYLE_CONFLICTS};
     gis_sink_layer *layer;
-    if (!gis_sink_add(sink, &request, &layer, error))
-        return false;
+    if (!gis_sink_add(sink, &request, &layer, error)) return false;
     size_t n;
     const sunder_conflict *conflicts = sunder_report_conflicts(report, &n);
     gis_conflict_texts scratch = {0};
@@ -126,8 +120,7 @@ bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sun
     for (size_t k = 0; ok && k < n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_conflict_values(input, &conflicts[k], &scratch, values, error);
-        if (!ok)
-            break;
+        if (!ok) break;
         OGRGeometryH line = gis_geometry_line(conflicts[k].from, conflicts[k].to);
         ok = line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);
     }

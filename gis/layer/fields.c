@@ -13,8 +13,7 @@
 bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error)
 {
     *field = name ? gis_source_field(source, name) : -1;
-    if (!name || *field >= 0)
-        return true;
+    if (!name || *field >= 0) return true;
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(gis_source_layer(source));
     gis_nearest search = gis_nearest_to(name, strlen(name));
     for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++) {
@@ -27,10 +26,8 @@ bool gis_field_find(const gis_source *source, const char *option, const char *na
 
 bool gis_field_is_blank(OGRFeatureH feature, int field)
 {
-    if (!OGR_F_IsFieldSetAndNotNull(feature, field))
-        return true;
-    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString)
-        return false;
+    if (!OGR_F_IsFieldSetAndNotNull(feature, field)) return true;
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) != OFTString) return false;
     const char *text = OGR_F_GetFieldAsString(feature, field);
     return text[strspn(text, " ")] == '\0';
 }
@@ -57,7 +54,6 @@ double gis_field_number(OGRFeatureH feature, int field)
     const char *text = OGR_F_GetFieldAsString(feature, field);
     text += strspn(text, " ");
     size_t n = strlen(text);
-    while (n && text[n - 1] == ' ')
-        n--;
+    while (n && text[n - 1] == ' ') n--;
     return gis_length_parse_number(text, n, &value) ? value : NAN;
 }

@@ -17,8 +17,7 @@ void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t
 {
     GIntBig fid = gis_source_fid(input->source, i);
     int n = snprintf(text, size, "layer %s, ", gis_source_name(input->source));
-    if (n < 0 || (size_t)n >= size)
-        return;
+    if (n < 0 || (size_t)n >= size) return;
     if (fid == OGRNullFID)
         n += snprintf(text + n, size - (size_t)n, "feature %zu", i + 1);
     else
@@ -40,8 +39,7 @@ static bool hint_at_order(const gis_layer_input_request *request, gis_error *err
 /* Points are taken where a symbol is given, which is easily forgotten. */
 static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
 {
-    if (input->points || !input->request->may_have_symbols || !strstr(error->message, "Point"))
-        return false;
+    if (input->points || !input->request->may_have_symbols || !strstr(error->message, "Point")) return false;
     size_t n = strlen(error->message);
     snprintf(error->message + n, sizeof error->message - n, "; for points give their --symbol, as in --symbol disc:4");
     return false;
@@ -64,8 +62,7 @@ void gis_layer_warn_of_crs(const gis_layer_input *input)
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < input->n; i++) {
         double one[4];
-        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
-            continue;
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) continue;
         sunder_shape_box(input->shape[i], one);
         for (int k = 0; k < 2; k++) {
             box[k] = fmin(box[k], one[k]);
@@ -78,8 +75,7 @@ void gis_layer_warn_of_crs(const gis_layer_input *input)
 static bool make_layer(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
-    for (size_t i = 0; i < input->n; i++)
-        input->feature[i].shape = input->shape[i];
+    for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
     if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
         return gis_fail(error, "%s: %s", gis_source_name(input->source), why.message);
     return true;
@@ -88,8 +84,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
 static bool start_reading(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){.request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
-    if (!open_source(out, error))
-        return false;
+    if (!open_source(out, error)) return false;
     out->rule = gis_ruler_of(gis_source_crs(out->source), request->scale);
     out->shape = calloc(out->n + 1, sizeof *out->shape);
     return out->shape || gis_no_memory(error);
@@ -97,8 +92,7 @@ static bool start_reading(const gis_layer_input_request *request, gis_layer_inpu
 
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, out, error))
-        return false;
+    if (!start_reading(request, out, error)) return false;
     out->as_chords = true;
     return gis_layer_shapes(out, error);
 }
@@ -117,13 +111,10 @@ static void warn_of_others(const gis_layer_input *input)
 
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    if (!start_reading(request, out, error))
-        return false;
+    if (!start_reading(request, out, error)) return false;
     out->feature = calloc(out->n + 1, sizeof *out->feature);
-    if (!out->feature)
-        return gis_no_memory(error);
-    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error))
-        return false;
+    if (!out->feature) return gis_no_memory(error);
+    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error)) return false;
     for (size_t i = 0; i < out->n; i++) {
         bool there = out->shape[i] && !sunder_shape_is_empty(out->shape[i]);
         out->feature[i] = (sunder_feature){.weight = 1, .max_shift = out->max_shift, .block = -1, .ignored = !there};
@@ -137,8 +128,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
 void gis_layer_input_clear(gis_layer_input *input)
 {
     sunder_layer_free(input->layer);
-    for (size_t i = 0; input->shape && i < input->n; i++)
-        sunder_shape_free(input->shape[i]);
+    for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
     free(input->shape);
     free(input->feature);
     gis_source_close(input->source);

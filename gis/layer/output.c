@@ -24,12 +24,10 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
     const gis_layer_request request = {.suffix = "", .like_source = true, .as_source = true, .fields = fields,
                                        .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_STATUS};
     gis_sink_layer *layer;
-    if (!gis_sink_add(sink, &request, &layer, error))
-        return false;
+    if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
         double dx, dy;
-        if (!gis_go_on(error))
-            return false;
+        if (!gis_go_on(error)) return false;
         sunder_report_move(report, i, &dx, &dy);
         const gis_value values[] = {
             {GIS_REAL, {.real = dx}},
@@ -38,8 +36,7 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
             {GIS_TEXT, {.text = sunder_feature_status_string(sunder_report_status(report, i))}},
             block_value(report, i),
         };
-        if (!gis_sink_write_moved(layer, gis_source_feature(input->source, i), dx, dy, values, error))
-            return false;
+        if (!gis_sink_write_moved(layer, gis_source_feature(input->source, i), dx, dy, values, error)) return false;
     }
     return true;
 }
@@ -48,14 +45,11 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
 static bool arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error)
 {
     sunder_shape_anchor(input->shape[i], from);
-    if (!input->points)
-        return true;
+    if (!input->points) return true;
     double *xy;
     size_t n;
-    if (!gis_geometry_points(gis_source_geometry(input->source, i), &xy, &n, error))
-        return false;
-    if (n > 0)
-        memcpy(from, xy, 2 * sizeof *xy);
+    if (!gis_geometry_points(gis_source_geometry(input->source, i), &xy, &n, error)) return false;
+    if (n > 0) memcpy(from, xy, 2 * sizeof *xy);
     CPLFree(xy);
     return true;
 }
@@ -64,12 +58,10 @@ static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, con
                         const double move[2], gis_error *error)
 {
     double from[2];
-    if (!arrow_start(input, i, from, error))
-        return false;
+    if (!arrow_start(input, i, from, error)) return false;
     gis_conflict_texts scratch = {0};
     gis_value id;
-    if (!gis_id_value(input, i, &scratch.id[0], &id, error))
-        return false;
+    if (!gis_id_value(input, i, &scratch.id[0], &id, error)) return false;
     const gis_value values[] = {gis_fid_value(input, i),
                                 id,
                                 {GIS_REAL, {.real = move[0]}},
@@ -94,13 +86,11 @@ bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const 
                                        .n_fields = sizeof fields / sizeof *fields,
                                        .style = GIS_STYLE_DISPLACEMENT};
     gis_sink_layer *layer;
-    if (!gis_sink_add(sink, &request, &layer, error))
-        return false;
+    if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
         double move[2];
         sunder_report_move(report, i, &move[0], &move[1]);
-        if ((move[0] != 0 || move[1] != 0) && !write_arrow(layer, input, report, i, move, error))
-            return false;
+        if ((move[0] != 0 || move[1] != 0) && !write_arrow(layer, input, report, i, move, error)) return false;
     }
     return true;
 }
@@ -111,8 +101,7 @@ static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double
     gis_polygons all = {0};
     bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
     OGRGeometryH geometry = ok ? gis_geometry_polygons(all.xy, all.ring_end, all.poly_end, all.polygons, multi) : NULL;
-    if (ok && !geometry)
-        gis_no_memory(error);
+    if (ok && !geometry) gis_no_memory(error);
     gis_polygons_clear(&all);
     return geometry;
 }
@@ -126,19 +115,16 @@ bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunde
                                        .type = multi ? wkbMultiPolygon : wkbPolygon,
                                        .crs = gis_source_crs(input->source), .style = GIS_STYLE_SYMBOLS};
     gis_sink_layer *layer;
-    if (!gis_sink_add(sink, &request, &layer, error))
-        return false;
+    if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
         double dx, dy;
         OGRGeometryH symbol = NULL;
         sunder_report_move(report, i, &dx, &dy);
         if (input->shape[i] && !sunder_shape_is_empty(input->shape[i])) {
             symbol = symbol_geometry(input->shape[i], dx, dy, multi, error);
-            if (!symbol)
-                return false;
+            if (!symbol) return false;
         }
-        if (!gis_sink_write(layer, gis_source_feature(input->source, i), symbol, NULL, error))
-            return false;
+        if (!gis_sink_write(layer, gis_source_feature(input->source, i), symbol, NULL, error)) return false;
     }
     return true;
 }

@@ -36,18 +36,15 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
     bool *marks = calloc(input->n + 1, sizeof *marks);
-    if (!marks)
-        return gis_no_memory(error);
+    if (!marks) return gis_no_memory(error);
     bool ok = true;
     if (rules->ignore_where) {
         ok = gis_source_mark(input->source, rules->ignore_where, marks, error);
-        for (size_t i = 0; ok && i < input->n; i++)
-            input->feature[i].ignored = input->feature[i].ignored || marks[i];
+        for (size_t i = 0; ok && i < input->n; i++) input->feature[i].ignored = input->feature[i].ignored || marks[i];
     }
     if (ok && rules->fixed_where) {
         ok = gis_source_mark(input->source, rules->fixed_where, marks, error);
-        for (size_t i = 0; ok && i < input->n; i++)
-            input->feature[i].fixed = marks[i];
+        for (size_t i = 0; ok && i < input->n; i++) input->feature[i].fixed = marks[i];
     }
     free(marks);
     return ok;
@@ -69,19 +66,15 @@ static int by_key(const void *a, const void *b)
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
 {
     int field;
-    if (!gis_field_find(input->source, "--block-field", input->request->rules.block_field, &field, error))
-        return false;
-    if (field < 0)
-        return true;
+    if (!gis_field_find(input->source, "--block-field", input->request->rules.block_field, &field, error)) return false;
+    if (field < 0) return true;
     block_key *keys = calloc(input->n + 1, sizeof *keys);
-    if (!keys)
-        return gis_no_memory(error);
+    if (!keys) return gis_no_memory(error);
     bool ok = true;
     size_t n = 0;
     for (size_t i = 0; ok && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (!OGR_F_IsFieldSetAndNotNull(feature, field))
-            continue;
+        if (!OGR_F_IsFieldSetAndNotNull(feature, field)) continue;
         keys[n] = (block_key){gis_field_key(feature, field), i};
         ok = keys[n].key || gis_no_memory(error);
         n += ok;
@@ -91,8 +84,7 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
         block += k > 0 && strcmp(keys[k].key, keys[k - 1].key) != 0;
         input->feature[keys[k].feature].block = (int64_t)block;
     }
-    for (size_t k = 0; k < n; k++)
-        free(keys[k].key);
+    for (size_t k = 0; k < n; k++) free(keys[k].key);
     free(keys);
     return ok;
 }
@@ -107,18 +99,15 @@ static int by_size(const void *a, const void *b)
 static bool weigh_by_area(gis_layer_input *input, bool root, gis_error *error)
 {
     double *areas = malloc((input->n + 1) * sizeof *areas);
-    if (!areas)
-        return gis_no_memory(error);
+    if (!areas) return gis_no_memory(error);
     size_t n = 0;
     for (size_t i = 0; i < input->n; i++)
-        if (!input->feature[i].ignored)
-            areas[n++] = sunder_shape_area(input->shape[i]);
+        if (!input->feature[i].ignored) areas[n++] = sunder_shape_area(input->shape[i]);
     qsort(areas, n, sizeof *areas, by_size);
     double median = n == 0 ? 1 : n % 2 ? areas[n / 2] : areas[n / 2 - 1] / 2 + areas[n / 2] / 2;
     free(areas);
     for (size_t i = 0; i < input->n; i++) {
-        if (input->feature[i].ignored)
-            continue;
+        if (input->feature[i].ignored) continue;
         double weight = sunder_shape_area(input->shape[i]) / median;
         input->feature[i].weight = root ? sqrt(weight) : weight;
     }
@@ -130,8 +119,7 @@ static bool weigh_by_field(gis_layer_input *input, gis_error *error)
     int field;
     if (!gis_field_find(input->source, "--weight-field", input->request->rules.weight_field, &field, error))
         return false;
-    if (field < 0)
-        return true;
+    if (field < 0) return true;
     OGRFieldDefnH definition = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(input->source)), field);
     OGRFieldType type = OGR_Fld_GetType(definition);
     if (type != OFTInteger && type != OFTInteger64 && type != OFTReal && type != OFTString)
@@ -139,8 +127,7 @@ static bool weigh_by_field(gis_layer_input *input, gis_error *error)
                         OGR_Fld_GetNameRef(definition), gis_source_name(input->source), OGR_GetFieldTypeName(type));
     for (size_t i = 0; i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (input->feature[i].ignored || gis_field_is_blank(feature, field))
-            continue;
+        if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         double weight = gis_field_number(feature, field);
         if (!(weight > 0) || !isfinite(weight)) {
             char who[512];
@@ -157,10 +144,8 @@ static bool weigh_by_field(gis_layer_input *input, gis_error *error)
 bool gis_layer_weights(gis_layer_input *input, gis_error *error)
 {
     gis_weighting by = input->request->rules.weighting;
-    if (by != GIS_WEIGHTING_EVEN && !weigh_by_area(input, by == GIS_WEIGHTING_SQRT_AREA, error))
-        return false;
-    if (!weigh_by_field(input, error))
-        return false;
+    if (by != GIS_WEIGHTING_EVEN && !weigh_by_area(input, by == GIS_WEIGHTING_SQRT_AREA, error)) return false;
+    if (!weigh_by_field(input, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
         double weight = input->feature[i].weight;
         if (input->feature[i].ignored) {

@@ -24,10 +24,8 @@ bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progr
     how.progress = gis_progress_call;
     how.progress_user = progress;
     sunder_status status = work(input->layer, &how, report, &why);
-    if (status == SUNDER_EARG)
-        return gis_fail_usage(error, "%s", why.message);
-    if (status != SUNDER_OK)
-        return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why.message);
+    if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why.message);
+    if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why.message);
     sunder_report_summary(*report, summary);
     return true;
 }

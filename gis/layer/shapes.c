@@ -30,8 +30,7 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
 {
     double box[4], most = 0;
     sunder_shape_box(shape, box);
-    for (int i = 0; i < 4; i++)
-        most = fmax(most, fabs(box[i]));
+    for (int i = 0; i < 4; i++) most = fmax(most, fabs(box[i]));
     radius = radius * (1 + 1e-9) + 8 * (nextafter(most, INFINITY) - most);
     sunder_shape *disc = NULL, *grown = NULL;
     sunder_sum *sum = NULL;
@@ -39,16 +38,14 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
     sunder_error why;
     bool ok = sunder_shape_disc(radius, growth_segments, false, &disc, &why) == SUNDER_OK &&
               sunder_minkowski_sum(shape, disc, NULL, &sum, &why) == SUNDER_OK;
-    if (!ok)
-        core_failed(who, &why, error);
+    if (!ok) core_failed(who, &why, error);
     ok = ok && gis_round_sum(sum, &rounded, error);
     if (ok && gis_polygons_shape(&rounded.set, SUNDER_VALIDITY_STRICT, &grown, &why) != SUNDER_OK)
         ok = core_failed(who, &why, error);
     gis_rounded_clear(&rounded);
     sunder_sum_free(sum);
     sunder_shape_free(disc);
-    if (ok)
-        *out = grown;
+    if (ok) *out = grown;
     return ok;
 }
 
@@ -57,8 +54,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gi
     char who[512];
     sunder_shape *shape = NULL, *grown;
     bool invalid;
-    if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error))
-        return false;
+    if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error)) return false;
     gis_feature_name(input, i, who, sizeof who);
     if (!gis_shape_of_feature(&rings->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
         return false;
@@ -98,11 +94,9 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     double *at;
     size_t n;
     gis_polygons all = {0};
-    if (!gis_geometry_points(gis_source_geometry(input->source, i), &at, &n, error))
-        return false;
+    if (!gis_geometry_points(gis_source_geometry(input->source, i), &at, &n, error)) return false;
     bool ok = true;
-    for (size_t k = 0; ok && k < n; k++)
-        ok = append_translate(symbol, at + 2 * k, &all, who, error);
+    for (size_t k = 0; ok && k < n; k++) ok = append_translate(symbol, at + 2 * k, &all, who, error);
     CPLFree(at);
     sunder_error why;
     /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
@@ -117,8 +111,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
                         gis_error *error)
 {
     sunder_shape *symbol;
-    if (!gis_shape_from_text(text, who, &input->rule, input->request->invalid, &symbol, NULL, error))
-        return false;
+    if (!gis_shape_from_text(text, who, &input->rule, input->request->invalid, &symbol, NULL, error)) return false;
     if (sunder_shape_is_empty(symbol)) {
         sunder_shape_free(symbol);
         return gis_fail_usage(error, "%s (%s): the symbol is empty; it must enclose something", who, text);
@@ -134,8 +127,7 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     char who[512];
     gis_feature_name(input, i, who, sizeof who);
     if (field < 0 || gis_field_is_blank(feature, field)) {
-        if (common)
-            return place_symbol(input, i, common, who, error);
+        if (common) return place_symbol(input, i, common, who, error);
         return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
                         input->request->symbol_field);
     }
@@ -166,10 +158,8 @@ static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *
     const char *symbol = input->request->symbol;
     if (!gis_field_find(input->source, "--symbol-field", input->request->symbol_field, &how->symbol_field, error))
         return false;
-    if (!symbol)
-        return true;
-    if (!gis_shape_is_text(symbol))
-        return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
+    if (!symbol) return true;
+    if (!gis_shape_is_text(symbol)) return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
     return read_symbol(input, symbol, "--symbol", &how->symbol, error);
 }
 

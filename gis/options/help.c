@@ -40,13 +40,11 @@ static void print_own(unsigned command)
 {
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
-        if (option->group != GIS_GROUP_OWN || !(option->commands & command))
-            continue;
+        if (option->group != GIS_GROUP_OWN || !(option->commands & command)) continue;
         char name[256];
         describe(option, false, name, sizeof name);
         printf("  %-*s %s", HELP_COLUMN - 3, name, option->help);
-        if (option->fallback)
-            printf(" [%s]", option->fallback);
+        if (option->fallback) printf(" [%s]", option->fallback);
         printf("\n");
     }
 }
@@ -56,8 +54,7 @@ static void print_packed(unsigned command, gis_option_group group)
     size_t column = 0;
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
-        if (option->group != group || !(option->commands & command))
-            continue;
+        if (option->group != group || !(option->commands & command)) continue;
         char name[256];
         size_t length = describe(option, true, name, sizeof name);
         if (column && column + 2 + length > SCREEN_WIDTH) {
@@ -67,8 +64,7 @@ static void print_packed(unsigned command, gis_option_group group)
             printf(", ");
             column += 2;
         }
-        if (!column)
-            column = (size_t)printf("  ");
+        if (!column) column = (size_t)printf("  ");
         printf("%s", name);
         column += length;
     }

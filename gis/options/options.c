@@ -16,10 +16,8 @@ typedef struct arguments {
 
 void gis_options_clear(gis_options *options)
 {
-    for (int i = 0; i < OPT_N; i++)
-        free(options->list[i]);
-    for (size_t i = 0; i < options->n_owned; i++)
-        free(options->owned[i]);
+    for (int i = 0; i < OPT_N; i++) free(options->list[i]);
+    for (size_t i = 0; i < options->n_owned; i++) free(options->owned[i]);
     free(options->owned);
     *options = (gis_options){0};
 }
@@ -28,8 +26,7 @@ bool gis_options_word(const char *choices, const char *word, size_t n)
 {
     for (const char *c = choices; *c;) {
         size_t length = strcspn(c, "|");
-        if (n == length && memcmp(c, word, n) == 0)
-            return true;
+        if (n == length && memcmp(c, word, n) == 0) return true;
         c += length + (c[length] == '|');
     }
     return false;
@@ -40,8 +37,7 @@ static bool is_named(const char *names, const char *word, size_t n)
 {
     for (const char *c = names; *c;) {
         size_t length = strcspn(c, " ");
-        if (n == length && memcmp(c, word, n) == 0)
-            return true;
+        if (n == length && memcmp(c, word, n) == 0) return true;
         c += length + (c[length] == ' ');
     }
     return false;
@@ -64,11 +60,9 @@ static int name_length(const gis_option *option)
 static bool push(gis_options *out, gis_option_id id, const char *value, gis_error *error)
 {
     size_t n = 0;
-    while (out->list[id] && out->list[id][n])
-        n++;
+    while (out->list[id] && out->list[id][n]) n++;
     const char **list = realloc(out->list[id], (n + 2) * sizeof *list);
-    if (!list)
-        return gis_no_memory(error);
+    if (!list) return gis_no_memory(error);
     list[n] = value;
     list[n + 1] = NULL;
     out->list[id] = list;
@@ -78,13 +72,11 @@ static bool push(gis_options *out, gis_option_id id, const char *value, gis_erro
 static bool join(gis_options *out, const char *key, const char *value, const char **joined, gis_error *error)
 {
     char **owned = realloc(out->owned, (out->n_owned + 1) * sizeof *owned);
-    if (!owned)
-        return gis_no_memory(error);
+    if (!owned) return gis_no_memory(error);
     out->owned = owned;
     size_t k = strlen(key), v = strlen(value);
     char *text = malloc(k + v + 2);
-    if (!text)
-        return gis_no_memory(error);
+    if (!text) return gis_no_memory(error);
     memcpy(text, key, k);
     text[k] = '=';
     memcpy(text + k + 1, value, v + 1);
@@ -146,10 +138,8 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
         return push(out, id, value, error);
     case GIS_TYPE_PAIRS:
         if (!strchr(value, '=')) {
-            if (in->next >= in->count)
-                return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
-            if (!join(out, value, in->word[in->next++], &value, error))
-                return false;
+            if (in->next >= in->count) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
+            if (!join(out, value, in->word[in->next++], &value, error)) return false;
         }
         return push(out, id, value, error);
     case GIS_TYPE_BOX:
@@ -174,8 +164,7 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
                                   n, option->names, option->metavar);
         break;
     case GIS_TYPE_TEXT:
-        if (!*value)
-            return gis_fail_usage(error, "%.*s: its value is empty", n, option->names);
+        if (!*value) return gis_fail_usage(error, "%.*s: its value is empty", n, option->names);
         break;
     }
     out->text[id] = value;
@@ -196,14 +185,12 @@ static bool unknown_option(const gis_command *command, const char *word, size_t 
     const char *spelling = NULL;
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
-        if (!(option->commands & command->bit))
-            continue;
+        if (!(option->commands & command->bit)) continue;
         for (const char *c = option->names; *c; c += strspn(c, " ")) {
             size_t length = strcspn(c, " "), skip = dashes(c, length);
             const char *before = search.best;
             gis_nearest_offer(&search, c + skip, length - skip);
-            if (search.best != before)
-                spelling = c;
+            if (search.best != before) spelling = c;
             c += length;
         }
     }
@@ -221,15 +208,13 @@ static bool parse_option(const char *word, arguments *in, gis_options *out, gis_
     const char *equals = strchr(word, '=');
     size_t n = equals ? (size_t)(equals - word) : strlen(word);
     const gis_option *option = find_option(out->command->bit, word, n);
-    if (!option)
-        return unknown_option(out->command, word, n, error);
+    if (!option) return unknown_option(out->command, word, n, error);
     bool repeatable = option->type == GIS_TYPE_LIST || option->type == GIS_TYPE_PAIRS || option->type == GIS_TYPE_FLAG;
     if (out->given[option->id] && !repeatable)
         return gis_fail_usage(error, "%.*s is given twice", name_length(option), option->names);
     out->given[option->id] = true;
     const char *value = equals ? equals + 1 : NULL;
-    if (option->type == GIS_TYPE_FLAG && value)
-        return gis_fail_usage(error, "%.*s takes no value", (int)n, word);
+    if (option->type == GIS_TYPE_FLAG && value) return gis_fail_usage(error, "%.*s takes no value", (int)n, word);
     if (!value && option->type != GIS_TYPE_FLAG && option->type != GIS_TYPE_OPTIONAL) {
         if (in->next >= in->count)
             return gis_fail_usage(error, "%.*s needs a value (%s)", (int)n, word, option->metavar);
@@ -244,20 +229,17 @@ static bool finish(gis_options *out, gis_error *error)
     const gis_command *command = out->command;
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
-        if (option->type == GIS_TYPE_CHOICE && !out->given[option->id])
-            out->text[option->id] = option->fallback;
+        if (option->type == GIS_TYPE_CHOICE && !out->given[option->id]) out->text[option->id] = option->fallback;
     }
     if (out->given[OPT_OUTPUT]) {
         if (out->n_operands >= command->most)
             return gis_fail_usage(error, "OUTPUT is given twice, as an operand and by --output");
-        if (out->n_operands + 1 == command->most)
-            out->operand[out->n_operands++] = out->text[OPT_OUTPUT];
+        if (out->n_operands + 1 == command->most) out->operand[out->n_operands++] = out->text[OPT_OUTPUT];
     }
     if (out->n_operands < command->least)
         return gis_fail_usage(error, "sunder %s needs %s; `sunder %s --help` tells more", command->name,
                               command->operands, command->name);
-    if (out->given[OPT_OGR_OVERWRITE])
-        out->given[OPT_UPDATE] = out->given[OPT_OVERWRITE_LAYER] = true;
+    if (out->given[OPT_OGR_OVERWRITE]) out->given[OPT_UPDATE] = out->given[OPT_OVERWRITE_LAYER] = true;
     if (out->given[OPT_OVERWRITE] && out->given[OPT_UPDATE])
         return gis_fail_usage(error, "--overwrite replaces the whole dataset, --update adds to it: give one of them "
                               "(--update --overwrite-layer replaces layers)");
@@ -265,8 +247,7 @@ static bool finish(gis_options *out, gis_error *error)
         return gis_fail_usage(error, "--overwrite-layer needs --update");
     if (out->given[OPT_INPUT_LAYER] && out->given[OPT_SQL])
         return gis_fail_usage(error, "--input-layer and --sql cannot be given together");
-    if (out->given[OPT_DIALECT] && !out->given[OPT_SQL])
-        return gis_fail_usage(error, "--dialect needs --sql");
+    if (out->given[OPT_DIALECT] && !out->given[OPT_SQL]) return gis_fail_usage(error, "--dialect needs --sql");
     return true;
 }
 
@@ -286,8 +267,7 @@ bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_op
         if (!operands_only && strcmp(word, "--") == 0) {
             operands_only = true;
         } else if (!operands_only && word[0] == '-' && word[1] != '\0') {
-            if (!parse_option(word, &in, out, error))
-                return false;
+            if (!parse_option(word, &in, out, error)) return false;
         } else if (out->n_operands == command->most) {
             return gis_fail_usage(error, "one operand too many: %s (sunder %s takes %s)", word, command->name,
                                   command->operands);

@@ -25,18 +25,13 @@ enum { HAS_POLYGON = 1, HAS_LINE = 2, HAS_POINT = 4 };
 
 static unsigned contents_of(OGRGeometryH geometry)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return 0;
+    if (OGR_G_IsEmpty(geometry)) return 0;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (is_polygon(flat))
-        return HAS_POLYGON;
-    if (flat == wkbPoint)
-        return HAS_POINT;
-    if (is_leaf(flat) || flat == wkbCompoundCurve)
-        return HAS_LINE;
+    if (is_polygon(flat)) return HAS_POLYGON;
+    if (flat == wkbPoint) return HAS_POINT;
+    if (is_leaf(flat) || flat == wkbCompoundCurve) return HAS_LINE;
     unsigned found = 0;
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        found |= contents_of(OGR_G_GetGeometryRef(geometry, i));
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) found |= contents_of(OGR_G_GetGeometryRef(geometry, i));
     return found;
 }
 
@@ -51,18 +46,15 @@ gis_content gis_geometry_content(OGRGeometryH geometry)
 
 bool gis_geometry_is_finite(OGRGeometryH geometry)
 {
-    if (!geometry || OGR_G_IsEmpty(geometry))
-        return true;
+    if (!geometry || OGR_G_IsEmpty(geometry)) return true;
     if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
         int n = OGR_G_GetPointCount(geometry);
         for (int i = 0; i < n; i++)
-            if (!isfinite(OGR_G_GetX(geometry, i)) || !isfinite(OGR_G_GetY(geometry, i)))
-                return false;
+            if (!isfinite(OGR_G_GetX(geometry, i)) || !isfinite(OGR_G_GetY(geometry, i))) return false;
         return true;
     }
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!gis_geometry_is_finite(OGR_G_GetGeometryRef(geometry, i)))
-            return false;
+        if (!gis_geometry_is_finite(OGR_G_GetGeometryRef(geometry, i))) return false;
     return true;
 }
 
@@ -75,35 +67,29 @@ static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *e
         OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
         int n = OGR_G_GetPointCount(ring);
         if (n <= 0) {
-            if (r == 0)
-                return true; /* no outer ring: the polygon encloses nothing, whatever its holes */
+            if (r == 0) return true; /* no outer ring: the polygon encloses nothing, whatever its holes */
             continue;
         }
-        if (!gis_polygons_reserve(set, (size_t)n, error))
-            return false;
+        if (!gis_polygons_reserve(set, (size_t)n, error)) return false;
         double *to = set->xy + 2 * set->vertices;
         OGR_G_GetPoints(ring, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
         set->vertices += (size_t)n;
-        if (!gis_polygons_end_ring(set, error))
-            return false;
+        if (!gis_polygons_end_ring(set, error)) return false;
     }
     return set->rings == rings_before || gis_polygons_end_polygon(set, error);
 }
 
 static bool append_polygons(OGRGeometryH geometry, gis_rings *rings, gis_error *error)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return true;
+    if (OGR_G_IsEmpty(geometry)) return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (is_polygon(flat))
-        return append_polygon(geometry, &rings->set, error);
+    if (is_polygon(flat)) return append_polygon(geometry, &rings->set, error);
     if (is_leaf(flat) || flat == wkbCompoundCurve) {
         rings->other_parts = true;
         return true;
     }
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!append_polygons(OGR_G_GetGeometryRef(geometry, i), rings, error))
-            return false;
+        if (!append_polygons(OGR_G_GetGeometryRef(geometry, i), rings, error)) return false;
     return true;
 }
 
@@ -132,8 +118,7 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
     double radius = cx == 0 && cy == 0 ? hypot(ax, ay) / 2 /* a full circle: the middle point is opposite */
                                        : hypot(ax, ay) * hypot(bx, by) * hypot(cx, cy) / (2 * area2);
     OGRGeometryH line = OGR_G_GetLinearGeometry(arc, 0, NULL);
-    if (!line)
-        return gis_fail(error, "GDAL cannot linearise an arc");
+    if (!line) return gis_fail(error, "GDAL cannot linearise an arc");
     double longest = 0;
     int n = OGR_G_GetPointCount(line);
     for (int i = 1; i < n; i++)
@@ -142,8 +127,7 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
     OGR_G_DestroyGeometry(line);
     double slack = 16 * DBL_EPSILON * largest;
     double sagitta = 0; /* collinear points (an infinite radius) make a straight piece, on which the chords lie */
-    if (isfinite(radius))
-        sagitta = sagitta_of(longest, radius);
+    if (isfinite(radius)) sagitta = sagitta_of(longest, radius);
     if (isfinite(radius) && n == 2 && area2 > 0) /* drawn as one chord, even if it spans more than half the circle */
         sagitta = fmax(sagitta, area2 / hypot(cx, cy));
     *deviation = fmax(*deviation, sagitta + 1e-9 * fmin(radius, longest) + slack);
@@ -153,25 +137,20 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
 static bool arcs_deviation(OGRGeometryH geometry, double *deviation, gis_error *error)
 {
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (flat == wkbPoint || flat == wkbLineString)
-        return true;
+    if (flat == wkbPoint || flat == wkbLineString) return true;
     if (flat != wkbCircularString) {
         for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-            if (!arcs_deviation(OGR_G_GetGeometryRef(geometry, i), deviation, error))
-                return false;
+            if (!arcs_deviation(OGR_G_GetGeometryRef(geometry, i), deviation, error)) return false;
         return true;
     }
     int n = OGR_G_GetPointCount(geometry);
     for (int i = 0; i + 2 < n; i += 2) {
         OGRGeometryH arc = OGR_G_CreateGeometry(wkbCircularString);
-        if (!arc)
-            return gis_no_memory(error);
-        for (int k = 0; k < 3; k++)
-            OGR_G_AddPoint_2D(arc, OGR_G_GetX(geometry, i + k), OGR_G_GetY(geometry, i + k));
+        if (!arc) return gis_no_memory(error);
+        for (int k = 0; k < 3; k++) OGR_G_AddPoint_2D(arc, OGR_G_GetX(geometry, i + k), OGR_G_GetY(geometry, i + k));
         bool done = arc_deviation(arc, deviation, error);
         OGR_G_DestroyGeometry(arc);
-        if (!done)
-            return false;
+        if (!done) return false;
     }
     return true;
 }
@@ -181,13 +160,10 @@ bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *erro
     rings->set.vertices = rings->set.rings = rings->set.polygons = 0;
     rings->linearised = 0;
     rings->other_parts = false;
-    if (!geometry)
-        return true;
-    if (!OGR_G_HasCurveGeometry(geometry, TRUE))
-        return append_polygons(geometry, rings, error);
+    if (!geometry) return true;
+    if (!OGR_G_HasCurveGeometry(geometry, TRUE)) return append_polygons(geometry, rings, error);
     OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
-    if (!linear)
-        return gis_fail(error, "GDAL cannot linearise the arcs of a geometry");
+    if (!linear) return gis_fail(error, "GDAL cannot linearise the arcs of a geometry");
     bool done = append_polygons(linear, rings, error) && arcs_deviation(geometry, &rings->linearised, error);
     OGR_G_DestroyGeometry(linear);
     return done;
@@ -201,20 +177,16 @@ void gis_rings_clear(gis_rings *rings)
 
 static size_t count_vertices(OGRGeometryH geometry)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return 0;
-    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry))))
-        return (size_t)OGR_G_GetPointCount(geometry);
+    if (OGR_G_IsEmpty(geometry)) return 0;
+    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) return (size_t)OGR_G_GetPointCount(geometry);
     size_t n = 0;
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        n += count_vertices(OGR_G_GetGeometryRef(geometry, i));
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) n += count_vertices(OGR_G_GetGeometryRef(geometry, i));
     return n;
 }
 
 static double *copy_vertices(OGRGeometryH geometry, double *to)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return to;
+    if (OGR_G_IsEmpty(geometry)) return to;
     if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
         int n = OGR_G_GetPointCount(geometry);
         OGR_G_GetPoints(geometry, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
@@ -229,10 +201,8 @@ bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_erro
 {
     size_t count = geometry ? count_vertices(geometry) : 0;
     double *made = VSIMalloc2(count + 1, 2 * sizeof *made);
-    if (!made)
-        return gis_no_memory(error);
-    if (count)
-        copy_vertices(geometry, made);
+    if (!made) return gis_no_memory(error);
+    if (count) copy_vertices(geometry, made);
     *xy = made;
     *n = count;
     return true;
@@ -260,21 +230,18 @@ static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
 
 static void translate(OGRGeometryH geometry, double dx, double dy)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return; /* giving an empty point coordinates would make it a point */
+    if (OGR_G_IsEmpty(geometry)) return; /* giving an empty point coordinates would make it a point */
     if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
         translate_leaf(geometry, dx, dy);
         return;
     }
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        translate(OGR_G_GetGeometryRef(geometry, i), dx, dy);
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) translate(OGR_G_GetGeometryRef(geometry, i), dx, dy);
 }
 
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error)
 {
     (void)error;
-    if (geometry && (dx != 0 || dy != 0))
-        translate(geometry, dx, dy);
+    if (geometry && (dx != 0 || dy != 0)) translate(geometry, dx, dy);
     return true;
 }
 
@@ -293,23 +260,19 @@ OGRGeometryH gis_geometry_line(const double from[2], const double to[2])
 OGRGeometryH gis_geometry_point(const double xy[2])
 {
     OGRGeometryH point = OGR_G_CreateGeometry(wkbPoint);
-    if (point)
-        OGR_G_SetPoint_2D(point, 0, xy[0], xy[1]);
+    if (point) OGR_G_SetPoint_2D(point, 0, xy[0], xy[1]);
     return point;
 }
 
 static OGRGeometryH new_ring(const double *xy, size_t first, size_t end)
 {
     OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
-    if (!ring)
-        return NULL;
+    if (!ring) return NULL;
     size_t n = end - first;
     bool closed = n > 1 && xy[2 * first] == xy[2 * end - 2] && xy[2 * first + 1] == xy[2 * end - 1];
     OGR_G_SetPointCount(ring, (int)n + !closed);
-    for (size_t i = 0; i < n; i++)
-        OGR_G_SetPoint_2D(ring, (int)i, xy[2 * (first + i)], xy[2 * (first + i) + 1]);
-    if (!closed && n > 0)
-        OGR_G_SetPoint_2D(ring, (int)n, xy[2 * first], xy[2 * first + 1]);
+    for (size_t i = 0; i < n; i++) OGR_G_SetPoint_2D(ring, (int)i, xy[2 * (first + i)], xy[2 * (first + i) + 1]);
+    if (!closed && n > 0) OGR_G_SetPoint_2D(ring, (int)n, xy[2 * first], xy[2 * first + 1]);
     return ring;
 }
 
@@ -330,8 +293,7 @@ static OGRGeometryH new_polygon(const double *xy, const size_t *ring_end, size_t
 OGRGeometryH gis_geometry_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                    bool multi)
 {
-    if (polygons == 1 && !multi)
-        return new_polygon(xy, ring_end, 0, poly_end[0]);
+    if (polygons == 1 && !multi) return new_polygon(xy, ring_end, 0, poly_end[0]);
     OGRGeometryH all = OGR_G_CreateGeometry(wkbMultiPolygon);
     for (size_t p = 0; all && p < polygons; p++) {
         OGRGeometryH polygon = new_polygon(xy, ring_end, p ? poly_end[p - 1] : 0, poly_end[p]);

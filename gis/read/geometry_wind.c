@@ -22,14 +22,12 @@ static int ring_turn(OGRGeometryH ring, int n)
     int lowest = 0;
     for (int i = 1; i < n; i++) {
         sunder_point p = point_at(ring, i), q = point_at(ring, lowest);
-        if (p.y < q.y || (p.y == q.y && p.x > q.x))
-            lowest = i;
+        if (p.y < q.y || (p.y == q.y && p.x > q.x)) lowest = i;
     }
     sunder_point at = point_at(ring, lowest), before = at, after = at;
     for (int i = 1; i < n && same_point(before, at); i++) /* repeated vertices are no neighbours */
         before = point_at(ring, (lowest + n - i) % n);
-    for (int i = 1; i < n && same_point(after, at); i++)
-        after = point_at(ring, (lowest + i) % n);
+    for (int i = 1; i < n && same_point(after, at); i++) after = point_at(ring, (lowest + i) % n);
     return sunder_orient(&before, &at, &after);
 }
 
@@ -39,8 +37,7 @@ static bool reverse_ring(OGRGeometryH ring, gis_error *error)
     bool z = OGR_G_Is3D(ring), m = OGR_G_IsMeasured(ring);
     enum { STRIDE = 4 * sizeof(double) };
     double *all = VSIMalloc2((size_t)n, STRIDE);
-    if (!all)
-        return gis_no_memory(error);
+    if (!all) return gis_no_memory(error);
     OGR_G_GetPointsZM(ring, all, STRIDE, all + 1, STRIDE, all + 2, STRIDE, all + 3, STRIDE);
     for (int i = 0; i < n; i++) {
         const double *p = all + 4 * (n - 1 - i);
@@ -62,26 +59,20 @@ static bool wind_polygon(OGRGeometryH polygon, gis_error *error)
     for (int r = 0; r < OGR_G_GetGeometryCount(polygon); r++) {
         OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
         int n = OGR_G_GetPointCount(ring);
-        if (n > 1 && same_point(point_at(ring, 0), point_at(ring, n - 1)))
-            n--;
+        if (n > 1 && same_point(point_at(ring, 0), point_at(ring, n - 1))) n--;
         int turn = n >= 3 ? ring_turn(ring, n) : 0;
-        if (turn == (r == 0 ? 1 : -1) && !reverse_ring(ring, error))
-            return false;
+        if (turn == (r == 0 ? 1 : -1) && !reverse_ring(ring, error)) return false;
     }
     return true;
 }
 
 bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error)
 {
-    if (!geometry || OGR_G_IsEmpty(geometry))
-        return true;
+    if (!geometry || OGR_G_IsEmpty(geometry)) return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (flat == wkbPolygon || flat == wkbTriangle)
-        return wind_polygon(geometry, error);
-    if (flat == wkbPoint || flat == wkbCurvePolygon || OGR_GT_IsSubClassOf(flat, wkbCurve))
-        return true;
+    if (flat == wkbPolygon || flat == wkbTriangle) return wind_polygon(geometry, error);
+    if (flat == wkbPoint || flat == wkbCurvePolygon || OGR_GT_IsSubClassOf(flat, wkbCurve)) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!gis_geometry_wind_clockwise(OGR_G_GetGeometryRef(geometry, i), error))
-            return false;
+        if (!gis_geometry_wind_clockwise(OGR_G_GetGeometryRef(geometry, i), error)) return false;
     return true;
 }

@@ -22,13 +22,11 @@ bool gis_crs_may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q)
 
 gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, double scale)
 {
-    if (!gis_crs_is_known(crs))
-        crs = NULL;
+    if (!gis_crs_is_known(crs)) crs = NULL;
     gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = scale};
     if (crs) {
         rule.geographic = OSRIsGeographic(crs) != 0;
-        if (!rule.geographic)
-            rule.unit_metres = OSRGetLinearUnits(crs, NULL);
+        if (!rule.geographic) rule.unit_metres = OSRGetLinearUnits(crs, NULL);
     }
     return rule;
 }
@@ -43,8 +41,7 @@ static double middle_latitude(OGRSpatialReferenceH crs, const double *box)
         OSRSetAxisMappingStrategy(geographic, OAMS_TRADITIONAL_GIS_ORDER);
         OSRSetAxisMappingStrategy(projected, OAMS_TRADITIONAL_GIS_ORDER);
         OGRCoordinateTransformationH inverse = OCTNewCoordinateTransformation(projected, geographic);
-        if (inverse && OCTTransform(inverse, 1, &x, &y, NULL))
-            latitude = y;
+        if (inverse && OCTTransform(inverse, 1, &x, &y, NULL)) latitude = y;
         OCTDestroyCoordinateTransformation(inverse);
     }
     OSRRelease(geographic);
@@ -57,8 +54,7 @@ static double middle_latitude(OGRSpatialReferenceH crs, const double *box)
 static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const double *box)
 {
     const char *projection = OSRGetAttrValue(crs, "PROJECTION", 0);
-    if (!projection || strncmp(projection, "Mercator", 8) != 0)
-        return;
+    if (!projection || strncmp(projection, "Mercator", 8) != 0) return;
     double degree = acos(-1.0) / 180;
     double parallel = OSRGetProjParm(crs, "standard_parallel_1", 0, NULL);
     double latitude = box ? middle_latitude(crs, box) : NAN;
@@ -73,8 +69,7 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
 
 void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
 {
-    if (!gis_crs_is_known(crs))
-        return;
+    if (!gis_crs_is_known(crs)) return;
     if (OSRIsGeographic(crs))
         gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no "
                         "lengths on the ground", layer);

@@ -24,16 +24,14 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
                         rings->linearised);
     sunder_shape *alone = NULL;
     bool invalid;
-    if (!gis_shape_of_feature(&rings->set, policy, who, "", &alone, &invalid, error))
-        return false;
+    if (!gis_shape_of_feature(&rings->set, policy, who, "", &alone, &invalid, error)) return false;
     if (!alone) /* skipped */
         return true;
     sunder_shape_free(alone);
     *any_invalid = *any_invalid || invalid;
     const gis_polygons *set = &rings->set;
     for (size_t p = 0; p < set->polygons; p++)
-        if (!gis_polygons_append(all, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error))
-            return false;
+        if (!gis_polygons_append(all, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error)) return false;
     return true;
 }
 
@@ -52,8 +50,7 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
         double begin = gis_clock();
         const sunder_validity validity = any_invalid ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT;
         ok = gis_polygons_shape(&all, validity, out, &why) == SUNDER_OK || gis_fail(error, "%s: %s", who, why.message);
-        if (building)
-            *building += gis_clock() - begin;
+        if (building) *building += gis_clock() - begin;
     }
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
@@ -96,15 +93,13 @@ bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGR
              (gis_crs_may_be_same(crs, gis_source_crs(opened)) ||
               gis_fail(error, "%s %s has another CRS than the layer; reproject one of them first", name, text));
     }
-    if (ok && sunder_shape_is_empty(shape))
-        ok = gis_fail_usage(error, "%s %s: it encloses nothing", name, text);
+    if (ok && sunder_shape_is_empty(shape)) ok = gis_fail_usage(error, "%s %s: it encloses nothing", name, text);
     if (!ok) {
         sunder_shape_free(shape);
         gis_source_close(opened);
         return false;
     }
     *out = shape;
-    if (opened)
-        *source = opened;
+    if (opened) *source = opened;
     return true;
 }

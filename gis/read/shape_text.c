@@ -24,15 +24,13 @@ static const double most_segments = 65536;
 static int standard_shape(const char *text)
 {
     for (int i = 0; i < N_STANDARD; i++)
-        if (strncmp(text, standard_shapes[i], strlen(standard_shapes[i])) == 0)
-            return i;
+        if (strncmp(text, standard_shapes[i], strlen(standard_shapes[i])) == 0) return i;
     return N_STANDARD;
 }
 
 bool gis_shape_is_text(const char *text)
 {
-    if (text[0] == '@' || standard_shape(text) != N_STANDARD)
-        return true;
+    if (text[0] == '@' || standard_shape(text) != N_STANDARD) return true;
     return gis_wkt_looks_like(text) && access(text, F_OK) != 0;
 }
 
@@ -42,20 +40,17 @@ static bool read_length(const char *text, size_t n, const char *what, const char
 {
     gis_length length;
     const char *why;
-    if (n == 0)
-        return gis_fail_usage(error, "%s: the %s is missing", who, what);
+    if (n == 0) return gis_fail_usage(error, "%s: the %s is missing", who, what);
     if (!gis_length_parse(text, n, &length, &why))
         return gis_fail_usage(error, "%s: the %s, %.*s: %s", who, what, (int)n, text, why);
-    if (length.value == 0)
-        return gis_fail_usage(error, "%s: the %s must be greater than 0", who, what);
+    if (length.value == 0) return gis_fail_usage(error, "%s: the %s must be greater than 0", who, what);
     return gis_length_in_layer_units(&length, rule, who, out, error);
 }
 
 /* A failure of the core about an argument is wrong usage; another one is a failure of the run. */
 static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
 {
-    if (why->status == SUNDER_EARG)
-        return gis_fail_usage(error, "%s: %s", who, why->message);
+    if (why->status == SUNDER_EARG) return gis_fail_usage(error, "%s: %s", who, why->message);
     return gis_fail(error, "%s: %s", who, why->message);
 }
 
@@ -64,12 +59,10 @@ static bool read_disc(const char *text, bool inside, const char *who, const gis_
 {
     size_t n = strcspn(text, ":");
     double radius, segments = default_segments;
-    if (!read_length(text, n, "radius", who, rule, &radius, error))
-        return false;
+    if (!read_length(text, n, "radius", who, rule, &radius, error)) return false;
     if (text[n] == ':') {
         const char *count = text + n + 1;
-        if (!*count)
-            return gis_fail_usage(error, "%s: the number of segments is missing", who);
+        if (!*count) return gis_fail_usage(error, "%s: the number of segments is missing", who);
         if (strspn(count, "0123456789") != strlen(count) || !gis_length_parse_number(count, strlen(count), &segments))
             return gis_fail_usage(error, "%s: %s is not a number of segments", who, count);
     }
@@ -88,14 +81,11 @@ static bool read_rectangle(const char *text, bool square, const char *who, const
     size_t n = square ? strlen(text) : strcspn(text, "x");
     if (!square && text[n] != 'x')
         return gis_fail_usage(error, "%s: expected rectangle:WIDTHxHEIGHT, as in rectangle:4x2.5", who);
-    if (!read_length(text, n, square ? "side" : "width", who, rule, &width, error))
-        return false;
+    if (!read_length(text, n, square ? "side" : "width", who, rule, &width, error)) return false;
     height = width;
-    if (!square && !read_length(text + n + 1, strlen(text + n + 1), "height", who, rule, &height, error))
-        return false;
+    if (!square && !read_length(text + n + 1, strlen(text + n + 1), "height", who, rule, &height, error)) return false;
     sunder_error why;
-    if (sunder_shape_rectangle(width, height, out, &why) != SUNDER_OK)
-        return core_failed(who, &why, error);
+    if (sunder_shape_rectangle(width, height, out, &why) != SUNDER_OK) return core_failed(who, &why, error);
     return true;
 }
 
@@ -115,8 +105,7 @@ static bool read_stream(FILE *file, char **text, gis_error *error)
             bytes = larger;
         }
         size_t got = gis_interrupted() ? 0 : fread(bytes + n, 1, capacity - n - 1, file);
-        if (got == 0)
-            break;
+        if (got == 0) break;
         n += got;
     }
     bytes[n] = '\0';
@@ -131,11 +120,9 @@ static bool read_stream(FILE *file, char **text, gis_error *error)
 bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error)
 {
     bool standard = strcmp(name, "-") == 0;
-    if (!*name)
-        return gis_fail_usage(error, "%s: the name of the file is missing; @- is standard input", who);
+    if (!*name) return gis_fail_usage(error, "%s: the name of the file is missing; @- is standard input", who);
     FILE *file = standard ? stdin : fopen(name, "r");
-    if (!file)
-        return gis_fail(error, "%s: cannot read %s: %s", who, name, strerror(errno));
+    if (!file) return gis_fail(error, "%s: cannot read %s: %s", who, name, strerror(errno));
     gis_error why = {0};
     errno = 0;
     bool ok = read_stream(file, text, &why);
@@ -143,8 +130,7 @@ bool gis_shape_read_file(const char *name, const char *who, char **text, gis_err
         free(*text);
         ok = gis_fail(&why, "%s", strerror(errno));
     }
-    if (!standard)
-        fclose(file);
+    if (!standard) fclose(file);
     return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
 }
 
@@ -179,16 +165,13 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
     }
     if (text[0] == '@') {
         char *wkt = NULL;
-        if (!gis_shape_read_file(text + 1, who, &wkt, error))
-            return false;
+        if (!gis_shape_read_file(text + 1, who, &wkt, error)) return false;
         bool ok = gis_shape_of_wkt(wkt, who, policy, out, building, error);
         free(wkt);
         return ok;
     }
-    if (gis_shape_of_wkt(text, who, policy, out, building, error))
-        return true;
-    if (!error->no_memory)
-        error->exit_status = GIS_USAGE; /* a literal is part of the command line */
+    if (gis_shape_of_wkt(text, who, policy, out, building, error)) return true;
+    if (!error->no_memory) error->exit_status = GIS_USAGE; /* a literal is part of the command line */
     return false;
 }
 
@@ -197,8 +180,7 @@ void gis_shape_name(const char *who, const char *text, char *name, size_t size)
     enum { SHOWN = 48 };
     size_t n = strlen(text);
     if (n > SHOWN)
-        for (n = SHOWN; n > 0 && ((unsigned char)text[n] & 0xC0) == 0x80;)
-            n--;
+        for (n = SHOWN; n > 0 && ((unsigned char)text[n] & 0xC0) == 0x80;) n--;
     snprintf(name, size, "%s (%.*s%s)", who, (int)n, text, text[n] ? "..." : "");
 }
 

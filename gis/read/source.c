@@ -80,8 +80,7 @@ static bool execute(gis_source *source, const gis_source_request *request, gis_e
     source->layer = GDALDatasetExecuteSQL(source->dataset, request->sql, box, request->dialect);
     gis_listen_end();
     source->is_result = source->layer != NULL;
-    if (box)
-        OGR_G_DestroyGeometry(box);
+    if (box) OGR_G_DestroyGeometry(box);
     if (!source->layer)
         gis_fail(error, "%s: --sql: %s", request->path,
                  gis_listener_reason(&listener, "the statement gives no layer"));
@@ -94,8 +93,7 @@ static bool select_features(gis_source *source, const gis_source_request *reques
     if (request->bbox && !request->sql)
         OGR_L_SetSpatialFilterRect(source->layer, request->bbox[0], request->bbox[1], request->bbox[2],
                                    request->bbox[3]);
-    if (!request->where)
-        return true;
+    if (!request->where) return true;
     source->where = CPLStrdup(request->where);
     gis_listener listener = {0};
     gis_listen_begin(&listener);
@@ -135,13 +133,10 @@ static bool keep(gis_source *source, OGRFeatureH feature)
     if (source->n == source->capacity) {
         size_t capacity = source->capacity ? 2 * source->capacity : 1024;
         OGRFeatureH *features = realloc(source->features, capacity * sizeof(OGRFeatureH));
-        if (features)
-            source->features = features;
+        if (features) source->features = features;
         unsigned char *contents = realloc(source->contents, capacity);
-        if (contents)
-            source->contents = contents;
-        if (!features || !contents)
-            return false;
+        if (contents) source->contents = contents;
+        if (!features || !contents) return false;
         source->capacity = capacity;
     }
     source->contents[source->n] = (unsigned char)gis_geometry_content(OGR_F_GetGeometryRef(feature));
@@ -163,8 +158,7 @@ static bool read_features(gis_source *source, gis_error *error)
             OGR_F_Destroy(feature);
             return gis_no_memory(error);
         }
-        if (!gis_go_on(error))
-            return false;
+        if (!gis_go_on(error)) return false;
     }
     return gis_go_on(error); /* a statement that is cut short may look like the last feature */
 }
@@ -200,17 +194,13 @@ static bool look_at_fids(gis_source *source, gis_error *error)
         rising = rising && (i == 0 || gis_source_fid(source, i - 1) < gis_source_fid(source, i));
     }
     source->fids_unique = !missing && rising;
-    if (missing || rising)
-        return true;
+    if (missing || rising) return true;
     GIntBig *fids = malloc(source->n * sizeof *fids);
-    if (!fids)
-        return gis_no_memory(error);
-    for (size_t i = 0; i < source->n; i++)
-        fids[i] = gis_source_fid(source, i);
+    if (!fids) return gis_no_memory(error);
+    for (size_t i = 0; i < source->n; i++) fids[i] = gis_source_fid(source, i);
     qsort(fids, source->n, sizeof *fids, compare_fids);
     source->fids_unique = true;
-    for (size_t i = 1; i < source->n; i++)
-        source->fids_unique = source->fids_unique && fids[i - 1] != fids[i];
+    for (size_t i = 1; i < source->n; i++) source->fids_unique = source->fids_unique && fids[i - 1] != fids[i];
     free(fids);
     return true;
 }
@@ -218,16 +208,13 @@ static bool look_at_fids(gis_source *source, gis_error *error)
 static bool fill(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     source->path = CPLStrdup(request->path);
-    if (!open_dataset(source, request, error))
-        return false;
+    if (!open_dataset(source, request, error)) return false;
     if (request->sql) {
         source->name = CPLStrdup(CPLGetBasename(request->path));
-        if (!execute(source, request, error))
-            return false;
+        if (!execute(source, request, error)) return false;
     } else {
         source->layer = gis_choose_layer(source->dataset, request->path, request->layer, request->takes, error);
-        if (!source->layer)
-            return false;
+        if (!source->layer) return false;
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
     return gis_layer_fits(source->layer, source->name, request->takes, error) &&
@@ -238,8 +225,7 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)
 {
     gis_source *source = calloc(1, sizeof *source);
-    if (!source)
-        return gis_no_memory(error);
+    if (!source) return gis_no_memory(error);
     if (!fill(source, request, error)) {
         gis_source_close(source);
         return false;
@@ -250,18 +236,13 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
 
 void gis_source_close(gis_source *source)
 {
-    if (!source)
-        return;
-    for (size_t i = 0; i < source->n; i++)
-        OGR_F_Destroy(source->features[i]);
+    if (!source) return;
+    for (size_t i = 0; i < source->n; i++) OGR_F_Destroy(source->features[i]);
     free(source->features);
     free(source->contents);
-    if (source->crs)
-        OSRRelease(source->crs);
-    if (source->is_result)
-        GDALDatasetReleaseResultSet(source->dataset, source->layer);
-    if (source->dataset)
-        GDALClose(source->dataset);
+    if (source->crs) OSRRelease(source->crs);
+    if (source->is_result) GDALDatasetReleaseResultSet(source->dataset, source->layer);
+    if (source->dataset) GDALClose(source->dataset);
     CPLFree(source->path);
     CPLFree(source->name);
     CPLFree(source->where);
@@ -285,10 +266,8 @@ static int compare_fid_index(const void *a, const void *b)
 static bool mark_by_filter(gis_source *source, const char *where, bool *marks, gis_error *error)
 {
     fid_index *table = malloc((source->n + 1) * sizeof *table);
-    if (!table)
-        return gis_no_memory(error);
-    for (size_t i = 0; i < source->n; i++)
-        table[i] = (fid_index){gis_source_fid(source, i), i};
+    if (!table) return gis_no_memory(error);
+    for (size_t i = 0; i < source->n; i++) table[i] = (fid_index){gis_source_fid(source, i), i};
     qsort(table, source->n, sizeof *table, compare_fid_index);
     char *both = CPLStrdup(source->where ? CPLSPrintf("(%s) AND (%s)", source->where, where) : where);
     bool done = OGR_L_SetAttributeFilter(source->layer, both) == OGRERR_NONE;
@@ -298,8 +277,7 @@ static bool mark_by_filter(gis_source *source, const char *where, bool *marks, g
         for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(source->layer)); OGR_F_Destroy(feature)) {
             fid_index key = {OGR_F_GetFID(feature), 0};
             fid_index *found = bsearch(&key, table, source->n, sizeof *table, compare_fid_index);
-            if (found)
-                marks[found->index] = true;
+            if (found) marks[found->index] = true;
             done = gis_go_on(error);
         }
     }
@@ -311,8 +289,7 @@ static bool mark_by_filter(gis_source *source, const char *where, bool *marks, g
 static GDALDriverH memory_driver(void)
 {
     GDALDriverH driver = GDALGetDriverByName("MEM"); /* for vectors since 3.11, else raster only */
-    if (!driver || !GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL))
-        driver = GDALGetDriverByName("Memory");
+    if (!driver || !GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL)) driver = GDALGetDriverByName("Memory");
     return driver;
 }
 
@@ -340,15 +317,13 @@ static bool mark_in_memory(gis_source *source, const char *where, bool *marks, g
         for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(layer)) != NULL; OGR_F_Destroy(feature))
             marks[OGR_F_GetFID(feature)] = true;
     }
-    if (memory)
-        GDALClose(memory);
+    if (memory) GDALClose(memory);
     return done || gis_fail(error, "not understood");
 }
 
 bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error)
 {
-    for (size_t i = 0; i < source->n; i++)
-        marks[i] = false;
+    for (size_t i = 0; i < source->n; i++) marks[i] = false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool in_place = !source->is_result && source->fids_unique;
@@ -396,8 +371,7 @@ gis_content gis_source_content(const gis_source *source, size_t i)
 size_t gis_source_content_count(const gis_source *source, gis_content content)
 {
     size_t count = 0;
-    for (size_t i = 0; i < source->n; i++)
-        count += source->contents[i] == (unsigned char)content;
+    for (size_t i = 0; i < source->n; i++) count += source->contents[i] == (unsigned char)content;
     return count;
 }
 

@@ -10,8 +10,7 @@
 static bool same_file(const char *a, const char *b)
 {
     struct stat of_a, of_b;
-    if (strcmp(a, b) == 0)
-        return true;
+    if (strcmp(a, b) == 0) return true;
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
@@ -25,8 +24,7 @@ static bool is_file(const char *path)
 static const char *without_driver(const char *path)
 {
     size_t n = strspn(path, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
-    if (n < 2 || path[n] != ':' || is_file(path))
-        return path;
+    if (n < 2 || path[n] != ':' || is_file(path)) return path;
     path += n + 1;
     return *path == '"' ? path + 1 : path;
 }
@@ -43,35 +41,29 @@ static char *real_file(const char *name)
     while (strncmp(path, "/vsi", 4) == 0) {
         bool part = strncmp(path, "/vsisubfile/", 12) == 0;
         path = strchr(path + 1, part ? ',' : '/');
-        if (!path)
-            return NULL;
+        if (!path) return NULL;
         path++;
         virtual = true;
     }
-    if (!virtual)
-        return CPLStrdup(path);
-    if (*path == '{')
-        path++;
+    if (!virtual) return CPLStrdup(path);
+    if (*path == '{') path++;
     if (!*path) /* /vsistdout/ itself */
         return NULL;
     char *found = CPLStrdup(path);
     for (char *end = strpbrk(found + 1, ends); end; end = strpbrk(end + 1, ends)) {
         char kept = *end;
         *end = '\0';
-        if (is_file(found))
-            return found;
+        if (is_file(found)) return found;
         *end = kept;
     }
-    if (is_file(found))
-        return found;
+    if (is_file(found)) return found;
     CPLFree(found);
     return NULL;
 }
 
 static const char *without_dot(const char *path)
 {
-    while (strncmp(path, "./", 2) == 0)
-        path += 2;
+    while (strncmp(path, "./", 2) == 0) path += 2;
     return path;
 }
 
@@ -87,14 +79,11 @@ bool gis_path_lies_in(const char *path, const char *file)
 
 bool gis_source_lies_in(const gis_source *source, const char *file)
 {
-    if (!source)
-        return false;
-    if (gis_path_lies_in(gis_source_path(source), file))
-        return true;
+    if (!source) return false;
+    if (gis_path_lies_in(gis_source_path(source), file)) return true;
     char **files = GDALGetFileList(gis_source_dataset(source));
     bool found = false;
-    for (char **each = files; each && *each; each++)
-        found = found || gis_path_lies_in(*each, file);
+    for (char **each = files; each && *each; each++) found = found || gis_path_lies_in(*each, file);
     CSLDestroy(files);
     return found;
 }

@@ -10,14 +10,11 @@
 static unsigned kinds_of(OGRwkbGeometryType type)
 {
     OGRwkbGeometryType flat = wkbFlatten(type);
-    if (flat == wkbNone)
-        return 0;
+    if (flat == wkbNone) return 0;
     if (flat == wkbUnknown || flat == wkbGeometryCollection)
         return GIS_TAKES_POLYGONS | GIS_TAKES_POINTS | GIS_TAKES_LINES;
-    if (OGR_GT_IsSubClassOf(flat, wkbSurface) || OGR_GT_IsSubClassOf(flat, wkbMultiSurface))
-        return GIS_TAKES_POLYGONS;
-    if (flat == wkbPoint || flat == wkbMultiPoint)
-        return GIS_TAKES_POINTS;
+    if (OGR_GT_IsSubClassOf(flat, wkbSurface) || OGR_GT_IsSubClassOf(flat, wkbMultiSurface)) return GIS_TAKES_POLYGONS;
+    if (flat == wkbPoint || flat == wkbMultiPoint) return GIS_TAKES_POINTS;
     return GIS_TAKES_LINES;
 }
 
@@ -45,26 +42,21 @@ static void list_layers(GDALDatasetH dataset, unsigned takes, char *text, size_t
     text[0] = '\0';
     for (int i = 0; i < GDALDatasetGetLayerCount(dataset); i++) {
         OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
-        if (GDALDatasetIsLayerPrivate(dataset, i) || (takes && !(kinds_of(OGR_L_GetGeomType(layer)) & takes)))
-            continue;
-        if (text[0])
-            append(text, size, ", ");
+        if (GDALDatasetIsLayerPrivate(dataset, i) || (takes && !(kinds_of(OGR_L_GetGeomType(layer)) & takes))) continue;
+        if (text[0]) append(text, size, ", ");
         append(text, size, OGR_L_GetName(layer));
         append(text, size, " (");
         append(text, size, OGRGeometryTypeToName(OGR_L_GetGeomType(layer)));
         append(text, size, ")");
     }
-    if (!text[0])
-        append(text, size, "none");
+    if (!text[0]) append(text, size, "none");
 }
 
 bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error *error)
 {
     OGRwkbGeometryType type = OGR_L_GetGeomType(layer);
-    if (kinds_of(type) & takes)
-        return true;
-    if (type == wkbNone)
-        return gis_fail(error, "layer %s has no geometry; %s are needed", name, words_for(takes));
+    if (kinds_of(type) & takes) return true;
+    if (type == wkbNone) return gis_fail(error, "layer %s has no geometry; %s are needed", name, words_for(takes));
     return gis_fail(error, "layer %s is declared as %s; %s are needed", name, OGRGeometryTypeToName(type),
                     words_for(takes));
 }
@@ -87,8 +79,7 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *n
     OGRLayerH only = NULL, fitting = NULL;
     int visible = 0, fit = 0;
     for (int i = 0; i < GDALDatasetGetLayerCount(dataset); i++) {
-        if (GDALDatasetIsLayerPrivate(dataset, i))
-            continue;
+        if (GDALDatasetIsLayerPrivate(dataset, i)) continue;
         OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
         visible++;
         only = layer;
@@ -97,10 +88,8 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *n
             fitting = layer;
         }
     }
-    if (fit == 1)
-        return fitting;
-    if (visible == 1)
-        return only; /* gis_layer_fits() will say what is wrong with it */
+    if (fit == 1) return fitting;
+    if (visible == 1) return only; /* gis_layer_fits() will say what is wrong with it */
     list_layers(dataset, fit ? takes : 0, listed, sizeof listed);
     if (fit)
         gis_fail(error, "%s has several layers that may be meant; choose one with --input-layer: %s", path, listed);

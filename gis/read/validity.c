@@ -24,16 +24,13 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
     sunder_error why;
     *invalid = false;
     sunder_status status = gis_polygons_shape(set, SUNDER_VALIDITY_STRICT, out, &why);
-    if (status == SUNDER_OK)
-        return true;
-    if (status != SUNDER_EINVALID)
-        return shape_failed(who, status, &why, error);
+    if (status == SUNDER_OK) return true;
+    if (status != SUNDER_EINVALID) return shape_failed(who, status, &why, error);
     *invalid = true;
     gis_fail(reason, "%s", why.message);
     if (policy == GIS_INVALID_REPAIR) {
         status = gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, out, &why);
-        if (status == SUNDER_OK)
-            return true;
+        if (status == SUNDER_OK) return true;
     }
     return shape_failed(who, status, &why, error);
 }
@@ -43,8 +40,7 @@ bool gis_shape_of_feature(const gis_polygons *set, gis_invalid policy, const cha
 {
     gis_error reason;
     bool ok = gis_shape_of_polygons(set, policy, who, out, invalid, &reason, error);
-    if (!ok && !(*invalid && policy == GIS_INVALID_SKIP))
-        return false;
+    if (!ok && !(*invalid && policy == GIS_INVALID_SKIP)) return false;
     if (*invalid)
         gis_say_warning("%s: %s%s; %s", who, said, reason.message,
                         ok ? "taken as what its rings enclose by the even-odd rule" : "skipped");

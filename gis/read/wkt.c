@@ -19,15 +19,13 @@ typedef struct reader {
 
 static void skip_blanks(reader *in)
 {
-    while (isspace((unsigned char)*in->at))
-        in->at++;
+    while (isspace((unsigned char)*in->at)) in->at++;
 }
 
 static size_t word_length(const char *text)
 {
     size_t n = 0;
-    while (isalpha((unsigned char)text[n]))
-        n++;
+    while (isalpha((unsigned char)text[n])) n++;
     return n;
 }
 
@@ -47,8 +45,7 @@ static bool wrong(reader *in, const char *expected)
 static bool take(reader *in, char c)
 {
     skip_blanks(in);
-    if (*in->at != c)
-        return false;
+    if (*in->at != c) return false;
     in->at++;
     return true;
 }
@@ -57,8 +54,7 @@ static bool take_empty(reader *in)
 {
     skip_blanks(in);
     size_t n = word_length(in->at);
-    if (!is_word(in->at, n, "EMPTY"))
-        return false;
+    if (!is_word(in->at, n, "EMPTY")) return false;
     in->at += n;
     return true;
 }
@@ -67,13 +63,10 @@ static bool read_number(reader *in, double *value)
 {
     size_t n = strspn(in->at, "0123456789+-.eE");
     char *end;
-    if (n == 0)
-        return wrong(in, "a number");
+    if (n == 0) return wrong(in, "a number");
     *value = strtod(in->at, &end);
-    if (end != in->at + n)
-        return wrong(in, "a number");
-    if (!isfinite(*value))
-        return wrong(in, "a number that a double can hold");
+    if (end != in->at + n) return wrong(in, "a number");
+    if (!isfinite(*value)) return wrong(in, "a number that a double can hold");
     in->at += n;
     return true;
 }
@@ -84,10 +77,8 @@ static bool read_point(reader *in)
     double value[4];
     int n = 0;
     for (skip_blanks(in); n < 4 && (n < 2 || (*in->at != ',' && *in->at != ')')); skip_blanks(in), n++)
-        if (!read_number(in, &value[n]))
-            return false;
-    if (in->dimension == 0 && in->tagged == 0)
-        in->dimension = n;
+        if (!read_number(in, &value[n])) return false;
+    if (in->dimension == 0 && in->tagged == 0) in->dimension = n;
     if (n != (in->tagged ? in->tagged : in->dimension))
         return wrong(in, n < (in->tagged ? in->tagged : in->dimension) ? "another number: points differ in dimension"
                                                                          : "fewer numbers: points differ in dimension");
@@ -97,18 +88,14 @@ static bool read_point(reader *in)
 static bool read_ring(reader *in)
 {
     size_t first = in->out->vertices;
-    if (!take(in, '('))
-        return wrong(in, "'(' of a ring");
+    if (!take(in, '(')) return wrong(in, "'(' of a ring");
     do {
-        if (!read_point(in))
-            return false;
+        if (!read_point(in)) return false;
     } while (take(in, ','));
-    if (!take(in, ')'))
-        return wrong(in, "',' or ')'");
+    if (!take(in, ')')) return wrong(in, "',' or ')'");
     const double *xy = in->out->xy;
     size_t n = in->out->vertices - first, last = in->out->vertices - 1;
-    if (n > 1 && xy[2 * first] == xy[2 * last] && xy[2 * first + 1] == xy[2 * last + 1])
-        n--;
+    if (n > 1 && xy[2 * first] == xy[2 * last] && xy[2 * first + 1] == xy[2 * last + 1]) n--;
     if (n < 3)
         return gis_fail(in->error, "%s: WKT, character %zu: a ring of %zu point%s; it needs three at least", in->who,
                         (size_t)(in->at - in->start), n, n == 1 ? "" : "s");
@@ -117,28 +104,21 @@ static bool read_ring(reader *in)
 
 static bool read_polygon(reader *in)
 {
-    if (take_empty(in))
-        return true;
-    if (!take(in, '('))
-        return wrong(in, "'(' of a polygon");
+    if (take_empty(in)) return true;
+    if (!take(in, '(')) return wrong(in, "'(' of a polygon");
     do {
-        if (!read_ring(in))
-            return false;
+        if (!read_ring(in)) return false;
     } while (take(in, ','));
-    if (!take(in, ')'))
-        return wrong(in, "',' or ')'");
+    if (!take(in, ')')) return wrong(in, "',' or ')'");
     return gis_polygons_end_polygon(in->out, in->error);
 }
 
 static bool read_members(reader *in)
 {
-    if (take_empty(in))
-        return true;
-    if (!take(in, '('))
-        return wrong(in, "'(' of a multipolygon");
+    if (take_empty(in)) return true;
+    if (!take(in, '(')) return wrong(in, "'(' of a multipolygon");
     do {
-        if (!read_polygon(in))
-            return false;
+        if (!read_polygon(in)) return false;
     } while (take(in, ','));
     return take(in, ')') || wrong(in, "',' or ')'");
 }
@@ -165,15 +145,12 @@ static void read_tag(reader *in, size_t *type_length, const char *type)
 
 bool gis_wkt_looks_like(const char *text)
 {
-    while (isspace((unsigned char)*text))
-        text++;
+    while (isspace((unsigned char)*text)) text++;
     size_t n = word_length(text);
-    if (n == 0)
-        return false;
+    if (n == 0) return false;
     text += n;
     bool blank = isspace((unsigned char)*text);
-    while (isspace((unsigned char)*text))
-        text++;
+    while (isspace((unsigned char)*text)) text++;
     size_t tag = word_length(text);
     if (blank && (is_word(text, tag, "Z") || is_word(text, tag, "M") || is_word(text, tag, "ZM") ||
                   is_word(text, tag, "EMPTY")))
@@ -193,10 +170,8 @@ bool gis_wkt_read(const char *text, const char *who, gis_polygons *out, gis_erro
     if (!one && !many)
         return gis_fail(error, "%s: %.*s is not a polygonal set; expected POLYGON or MULTIPOLYGON", who,
                         n ? (int)(n < 40 ? n : 40) : 4, n ? type : "this");
-    if (!(one ? read_polygon(&in) : read_members(&in)))
-        return false;
+    if (!(one ? read_polygon(&in) : read_members(&in))) return false;
     skip_blanks(&in);
-    if (*in.at)
-        return wrong(&in, "the end of the text");
+    if (*in.at) return wrong(&in, "the end of the text");
     return true;
 }

@@ -23,8 +23,7 @@
 
 static size_t root_of(size_t *parent, size_t p)
 {
-    while (parent[p] != p)
-        p = parent[p] = parent[parent[p]];
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
     return p;
 }
 
@@ -91,19 +90,14 @@ static bool grid_make(const gis_polygons *set, grid *g, gis_error *error)
     g->cell_end = calloc(n + 1, sizeof *g->cell_end);
     g->vertex = malloc((set->vertices + 1) * sizeof *g->vertex);
     g->owner = malloc((set->vertices + 1) * sizeof *g->owner);
-    if (!g->cell_end || !g->vertex || !g->owner)
-        return gis_no_memory(error);
+    if (!g->cell_end || !g->vertex || !g->owner) return gis_no_memory(error);
     for (size_t p = 0, r = 0, v = 0; p < set->polygons; p++)
         for (; r < set->poly_end[p]; r++)
-            for (; v < set->ring_end[r]; v++)
-                g->owner[v] = p;
-    for (size_t v = 0; v < set->vertices; v++)
-        g->cell_end[cell_of(g, set->xy + 2 * v) + 1]++;
-    for (size_t c = 0; c < n; c++)
-        g->cell_end[c + 1] += g->cell_end[c];
+            for (; v < set->ring_end[r]; v++) g->owner[v] = p;
+    for (size_t v = 0; v < set->vertices; v++) g->cell_end[cell_of(g, set->xy + 2 * v) + 1]++;
+    for (size_t c = 0; c < n; c++) g->cell_end[c + 1] += g->cell_end[c];
     /* Counted one cell on, so that filling turns starts into ends. */
-    for (size_t v = 0; v < set->vertices; v++)
-        g->vertex[g->cell_end[cell_of(g, set->xy + 2 * v)]++] = v;
+    for (size_t v = 0; v < set->vertices; v++) g->vertex[g->cell_end[cell_of(g, set->xy + 2 * v)]++] = v;
     return true;
 }
 
@@ -119,8 +113,7 @@ static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, co
 {
     for (size_t i = cell ? g->cell_end[cell - 1] : 0; i < g->cell_end[cell]; i++) {
         size_t v = g->vertex[i];
-        if (g->owner[v] != polygon && is_near(a, b, set->xy + 2 * v, reach))
-            join(parent, polygon, g->owner[v]);
+        if (g->owner[v] != polygon && is_near(a, b, set->xy + 2 * v, reach)) join(parent, polygon, g->owner[v]);
     }
 }
 
@@ -183,8 +176,7 @@ static bool join_ring(const gis_polygons *set, const grid *g, size_t r, size_t p
 {
     size_t first = r ? set->ring_end[r - 1] : 0, end = set->ring_end[r];
     for (size_t v = first; v < end; v++) {
-        if (!gis_go_on(error))
-            return false;
+        if (!gis_go_on(error)) return false;
         join_along(set, g, set->xy + 2 * v, set->xy + 2 * (v + 1 < end ? v + 1 : first), polygon, moved, parent);
     }
     return true;
@@ -195,13 +187,10 @@ static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, d
 {
     grid g = {0};
     bool ok = grid_make(set, &g, error);
-    for (size_t p = 0; p < set->polygons; p++)
-        parent[p] = p;
+    for (size_t p = 0; p < set->polygons; p++) parent[p] = p;
     for (size_t p = 0, r = 0; ok && p < set->polygons; p++)
-        for (; ok && r < set->poly_end[p]; r++)
-            ok = join_ring(set, &g, r, p, moved, parent, error);
-    for (size_t i = 0; ok && i < suspects->n; i++)
-        join_inside(set, suspects->polygon[i], parent);
+        for (; ok && r < set->poly_end[p]; r++) ok = join_ring(set, &g, r, p, moved, parent, error);
+    for (size_t i = 0; ok && i < suspects->n; i++) join_inside(set, suspects->polygon[i], parent);
     grid_clear(&g);
     return ok && gis_go_on(error);
 }
@@ -225,13 +214,11 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
 {
     sunder_sum *sum = NULL;
     sunder_sum_size size;
-    if (!unite(group, SUNDER_VALIDITY_STRICT, &sum, error))
-        return false;
+    if (!unite(group, SUNDER_VALIDITY_STRICT, &sum, error)) return false;
     sunder_sum_get_size(sum, &size);
     sunder_sum_free(sum);
     *bad = size.polygons != group->polygons;
-    if (!*bad)
-        return true;
+    if (!*bad) return true;
     gis_polygons bent = {0};
     sum = NULL;
     bool ok = gis_bend_set(group, round, &bent, moved, error) && unite(&bent, SUNDER_VALIDITY_EVEN_ODD, &sum, error) &&
@@ -262,8 +249,7 @@ static bool append_group(const gis_polygons *set, const size_t *member, size_t n
     for (size_t i = 0; ok && i < n; i++)
         ok = gis_polygons_append(&group, set, member[i] ? set->poly_end[member[i] - 1] : 0, set->poly_end[member[i]],
                                  error);
-    if (ok && n > 1)
-        ok = mend_group(&group, round, &bad, &mended, &of_group, &moved, error);
+    if (ok && n > 1) ok = mend_group(&group, round, &bad, &mended, &of_group, &moved, error);
     const gis_polygons *from = bad ? &mended.set : &group;
     for (size_t i = 0; ok && i < of_group.n; i++)
         ok = gis_suspect(&to->suspects, to->next.set.polygons + of_group.polygon[i], error);
@@ -280,15 +266,13 @@ static bool append_group(const gis_polygons *set, const size_t *member, size_t n
 /* Members of all groups, group by group in the order of their first polygons. */
 static void list_members(size_t *parent, size_t n, size_t *count, size_t *member)
 {
-    for (size_t p = 0; p < n; p++)
-        count[root_of(parent, p)]++;
+    for (size_t p = 0; p < n; p++) count[root_of(parent, p)]++;
     for (size_t p = 0, at = 0; p < n; p++) {
         size_t here = count[p];
         count[p] = at;
         at += here;
     }
-    for (size_t p = 0; p < n; p++)
-        member[count[root_of(parent, p)]++] = p;
+    for (size_t p = 0; p < n; p++) member[count[root_of(parent, p)]++] = p;
 }
 
 /* One round; *again: some group was mended, and all are to be looked at once more. */
@@ -300,11 +284,9 @@ static bool part_once(gis_rounded *rounded, int round, gis_suspects *suspects, b
     rebuilding to = {0};
     bool ok = ((parent && end && member) || gis_no_memory(error)) &&
               find_groups(set, suspects, rounded->deviation, parent, error);
-    if (ok)
-        list_members(parent, n, end, member);
+    if (ok) list_members(parent, n, end, member);
     bool any = false;
-    for (size_t p = 0; ok && p < n && !any; p++)
-        any = parent[p] != p;
+    for (size_t p = 0; ok && p < n && !any; p++) any = parent[p] != p;
     for (size_t p = 0, from = 0; ok && any && p < n && (ok = gis_go_on(error)); p++)
         if (parent[p] == p) {
             ok = append_group(set, member + from, end[p] - from, round, &to, error);
@@ -335,8 +317,7 @@ bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *
         if (round == GIS_APART_ROUNDS)
             return gis_fail(error, "rounded to doubles the polygons are no longer apart; `sunder sum --exact` gives "
                             "exact ones as JSON");
-        if (!part_once(rounded, round, suspects, &again, error))
-            return false;
+        if (!part_once(rounded, round, suspects, &again, error)) return false;
     }
     return true;
 }

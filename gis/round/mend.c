@@ -31,8 +31,7 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
     *kept = false;
     for (size_t i = first + 2; i < set->vertices && !*kept; i++)
         *kept = sunder_orient(&point[first], &point[first + 1], &point[i]) != 0;
-    if (*kept)
-        return gis_polygons_end_ring(set, error);
+    if (*kept) return gis_polygons_end_ring(set, error);
     set->vertices = first;
     return true;
 }
@@ -42,10 +41,8 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
 {
     size_t start = first ? set->ring_end[first - 1] : 0, rings = last - first;
     size_t *ends = malloc((rings + 1) * sizeof *ends);
-    if (!ends)
-        return gis_no_memory(error);
-    for (size_t r = first; r < last; r++)
-        ends[r - first] = set->ring_end[r] - start;
+    if (!ends) return gis_no_memory(error);
+    for (size_t r = first; r < last; r++) ends[r - first] = set->ring_end[r] - start;
     *out = NULL;
     sunder_error why;
     sunder_status status =
@@ -57,8 +54,7 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
 bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state)
 {
     sunder_shape *shape;
-    if (!strict_shape(set, first, last, &shape, error))
-        return false;
+    if (!strict_shape(set, first, last, &shape, error)) return false;
     *state = !shape                        ? GIS_POLYGON_BROKEN
              : sunder_shape_touches(shape) ? GIS_POLYGON_TOUCHES
                                            : GIS_POLYGON_WELL;
@@ -76,16 +72,13 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
             size_t n;
             double off = 0; /* they were doubles, and still are */
             const uint32_t *vertex = sunder_sum_ring(sum, p, r, &n);
-            if (!gis_polygons_reserve(to, n, error))
-                return false;
+            if (!gis_polygons_reserve(to, n, error)) return false;
             if (sunder_sum_vertices(sum, vertex, n, to->xy + 2 * to->vertices, &off, &why) != SUNDER_OK)
                 return gis_fail(error, "%s", why.message);
             to->vertices += n;
-            if (!gis_polygons_end_ring(to, error))
-                return false;
+            if (!gis_polygons_end_ring(to, error)) return false;
         }
-        if (!gis_polygons_end_polygon(to, error))
-            return false;
+        if (!gis_polygons_end_polygon(to, error)) return false;
     }
     return true;
 }
@@ -95,8 +88,7 @@ bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t firs
     sunder_shape *shape;
     sunder_sum *sum = NULL;
     sunder_error why;
-    if (!strict_shape(from, first, last, &shape, error))
-        return false;
+    if (!strict_shape(from, first, last, &shape, error)) return false;
     bool ok = (shape && sunder_shape_union(shape, NULL, &sum, &why) == SUNDER_OK) ||
               gis_fail(error, "%s", shape ? why.message : "the polygon is not valid");
     ok = ok && append_exact(sum, set, error);
@@ -142,11 +134,9 @@ double gis_place_along(const double *a, const double *b, const double *c, const 
 static bool is_near(const double *a, const double *b, const double *c, const double reach[2], bend *found)
 {
     double off, t;
-    if (same_vertex(a, c) || same_vertex(b, c))
-        return false;
+    if (same_vertex(a, c) || same_vertex(b, c)) return false;
     t = gis_place_along(a, b, c, reach, &off);
-    if (!(t > 0 && t < 1))
-        return false;
+    if (!(t > 0 && t < 1)) return false;
     double x = a[0] + t * (b[0] - a[0]), y = a[1] + t * (b[1] - a[1]);
     *found = (bend){t, hypot(c[0] - x, c[1] - y), {c[0], c[1]}};
     return off <= 1;
@@ -156,8 +146,7 @@ static bool is_near(const double *a, const double *b, const double *c, const dou
 static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, double ulps, bend *bends)
 {
     double reach[2];
-    for (int k = 0; k < 2; k++)
-        reach[k] = ulps * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
+    for (int k = 0; k < 2; k++) reach[k] = ulps * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
     double xmin = fmin(a[0], b[0]) - reach[0], xmax = fmax(a[0], b[0]) + reach[0];
     double ymin = fmin(a[1], b[1]) - reach[1], ymax = fmax(a[1], b[1]) + reach[1];
     size_t low = 0, high = n, found = 0;
@@ -170,8 +159,7 @@ static size_t find_bends(const column *columns, size_t n, const double *a, const
     }
     for (size_t k = low; k < n && columns[k].xy[0] <= xmax; k++) {
         const double *c = columns[k].xy;
-        if (c[1] >= ymin && c[1] <= ymax && is_near(a, b, c, reach, &bends[found]))
-            found++;
+        if (c[1] >= ymin && c[1] <= ymax && is_near(a, b, c, reach, &bends[found])) found++;
     }
     qsort(bends, found, sizeof *bends, by_place);
     return found;
@@ -183,8 +171,7 @@ static bool bend_ring(const gis_polygons *from, size_t r, const column *columns,
     size_t begin = r ? from->ring_end[r - 1] : 0, end = from->ring_end[r];
     for (size_t i = begin; i < end; i++) {
         const double *a = from->xy + 2 * i, *b = from->xy + 2 * (i + 1 < end ? i + 1 : begin);
-        if (!gis_polygons_vertex(to, a[0], a[1], error))
-            return false;
+        if (!gis_polygons_vertex(to, a[0], a[1], error)) return false;
         size_t found = find_bends(columns, n, a, b, ulps, bends);
         for (size_t k = 0; k < found; k++) {
             *moved = fmax(*moved, bends[k].distance);
@@ -202,13 +189,10 @@ static bool bend_all(const gis_polygons *from, double ulps, gis_polygons *to, do
     column *columns = malloc((n + 1) * sizeof *columns);
     bend *bends = malloc((n + 1) * sizeof *bends);
     bool ok = (columns && bends) || gis_no_memory(error);
-    for (size_t v = 0; ok && v < n; v++)
-        columns[v] = (column){{from->xy[2 * v], from->xy[2 * v + 1]}};
-    if (ok)
-        qsort(columns, n, sizeof *columns, by_x);
+    for (size_t v = 0; ok && v < n; v++) columns[v] = (column){{from->xy[2 * v], from->xy[2 * v + 1]}};
+    if (ok) qsort(columns, n, sizeof *columns, by_x);
     for (size_t p = 0, r = 0; ok && p < from->polygons; p++) {
-        for (; ok && r < from->poly_end[p]; r++)
-            ok = bend_ring(from, r, columns, n, ulps, bends, to, moved, error);
+        for (; ok && r < from->poly_end[p]; r++) ok = bend_ring(from, r, columns, n, ulps, bends, to, moved, error);
         ok = ok && gis_polygons_end_polygon(to, error);
     }
     free(columns);
@@ -219,8 +203,7 @@ static bool bend_all(const gis_polygons *from, double ulps, gis_polygons *to, do
 bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error)
 {
     double now = 0;
-    if (!bend_all(from, round == 0 ? GIS_BEND_ULPS : GIS_PIXEL_ULPS, to, &now, error))
-        return false;
+    if (!bend_all(from, round == 0 ? GIS_BEND_ULPS : GIS_PIXEL_ULPS, to, &now, error)) return false;
     *moved += now;
     for (int i = 1; round > 0 && i < GIS_BENDS_IN_A_ROW && now > 0; i++) {
         gis_polygons bent = {0};
@@ -229,8 +212,7 @@ bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double 
         gis_polygons_clear(to);
         *to = bent;
         *moved += now;
-        if (!ok)
-            return false;
+        if (!ok) return false;
     }
     return true;
 }
@@ -248,15 +230,11 @@ static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *ou
         bool kept;
         for (size_t v = 0; v < n; v++) {
             *moved = fmax(*moved, gis_ulp(fmax(fabs(xy[2 * v]), fabs(xy[2 * v + 1]))));
-            if (out->vertices > start && same_vertex(out->xy + 2 * (out->vertices - 1), xy + 2 * v))
-                continue;
-            if (!gis_polygons_vertex(out, xy[2 * v], xy[2 * v + 1], error))
-                return false;
+            if (out->vertices > start && same_vertex(out->xy + 2 * (out->vertices - 1), xy + 2 * v)) continue;
+            if (!gis_polygons_vertex(out, xy[2 * v], xy[2 * v + 1], error)) return false;
         }
-        if (!gis_end_ring_with_area(out, start, &kept, error))
-            return false;
-        if (r == 0 && !kept)
-            return true;
+        if (!gis_end_ring_with_area(out, start, &kept, error)) return false;
+        if (r == 0 && !kept) return true;
     }
     return out->rings == first || gis_polygons_end_polygon(out, error);
 }
@@ -269,8 +247,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
     if (gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, &shape, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
     bool ok = true;
-    for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
-        ok = append_rounded(shape, p, out, moved, error);
+    for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++) ok = append_rounded(shape, p, out, moved, error);
     sunder_shape_free(shape);
     return ok;
 }
@@ -283,8 +260,7 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
     for (size_t p = 0; p < set->polygons; p++) {
         size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
         gis_polygon_state state;
-        if (!gis_polygon_look(set, from, to, error, &state))
-            return false;
+        if (!gis_polygon_look(set, from, to, error, &state)) return false;
         if (!(state == GIS_POLYGON_TOUCHES ? gis_settle_polygon(done, set, from, to, error)
                                            : gis_polygons_append(state == GIS_POLYGON_WELL ? done : broken, set, from,
                                                                  to, error)))
@@ -338,10 +314,8 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error)
 {
     gis_polygon_state state;
-    if (!gis_polygon_look(set, first, set->rings, error, &state))
-        return false;
-    if (state == GIS_POLYGON_WELL)
-        return gis_polygons_end_polygon(set, error);
+    if (!gis_polygon_look(set, first, set->rings, error, &state)) return false;
+    if (state == GIS_POLYGON_WELL) return gis_polygons_end_polygon(set, error);
     if (state == GIS_POLYGON_BROKEN) {
         *repaired += 1;
         return gis_mend_polygon(set, first, moved, error);

@@ -22,8 +22,7 @@ static bool exact_text(double x, char *text, size_t size)
 {
     int exponent;
     double mantissa = frexp(x, &exponent); /* x = mantissa 2^exponent, 0.5 <= |mantissa| < 1 */
-    if (x == floor(x))
-        return (size_t)snprintf(text, size, "%.0f", x == 0 ? 0.0 : x) < size;
+    if (x == floor(x)) return (size_t)snprintf(text, size, "%.0f", x == 0 ? 0.0 : x) < size;
     mantissa = ldexp(mantissa, DBL_MANT_DIG);
     exponent -= DBL_MANT_DIG;
     while (fmod(mantissa, 2) == 0) {
@@ -38,8 +37,7 @@ static bool exact_text(double x, char *text, size_t size)
 double gis_text_deviation(const char *exact, double x)
 {
     char same[700];
-    if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0)
-        return 0;
+    if (exact_text(x, same, sizeof same) && strcmp(same, exact) == 0) return 0;
     double bound = gis_ulp(x) / 2;
     const char *slash = strchr(exact, '/');
     long double quotient = strtold(exact, NULL) / (slash ? strtold(slash + 1, NULL) : 1.0L);
@@ -67,8 +65,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
     size_t n, first = out->set.vertices;
     sunder_error why;
     const uint32_t *vertex = sunder_sum_ring(sum, polygon, ring, &n);
-    if (!gis_polygons_reserve(&out->set, n, error))
-        return false;
+    if (!gis_polygons_reserve(&out->set, n, error)) return false;
     double *xy = out->set.xy + 2 * first;
     if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
         return gis_fail(error, "%s", why.message);
@@ -77,8 +74,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
                         "`sunder sum --exact` gives it as JSON");
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
-        if (m > 0 && same_vertex(xy + 2 * (m - 1), xy + 2 * i))
-            continue;
+        if (m > 0 && same_vertex(xy + 2 * (m - 1), xy + 2 * i)) continue;
         xy[2 * m] = xy[2 * i];
         xy[2 * m + 1] = xy[2 * i + 1];
         m++;
@@ -92,8 +88,7 @@ bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error)
     if (suspects->n == suspects->capacity) {
         size_t larger = suspects->capacity ? 2 * suspects->capacity : 16;
         size_t *grown = realloc(suspects->polygon, larger * sizeof *grown);
-        if (!grown)
-            return gis_no_memory(error);
+        if (!grown) return gis_no_memory(error);
         suspects->polygon = grown;
         suspects->capacity = larger;
     }
@@ -117,15 +112,12 @@ static bool append_polygon(const sunder_sum *sum, size_t p, gis_rounded *out, do
     double deviation = 0;
     for (size_t r = 0; r < rings; r++) {
         bool kept;
-        if (!append_ring(sum, p, r, out, &deviation, &kept, error))
-            return false;
+        if (!append_ring(sum, p, r, out, &deviation, &kept, error)) return false;
         lost = lost || !kept;
-        if (r == 0 && !kept)
-            break; /* without its outer ring, a polygon and its holes are gone */
+        if (r == 0 && !kept) break; /* without its outer ring, a polygon and its holes are gone */
     }
     out->deviation = fmax(out->deviation, deviation);
-    if (out->set.rings == first)
-        return true;
+    if (out->set.rings == first) return true;
     if (deviation == 0)
         return gis_polygons_end_polygon(&out->set, error); /* the exact polygon itself, which is valid */
     ok = gis_end_valid_polygon(&out->set, first, moved, &out->repaired, error);
@@ -141,8 +133,7 @@ bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *s
     sunder_sum_get_size(sum, &size);
     bool ok = true;
     double moved = 0;
-    for (size_t p = 0; ok && p < size.polygons; p++)
-        ok = append_polygon(sum, p, &rounded, &moved, suspects, error);
+    for (size_t p = 0; ok && p < size.polygons; p++) ok = append_polygon(sum, p, &rounded, &moved, suspects, error);
     rounded.deviation += moved;
     if (ok)
         *out = rounded;

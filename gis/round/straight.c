@@ -13,11 +13,9 @@
 static bool is_straight(const double *a, const double *b, const double *v, double *moved)
 {
     double unit[2], off;
-    for (int k = 0; k < 2; k++)
-        unit[k] = GIS_STRAIGHT_ULPS * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
+    for (int k = 0; k < 2; k++) unit[k] = GIS_STRAIGHT_ULPS * gis_ulp(fmax(fabs(a[k]), fabs(b[k])));
     double t = gis_place_along(a, b, v, unit, &off);
-    if (!(t > 0 && t < 1 && off <= 1))
-        return false;
+    if (!(t > 0 && t < 1 && off <= 1)) return false;
     *moved = fmax(*moved, hypot(v[0] - (a[0] + t * (b[0] - a[0])), v[1] - (a[1] + t * (b[1] - a[1]))));
     return true;
 }
@@ -28,32 +26,27 @@ static bool append_ring(const double *xy, size_t n, gis_polygons *to, double *mo
 {
     size_t start = to->vertices, kept = 0;
     double farthest = *moved;
-    if (!gis_polygons_vertex(to, xy[0], xy[1], error))
-        return false;
+    if (!gis_polygons_vertex(to, xy[0], xy[1], error)) return false;
     for (size_t i = 1; i < n; i++) {
         const double *a = xy + 2 * kept, *b = xy + 2 * (i + 1 < n ? i + 1 : 0);
         bool straight = i - kept <= GIS_STRAIGHT_ROW;
         double here = farthest;
-        for (size_t v = kept + 1; straight && v <= i; v++)
-            straight = is_straight(a, b, xy + 2 * v, &here);
+        for (size_t v = kept + 1; straight && v <= i; v++) straight = is_straight(a, b, xy + 2 * v, &here);
         if (straight) {
             farthest = here;
             continue;
         }
         kept = i;
-        if (!gis_polygons_vertex(to, xy[2 * i], xy[2 * i + 1], error))
-            return false;
+        if (!gis_polygons_vertex(to, xy[2 * i], xy[2 * i + 1], error)) return false;
     }
     bool area;
-    if (!gis_end_ring_with_area(to, start, &area, error))
-        return false;
+    if (!gis_end_ring_with_area(to, start, &area, error)) return false;
     if (area) {
         *moved = farthest;
         return true;
     }
     for (size_t i = 0; i < n; i++)
-        if (!gis_polygons_vertex(to, xy[2 * i], xy[2 * i + 1], error))
-            return false;
+        if (!gis_polygons_vertex(to, xy[2 * i], xy[2 * i + 1], error)) return false;
     return gis_polygons_end_ring(to, error);
 }
 

@@ -27,14 +27,11 @@ void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text,
 
 static bool grow(void **array, size_t *capacity, size_t need, size_t size, gis_error *error)
 {
-    if (need <= *capacity)
-        return true;
+    if (need <= *capacity) return true;
     size_t larger = *capacity < 8 ? 16 : 2 * *capacity;
-    while (larger < need)
-        larger *= 2;
+    while (larger < need) larger *= 2;
     void *grown = realloc(*array, larger * size);
-    if (!grown)
-        return gis_no_memory(error);
+    if (!grown) return gis_no_memory(error);
     *array = grown;
     *capacity = larger;
     return true;
@@ -43,15 +40,13 @@ static bool grow(void **array, size_t *capacity, size_t need, size_t size, gis_e
 static bool append_line(OGRGeometryH line, gis_lines *out, gis_error *error)
 {
     int n = OGR_G_GetPointCount(line);
-    if (n <= 0)
-        return true;
+    if (n <= 0) return true;
     void *xy = out->xy, *end = out->end;
     bool ok = grow(&xy, &out->xy_capacity, 2 * (out->points + (size_t)n), sizeof *out->xy, error);
     out->xy = xy;
     ok = ok && grow(&end, &out->end_capacity, out->lines + 1, sizeof *out->end, error);
     out->end = end;
-    if (!ok)
-        return false;
+    if (!ok) return false;
     double *to = out->xy + 2 * out->points;
     OGR_G_GetPoints(line, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
     out->points += (size_t)n;
@@ -62,11 +57,9 @@ static bool append_line(OGRGeometryH line, gis_lines *out, gis_error *error)
 /* Recurses on the depth of collections, which GDAL's readers bound. */
 static bool append_lines(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_error *error)
 {
-    if (OGR_G_IsEmpty(geometry))
-        return true;
+    if (OGR_G_IsEmpty(geometry)) return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (flat == wkbPoint || flat == wkbLineString)
-        return append_line(geometry, out, error);
+    if (flat == wkbPoint || flat == wkbLineString) return append_line(geometry, out, error);
     if (flat == wkbCircularString || flat == wkbCompoundCurve) {
         OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
         *arcs = true;
@@ -74,11 +67,9 @@ static bool append_lines(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_
         OGR_G_DestroyGeometry(linear);
         return ok;
     }
-    if (flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle)
-        return true;
+    if (flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!append_lines(OGR_G_GetGeometryRef(geometry, i), out, arcs, error))
-            return false;
+        if (!append_lines(OGR_G_GetGeometryRef(geometry, i), out, arcs, error)) return false;
     return true;
 }
 
@@ -89,8 +80,7 @@ static bool make_room(gis_route_input *input, size_t n, gis_error *error)
     input->shape = calloc(n + 1, sizeof *input->shape);
     input->lines = calloc(n + 1, sizeof *input->lines);
     input->obstacle = calloc(n + 1, sizeof *input->obstacle);
-    if (!input->shape || !input->lines || !input->obstacle)
-        return gis_no_memory(error);
+    if (!input->shape || !input->lines || !input->obstacle) return gis_no_memory(error);
     input->n = n;
     return true;
 }
@@ -100,16 +90,14 @@ static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry
 {
     char who[512];
     bool arcs = false, invalid;
-    if (!geometry)
-        return true;
+    if (!geometry) return true;
     gis_route_obstacle_name(input, i, who, sizeof who);
     if (!gis_geometry_rings(geometry, rings, error) || !append_lines(geometry, &input->lines[i], &arcs, error))
         return false;
     if (rings->linearised > 0)
         gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
                         rings->linearised);
-    if (arcs)
-        gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
+    if (arcs) gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
     return !rings->set.polygons || gis_shape_of_feature(&rings->set, input->request->invalid, who, "", &input->shape[i],
                                                         &invalid, error);
 }
@@ -127,8 +115,7 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     }
     gis_say_warnings(gis_source_warnings(input->source));
     input->crs = gis_source_crs(input->source);
-    if (!make_room(input, gis_source_count(input->source), error))
-        return false;
+    if (!make_room(input, gis_source_count(input->source), error)) return false;
     gis_rings rings = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < input->n; i++)
@@ -144,8 +131,7 @@ static bool is_other_wkt(const char *text)
     text += strspn(text, " \t\n\r");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         size_t n = strlen(kinds[i]);
-        if (EQUALN(text, kinds[i], n) && (text[n] == '(' || text[n] == ' '))
-            return true;
+        if (EQUALN(text, kinds[i], n) && (text[n] == '(' || text[n] == ' ')) return true;
     }
     return false;
 }
@@ -202,14 +188,12 @@ static void join_place(double box[4], double x, double y)
 static void warn_of_crs(const gis_route_input *input)
 {
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    if (!input->crs)
-        return;
+    if (!input->crs) return;
     for (size_t i = 0; i < input->n; i++) {
         double one[4];
         for (size_t k = 0; k < input->lines[i].points; k++)
             join_place(box, input->lines[i].xy[2 * k], input->lines[i].xy[2 * k + 1]);
-        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i]))
-            continue;
+        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) continue;
         sunder_shape_box(input->shape[i], one);
         join_place(box, one[0], one[1]);
         join_place(box, one[2], one[3]);
@@ -221,11 +205,9 @@ bool gis_route_input_read(const gis_route_request *request, gis_route_input *out
 {
     *out = (gis_route_input){.request = request};
     bool text = gis_shape_is_text(request->obstacles);
-    if (!text && !read_layer(out, error))
-        return false;
+    if (!text && !read_layer(out, error)) return false;
     out->rule = gis_ruler_of(out->crs, request->scale);
-    if (text && !read_text(out, request->obstacles, error))
-        return false;
+    if (text && !read_text(out, request->obstacles, error)) return false;
     warn_of_crs(out);
     if (!gis_shape_read(&request->robot, &out->rule, out->crs, &out->robot_source, &out->robot, error) ||
         !gis_optional_length_in_layer_units(&request->gap, &out->rule, "--gap", &out->gap, error))

@@ -46,19 +46,15 @@ static bool write_legs(route_writer *w, gis_error *error)
 {
     static const gis_field fields[] = {{"leg", OFTInteger64, 0}, {"len", OFTReal, 0}};
     gis_sink_layer *layer;
-    if (!add_layer(w, "", wkbLineString, fields, 2, &layer, error))
-        return false;
+    if (!add_layer(w, "", wkbLineString, fields, 2, &layer, error)) return false;
     for (size_t i = 0; i + 1 < sunder_route_vertices(w->route); i++) {
         double from[2], to[2];
-        if (!vertex(w, i, from, error) || !vertex(w, i + 1, to, error))
-            return false;
+        if (!vertex(w, i, from, error) || !vertex(w, i + 1, to, error)) return false;
         const gis_value values[] = {{GIS_INTEGER, {.integer = (GIntBig)i + 1}},
                                     {GIS_REAL, {.real = hypot(to[0] - from[0], to[1] - from[1])}}};
         OGRGeometryH line = gis_geometry_line(from, to);
-        if (!line)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, line, values, error))
-            return false;
+        if (!line) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, line, values, error)) return false;
     }
     return true;
 }
@@ -71,10 +67,8 @@ static bool write_placement(route_writer *w, gis_sink_layer *layer, size_t leg, 
     OGRGeometryH geometry =
         ok ? gis_geometry_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, true) : NULL;
     gis_polygons_clear(&set);
-    if (!ok)
-        return false;
-    if (!geometry)
-        return gis_no_memory(error);
+    if (!ok) return false;
+    if (!geometry) return gis_no_memory(error);
     const gis_value values[] = {{GIS_INTEGER, {.integer = (GIntBig)leg}}, {GIS_REAL, {.real = along}}};
     return gis_sink_write(layer, NULL, geometry, values, error);
 }
@@ -85,8 +79,7 @@ static bool write_placements(route_writer *w, gis_error *error)
     gis_sink_layer *layer;
     size_t n = sunder_route_vertices(w->route);
     double box[4], from[2], to[2], along = 0;
-    if (!add_layer(w, "placements", wkbMultiPolygon, fields, 2, &layer, error))
-        return false;
+    if (!add_layer(w, "placements", wkbMultiPolygon, fields, 2, &layer, error)) return false;
     sunder_shape_box(w->input->robot, box);
     double step = fmin(box[2] - box[0], box[3] - box[1]);
     for (size_t i = 0; i + 1 < n; i++) {
@@ -96,13 +89,11 @@ static bool write_placements(route_writer *w, gis_error *error)
         steps = steps >= 1 ? steps : 1;
         for (double k = 0; k < steps; k++) {
             const double t = k / steps, at[2] = {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])};
-            if (!write_placement(w, layer, i + 1, along + t * length, at, error))
-                return false;
+            if (!write_placement(w, layer, i + 1, along + t * length, at, error)) return false;
         }
         along += length;
     }
-    if (n == 0)
-        return true;
+    if (n == 0) return true;
     sunder_route_vertex(w->route, n - 1, to);
     return write_placement(w, layer, n > 1 ? n - 1 : 0, along, to, error);
 }
@@ -122,15 +113,13 @@ static void frame(const route_writer *w, const gis_polygons *obstacles, double b
 {
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
-    for (size_t i = 0; i < obstacles->vertices; i++)
-        grow_box(box, obstacles->xy + 2 * i);
+    for (size_t i = 0; i < obstacles->vertices; i++) grow_box(box, obstacles->xy + 2 * i);
     for (size_t i = 0; i < sunder_route_vertices(w->route); i++) {
         double xy[2];
         sunder_route_vertex(w->route, i, xy);
         grow_box(box, xy);
     }
-    if (!(box[0] <= box[2]))
-        box[0] = box[1] = box[2] = box[3] = 0;
+    if (!(box[0] <= box[2])) box[0] = box[1] = box[2] = box[3] = 0;
     double robot[4];
     sunder_shape_box(w->input->robot, robot);
     const double margin = fmax(box[2] - box[0], box[3] - box[1]) / 10 + (robot[2] - robot[0]) + (robot[3] - robot[1]);
@@ -147,12 +136,9 @@ static bool write_set(gis_sink_layer *layer, const gis_polygons *set, gis_error 
         bool ok = gis_polygons_append(&one, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error);
         OGRGeometryH polygon = ok ? gis_geometry_polygons(one.xy, one.ring_end, one.poly_end, 1, false) : NULL;
         gis_polygons_clear(&one);
-        if (!ok)
-            return false;
-        if (!polygon)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, polygon, NULL, error))
-            return false;
+        if (!ok) return false;
+        if (!polygon) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, polygon, NULL, error)) return false;
     }
     return true;
 }
@@ -166,8 +152,7 @@ static bool free_space(const gis_polygons *obstacles, const double box[4], gis_p
     sunder_shape *shape = NULL;
     sunder_error why;
     bool ok = true;
-    for (int i = 0; ok && i < 4; i++)
-        ok = gis_polygons_vertex(&all, corner[i][0], corner[i][1], error);
+    for (int i = 0; ok && i < 4; i++) ok = gis_polygons_vertex(&all, corner[i][0], corner[i][1], error);
     ok = ok && gis_polygons_end_ring(&all, error);
     for (size_t r = 0; ok && r < obstacles->rings; r++) {
         for (size_t v = r ? obstacles->ring_end[r - 1] : 0; ok && v < obstacles->ring_end[r]; v++)
@@ -222,8 +207,7 @@ bool gis_write_route(gis_sink *sink, const gis_route_input *input, const sunder_
     bool ok = write_legs(&w, error);
     if (ok && gis_sink_takes_more(sink)) {
         ok = write_placements(&w, error);
-        if (ok && input->request->free_space)
-            ok = write_spaces(&w, error);
+        if (ok && input->request->free_space) ok = write_spaces(&w, error);
     }
     *deviation = w.deviation;
     return ok;

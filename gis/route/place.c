@@ -10,8 +10,7 @@
 static bool read_coordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
 {
     const char *slash = memchr(text, '/', n);
-    if (!slash)
-        return gis_length_parse_number(text, n, value);
+    if (!slash) return gis_length_parse_number(text, n, value);
     size_t start = text[0] == '-' || text[0] == '+', m = (size_t)(slash - text);
     if (strspn(text + start, "0123456789") != m - start || m == start || n == m + 1 ||
         strspn(slash + 1, "0123456789") < n - m - 1 || strspn(slash + 1, "0") >= n - m - 1)

@@ -42,16 +42,14 @@ static int watch_database(sqlite3 *database, char **message, const void *routine
     void (*progress_handler)(sqlite3 *, int, int (*)(void *), void *);
     (void)message;
     (void)routines;
-    if (find("sqlite3_progress_handler", &progress_handler))
-        progress_handler(database, STEPS, stop, NULL);
+    if (find("sqlite3_progress_handler", &progress_handler)) progress_handler(database, STEPS, stop, NULL);
     return OK;
 }
 
 void gis_sqlite_heed_signals(void)
 {
     int (*auto_extension)(void (*)(void));
-    if (find("sqlite3_auto_extension", &auto_extension))
-        auto_extension((void (*)(void))watch_database);
+    if (find("sqlite3_auto_extension", &auto_extension)) auto_extension((void (*)(void))watch_database);
 }
 
 /* ---- Replacing -------------------------------------------------------------------------------------------- */
@@ -82,8 +80,7 @@ static bool find_all(calls *sqlite)
 static bool copy_pages(const calls *sqlite, sqlite3_backup *copy, int *result, gis_error *error)
 {
     do {
-        if (!gis_decide(error))
-            return false;
+        if (!gis_decide(error)) return false;
         *result = sqlite->step(copy, PAGES);
         gis_set_outcome(*result == DONE ? GIS_DECIDED : GIS_OPEN);
     } while (*result == OK);
@@ -95,13 +92,10 @@ static gis_sqlite_outcome copy_all(const calls *sqlite, sqlite3 *from, sqlite3 *
     int result = OK;
     sqlite3_backup *copy = sqlite->begin(to, "main", from, "main");
     bool done = copy && copy_pages(sqlite, copy, &result, error);
-    if (copy)
-        sqlite->finish(copy); /* rolls back what is not done */
-    if (done)
-        return GIS_SQLITE_DONE;
+    if (copy) sqlite->finish(copy); /* rolls back what is not done */
+    if (done) return GIS_SQLITE_DONE;
     int reason = (result ? result : sqlite->error_code(to)) & RESULT;
-    if (reason == NOTADB || reason == CORRUPT)
-        return GIS_SQLITE_CANNOT;
+    if (reason == NOTADB || reason == CORRUPT) return GIS_SQLITE_CANNOT;
     if (reason == BUSY || reason == LOCKED)
         gis_sqlite_fail_in_use(name, error);
     else if (reason == READONLY)
@@ -122,8 +116,7 @@ gis_sqlite_outcome gis_sqlite_replace(const char *from, const char *to, gis_erro
 {
     calls sqlite;
     sqlite3 *source = NULL, *target = NULL;
-    if (!gis_sqlite_can_replace(to) || !find_all(&sqlite))
-        return GIS_SQLITE_CANNOT;
+    if (!gis_sqlite_can_replace(to) || !find_all(&sqlite)) return GIS_SQLITE_CANNOT;
     gis_sqlite_outcome outcome = GIS_SQLITE_FAILED;
     if (sqlite.open(to, &target, OPEN_READWRITE, NULL) != OK)
         gis_fail(error, "%s: cannot be opened: %s", to, sqlite.error_message(target));

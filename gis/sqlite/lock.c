@@ -40,13 +40,11 @@ bool gis_sqlite_is(const char *path)
     static const char magic[16] = "SQLite format 3";
     char start[sizeof magic];
     struct stat status;
-    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
-        return false;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode)) return false;
     int file = open(path, O_RDONLY | O_CLOEXEC);
     bool is = file >= 0 && pread(file, start, sizeof start, 0) == (ssize_t)sizeof start &&
               memcmp(start, magic, sizeof magic) == 0;
-    if (file >= 0)
-        close(file);
+    if (file >= 0) close(file);
     return is;
 }
 
@@ -56,8 +54,7 @@ static bool meets(const char *path, short type, off_t start, off_t length)
     int file = open(path, O_RDONLY | O_CLOEXEC);
     struct flock lock = range(type, start, length);
     bool met = file >= 0 && fcntl(file, GET_LOCK, &lock) == 0 && lock.l_type != F_UNLCK;
-    if (file >= 0)
-        close(file);
+    if (file >= 0) close(file);
     return met;
 }
 
@@ -91,14 +88,12 @@ int gis_sqlite_lock(const char *path, gis_error *error)
     }
     for (int waited = 0;; waited += MOMENT) {
         struct flock lock = range(F_WRLCK, PENDING, ALL);
-        if (fcntl(file, SET_LOCK, &lock) == 0)
-            return file;
+        if (fcntl(file, SET_LOCK, &lock) == 0) return file;
         if (errno != EAGAIN && errno != EACCES) {
             close(file);
             return -2;
         }
-        if (waited >= gis_sqlite_patience() || gis_interrupted())
-            break;
+        if (waited >= gis_sqlite_patience() || gis_interrupted()) break;
         wait_a_moment();
     }
     close(file);
@@ -120,8 +115,7 @@ bool gis_sqlite_has_journal(const char *path)
     int file = open(name, O_RDONLY | O_CLOEXEC);
     bool has = file >= 0 && read(file, start, sizeof start) == (ssize_t)sizeof start &&
                memcmp(start, magic, sizeof magic) == 0;
-    if (file >= 0)
-        close(file);
+    if (file >= 0) close(file);
     CPLFree(name);
     return has;
 }

@@ -12,15 +12,11 @@ static bool write_polygons(gis_sink_layer *layer, const gis_polygons *set, gis_e
         size_t first = p ? set->poly_end[p - 1] : 0, rings = set->poly_end[p] - first;
         size_t start = first ? set->ring_end[first - 1] : 0;
         /* Ends count from the polygon's own first vertex: shift them there and back, in place of a copy. */
-        for (size_t r = first; r < set->poly_end[p]; r++)
-            set->ring_end[r] -= start;
+        for (size_t r = first; r < set->poly_end[p]; r++) set->ring_end[r] -= start;
         OGRGeometryH polygon = gis_geometry_polygons(set->xy + 2 * start, set->ring_end + first, &rings, 1, false);
-        for (size_t r = first; r < set->poly_end[p]; r++)
-            set->ring_end[r] += start;
-        if (!polygon)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, polygon, NULL, error))
-            return false;
+        for (size_t r = first; r < set->poly_end[p]; r++) set->ring_end[r] += start;
+        if (!polygon) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, polygon, NULL, error)) return false;
     }
     return true;
 }
@@ -29,8 +25,7 @@ static bool write_polygons(gis_sink_layer *layer, const gis_polygons *set, gis_e
 static bool place(const sunder_sum *sum, uint32_t vertex, double xy[2], double *deviation, gis_error *error)
 {
     double here;
-    if (!gis_vertex_deviation(sum, vertex, &here, error))
-        return false;
+    if (!gis_vertex_deviation(sum, vertex, &here, error)) return false;
     if (!isfinite(here))
         return gis_fail(error, "the sum leaves the range of doubles; `sunder sum --exact` gives it as JSON");
     *deviation = fmax(*deviation, here);
@@ -44,13 +39,10 @@ bool gis_write_sum_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t
         uint32_t ends[2];
         double from[2], to[2];
         sunder_sum_segment(sum, i, ends);
-        if (!place(sum, ends[0], from, deviation, error) || !place(sum, ends[1], to, deviation, error))
-            return false;
+        if (!place(sum, ends[0], from, deviation, error) || !place(sum, ends[1], to, deviation, error)) return false;
         OGRGeometryH line = gis_geometry_line(from, to);
-        if (!line)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, line, NULL, error))
-            return false;
+        if (!line) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, line, NULL, error)) return false;
     }
     return true;
 }
@@ -59,13 +51,10 @@ bool gis_write_sum_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n
 {
     for (size_t i = 0; i < n; i++) {
         double xy[2];
-        if (!place(sum, sunder_sum_point(sum, i), xy, deviation, error))
-            return false;
+        if (!place(sum, sunder_sum_point(sum, i), xy, deviation, error)) return false;
         OGRGeometryH point = gis_geometry_point(xy);
-        if (!point)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, point, NULL, error))
-            return false;
+        if (!point) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, point, NULL, error)) return false;
     }
     return true;
 }

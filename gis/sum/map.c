@@ -66,8 +66,7 @@ static bool append_cycle(map_run *run, uint32_t start, gis_error *error)
 {
     uint32_t half = start;
     do {
-        if (!run->done[half] && is_side(run->map, half) && !append_ring(run, half, error))
-            return false;
+        if (!run->done[half] && is_side(run->map, half) && !append_ring(run, half, error)) return false;
         half = sunder_map_next(run->map, half);
     } while (half != start);
     return true;
@@ -80,8 +79,7 @@ static uint32_t first_side(const map_run *run, uint32_t start)
     uint32_t best = SUNDER_NOWHERE, half = start;
     do {
         const double *a = vertex(run, half), *b = best == SUNDER_NOWHERE ? NULL : vertex(run, best);
-        if (is_side(run->map, half) && (!b || a[0] < b[0] || (a[0] == b[0] && a[1] < b[1])))
-            best = half;
+        if (is_side(run->map, half) && (!b || a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]))) best = half;
         half = sunder_map_next(run->map, half);
     } while (half != start);
     return best;
@@ -92,15 +90,12 @@ static bool gather_face(map_run *run, uint32_t face, gis_error *error)
 {
     run->face.vertices = run->face.rings = run->face.polygons = 0;
     uint32_t outer = sunder_map_outer(run->map, face), side = first_side(run, outer);
-    if (side != SUNDER_NOWHERE && (!append_ring(run, side, error) || !append_cycle(run, outer, error)))
-        return false;
+    if (side != SUNDER_NOWHERE && (!append_ring(run, side, error) || !append_cycle(run, outer, error))) return false;
     size_t n;
     const uint32_t *inner = sunder_map_inner(run->map, face, &n);
     for (size_t i = 0; i < n; i++)
-        if (!append_cycle(run, inner[i], error))
-            return false;
-    if (!run->face.rings)
-        return true;
+        if (!append_cycle(run, inner[i], error)) return false;
+    if (!run->face.rings) return true;
     double moved = 0;
     size_t repaired = 0;
     return gis_end_valid_polygon(&run->face, 0, &moved, &repaired, error);
@@ -127,8 +122,7 @@ static bool write_face(gis_sink_layer *layer, map_run *run, uint32_t face, gis_e
 static bool write_faces(gis_sink_layer *layer, map_run *run, gis_error *error)
 {
     for (uint32_t f = 1; f < sunder_map_faces(run->map); f++)
-        if (!write_face(layer, run, f, error))
-            return false;
+        if (!write_face(layer, run, f, error)) return false;
     return true;
 }
 
@@ -137,10 +131,8 @@ static bool write_edges(gis_sink_layer *layer, map_run *run, gis_error *error)
     for (uint32_t e = 0; e < sunder_map_edges(run->map); e++) {
         gis_value value = covered_by(sunder_map_edge_covered(run->map, e));
         OGRGeometryH line = gis_geometry_line(vertex(run, 2 * e), vertex(run, 2 * e + 1));
-        if (!line)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, line, &value, error))
-            return false;
+        if (!line) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, line, &value, error)) return false;
     }
     return true;
 }
@@ -150,10 +142,8 @@ static bool write_vertices(gis_sink_layer *layer, map_run *run, gis_error *error
     for (uint32_t v = 0; v < sunder_map_vertices(run->map); v++) {
         gis_value value = covered_by(sunder_map_vertex_covered(run->map, v));
         OGRGeometryH point = gis_geometry_point(run->xy + 2 * (size_t)v);
-        if (!point)
-            return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, point, &value, error))
-            return false;
+        if (!point) return gis_no_memory(error);
+        if (!gis_sink_write(layer, NULL, point, &value, error)) return false;
     }
     return true;
 }
@@ -163,10 +153,8 @@ static bool place_vertices(map_run *run, gis_error *error)
     for (uint32_t v = 0; v < sunder_map_vertices(run->map); v++) {
         double *xy = run->xy + 2 * (size_t)v;
         sunder_map_vertex(run->map, v, xy);
-        if (!gis_go_on(error))
-            return false;
-        if (!isfinite(xy[0]) || !isfinite(xy[1]))
-            return gis_fail(error, "the planar map leaves the range of doubles");
+        if (!gis_go_on(error)) return false;
+        if (!isfinite(xy[0]) || !isfinite(xy[1])) return gis_fail(error, "the planar map leaves the range of doubles");
     }
     return true;
 }
@@ -185,8 +173,7 @@ static bool write_layers(gis_sink *sink, map_run *run, OGRSpatialReferenceH crs,
         gis_layer_request request = {.suffix = layers[i].suffix, .type = layers[i].type, .crs = crs, .fields = &field,
                                      .n_fields = 1, .style = GIS_STYLE_NONE};
         gis_sink_layer *layer;
-        if (!gis_sink_add(sink, &request, &layer, error) || !layers[i].write(layer, run, error))
-            return false;
+        if (!gis_sink_add(sink, &request, &layer, error) || !layers[i].write(layer, run, error)) return false;
     }
     return true;
 }

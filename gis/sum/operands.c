@@ -20,16 +20,13 @@ bool gis_operands_read(const gis_operands_request *request, gis_operands *out, g
     gis_source **source[2] = {&read.p_source, &read.q_source};
     bool ok = true;
     for (int i = 0; ok && i < 2; i++) {
-        if (gis_shape_is_text(request->text[i]))
-            continue;
+        if (gis_shape_is_text(request->text[i])) continue;
         gis_source_request selected = request->source;
         selected.path = request->text[i];
         ok = gis_shape_from_source(&selected, request->invalid, names[i], source[i], shape[i], &read.building, error);
-        if (ok && !gis_crs_is_known(read.crs))
-            read.crs = gis_source_crs(*source[i]);
+        if (ok && !gis_crs_is_known(read.crs)) read.crs = gis_source_crs(*source[i]);
     }
-    if (ok && !check_crs(&read))
-        ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
+    if (ok && !check_crs(&read)) ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
     read.rule = gis_ruler_of(read.crs, request->scale);
     for (int i = 0; ok && i < 2; i++)
         if (!*source[i])

@@ -30,10 +30,8 @@ static bool reads_text(const char *operand, const char *file)
 static bool check_texts(const gis_destinations *to, gis_error *error)
 {
     bool read = false;
-    for (size_t i = 0; to->output && i < N_OF(to->input); i++)
-        read = read || reads_text(to->input[i], to->output);
-    for (size_t i = 0; to->output && i < N_OF(to->shape); i++)
-        read = read || reads_text(to->shape[i], to->output);
+    for (size_t i = 0; to->output && i < N_OF(to->input); i++) read = read || reads_text(to->input[i], to->output);
+    for (size_t i = 0; to->output && i < N_OF(to->shape); i++) read = read || reads_text(to->shape[i], to->output);
     return !read || gis_fail(error, "%s is an input; give another output", to->output);
 }
 
@@ -41,20 +39,16 @@ static bool check_stats(const gis_destinations *to, gis_error *error)
 {
     const char *path = to->stats;
     struct stat info;
-    if (!path || strcmp(path, "-") == 0)
-        return true;
+    if (!path || strcmp(path, "-") == 0) return true;
     for (size_t i = 0; i < N_OF(to->input); i++)
         if (reads(to->input[i], path))
             return gis_fail_usage(error, "--stats %s: that is an input; give another file", path);
     if (reads(to->output, path))
         return gis_fail_usage(error, "--stats %s: that is the output; give another file", path);
     bool there = stat(path, &info) == 0;
-    if (!there && lstat(path, &info) == 0)
-        return gis_fail(error, "--stats: %s is a link that leads nowhere", path);
-    if (there && S_ISDIR(info.st_mode))
-        return gis_fail(error, "--stats: %s is a directory", path);
-    if (there && access(path, W_OK) != 0)
-        return gis_fail(error, "--stats: cannot write %s: %s", path, strerror(errno));
+    if (!there && lstat(path, &info) == 0) return gis_fail(error, "--stats: %s is a link that leads nowhere", path);
+    if (there && S_ISDIR(info.st_mode)) return gis_fail(error, "--stats: %s is a directory", path);
+    if (there && access(path, W_OK) != 0) return gis_fail(error, "--stats: cannot write %s: %s", path, strerror(errno));
     char directory[4096];
     const char *slash = strrchr(path, '/');
     snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
@@ -83,8 +77,7 @@ bool gis_print_json(const void *json, gis_error *error)
 
 static bool flush_stdout(gis_error *error)
 {
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return true;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return true;
     return gis_fail(error, "cannot write to standard output: %s", strerror(errno));
 }
 

@@ -44,8 +44,7 @@ static bool can_create(GDALDriverH driver)
 static bool has_extension(GDALDriverH driver, const char *extension)
 {
     const char *all = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSIONS, NULL);
-    if (!all)
-        all = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSION, NULL);
+    if (!all) all = GDALGetMetadataItem(driver, GDAL_DMD_EXTENSION, NULL);
     char **each = CSLTokenizeString2(all ? all : "", " ", 0);
     bool found = CSLFindString(each, extension) >= 0;
     CSLDestroy(each);
@@ -73,14 +72,11 @@ static GDALDriverH driver_for(const char *path)
     char extension[32];
     CPLStrlcpy(extension, extension_of(path), sizeof extension);
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)
-        if (EQUAL(extension, first[i][0]) && GDALGetDriverByName(first[i][1]))
-            return GDALGetDriverByName(first[i][1]);
+        if (EQUAL(extension, first[i][0]) && GDALGetDriverByName(first[i][1])) return GDALGetDriverByName(first[i][1]);
     for (int i = 0; i < GDALGetDriverCount(); i++)
-        if (can_create(GDALGetDriver(i)) && has_prefix(GDALGetDriver(i), path))
-            return GDALGetDriver(i);
+        if (can_create(GDALGetDriver(i)) && has_prefix(GDALGetDriver(i), path)) return GDALGetDriver(i);
     for (int i = 0; extension[0] && i < GDALGetDriverCount(); i++)
-        if (can_create(GDALGetDriver(i)) && has_extension(GDALGetDriver(i), extension))
-            return GDALGetDriver(i);
+        if (can_create(GDALGetDriver(i)) && has_extension(GDALGetDriver(i), extension)) return GDALGetDriver(i);
     return NULL;
 }
 
@@ -88,10 +84,8 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
                      gis_error *error)
 {
     gis_format format = {.driver = name ? GDALGetDriverByName(name) : driver_for(path)};
-    if (!format.driver && name)
-        return gis_fail_usage(error, "--of %s: GDAL has no such format", name);
-    if (!format.driver)
-        return gis_fail_usage(error, "%s: the name does not tell the format; give it with --of", path);
+    if (!format.driver && name) return gis_fail_usage(error, "--of %s: GDAL has no such format", name);
+    if (!format.driver) return gis_fail_usage(error, "%s: the name does not tell the format; give it with --of", path);
     format.name = GDALGetDescription(format.driver);
     if (!can_create(format.driver))
         return gis_fail_usage(error, "--of %s: GDAL cannot create vector data in this format", format.name);
@@ -127,8 +121,7 @@ bool gis_format_has_option(const gis_format *format, const char *option)
     const char *list = GDALGetMetadataItem(format->driver, GDAL_DS_LAYER_CREATIONOPTIONLIST, NULL);
     char quoted[64];
     snprintf(quoted, sizeof quoted, "name='%s'", option);
-    if (list && strstr(list, quoted))
-        return true;
+    if (list && strstr(list, quoted)) return true;
     snprintf(quoted, sizeof quoted, "name=\"%s\"", option);
     return list && strstr(list, quoted);
 }

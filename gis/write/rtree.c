@@ -35,8 +35,7 @@ static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
     char *quoted = CPLMalloc(2 * strlen(plain) + 3), *to = quoted;
     *to++ = quote;
     for (const char *from = plain; *from; from++) {
-        if (*from == quote)
-            *to++ = quote;
+        if (*from == quote) *to++ = quote;
         *to++ = *from;
     }
     *to++ = quote;
@@ -63,8 +62,7 @@ static rows begin_rows(GDALDatasetH dataset, OGRLayerH layer, const char *table)
 
 static bool flush(rows *all, gis_error *error)
 {
-    if (all->n <= all->head_length)
-        return true;
+    if (all->n <= all->head_length) return true;
     all->sql[all->n - 1] = '\0'; /* the last comma */
     all->n = 0;
     return run(all->dataset, all->sql, error);
@@ -76,8 +74,7 @@ enum { STATEMENT_SIZE = 250000 };
 /* Appends a row's text (it ends with a comma). */
 static bool add_row(rows *all, const char *text, size_t length, gis_error *error)
 {
-    if (all->n + length > STATEMENT_SIZE && !flush(all, error))
-        return false;
+    if (all->n + length > STATEMENT_SIZE && !flush(all, error)) return false;
     if (all->n + length + all->head_length + 1 > all->capacity) {
         all->capacity = all->n + length + all->head_length + STATEMENT_SIZE + 1;
         all->sql = CPLRealloc(all->sql, all->capacity);
@@ -104,8 +101,7 @@ static bool end_rows(rows *all, bool so_far, gis_error *error)
 bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
-    if (!column || !column[0])
-        return true;
+    if (!column || !column[0]) return true;
     if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create tables and indexes that it had put off */
         return false;
     char *literal = tree_name(layer, "_insert", '\'');
@@ -113,8 +109,7 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gi
     boxes->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
-    if (!boxes->trigger)
-        return true;
+    if (!boxes->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = CPLStrdup(CPLSPrintf("DROP TRIGGER %s", name));
     bool done = run(dataset, drop, error);
@@ -138,13 +133,11 @@ static float above(double x)
 bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
-    if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry))
-        return true;
+    if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry)) return true;
     if (boxes->n == boxes->capacity) {
         size_t capacity = boxes->capacity ? 2 * boxes->capacity : 256;
         struct gis_box *larger = realloc(boxes->at, capacity * sizeof *larger);
-        if (!larger)
-            return gis_no_memory(error);
+        if (!larger) return gis_no_memory(error);
         boxes->at = larger;
         boxes->capacity = capacity;
     }
@@ -202,8 +195,7 @@ static uint32_t cell_of(double centre, double from, double to)
 static int compare_places(const void *a, const void *b)
 {
     const place *p = a, *q = b;
-    if (p->along != q->along)
-        return p->along < q->along ? -1 : 1;
+    if (p->along != q->along) return p->along < q->along ? -1 : 1;
     return (p->box.fid > q->box.fid) - (p->box.fid < q->box.fid);
 }
 
@@ -211,8 +203,7 @@ static int compare_places(const void *a, const void *b)
 static bool sort_boxes(gis_boxes *boxes)
 {
     place *places = malloc(boxes->n * sizeof *places);
-    if (!places)
-        return false;
+    if (!places) return false;
     double around[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
     for (size_t i = 0; i < boxes->n; i++)
         for (int k = 0; k < 4; k++)
@@ -224,8 +215,7 @@ static bool sort_boxes(gis_boxes *boxes)
         places[i] = (place){hilbert(x, y), boxes->at[i]};
     }
     qsort(places, boxes->n, sizeof *places, compare_places);
-    for (size_t i = 0; i < boxes->n; i++)
-        boxes->at[i] = places[i].box;
+    for (size_t i = 0; i < boxes->n; i++) boxes->at[i] = places[i].box;
     free(places);
     return true;
 }
@@ -235,8 +225,7 @@ static bool sort_boxes(gis_boxes *boxes)
 static char *put_hex(char *to, uint64_t value, int bytes)
 {
     static const char digits[] = "0123456789ABCDEF";
-    for (int shift = 8 * bytes - 4; shift >= 0; shift -= 4)
-        *to++ = digits[value >> shift & 15];
+    for (int shift = 8 * bytes - 4; shift >= 0; shift -= 4) *to++ = digits[value >> shift & 15];
     return to;
 }
 
@@ -260,8 +249,7 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
                        struct gis_box *made, gis_error *error)
 {
     bool root = root_depth >= 0;
-    if (!gis_go_on(error))
-        return false;
+    if (!gis_go_on(error)) return false;
     made->fid = root ? 1 : all->next++;
     memcpy(made->side, cells[0].side, sizeof made->side);
     char *to = all->text + sprintf(all->text, "(%" PRId64 ",x'", (int64_t)made->fid);
@@ -276,8 +264,7 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
         char link[64];
         int length = snprintf(link, sizeof link, "(%" PRId64 ",%" PRId64 "),", (int64_t)cells[i].fid,
                               (int64_t)made->fid);
-        if (!add_row(leaf ? &all->leaves : &all->parents, link, (size_t)length, error))
-            return false;
+        if (!add_row(leaf ? &all->leaves : &all->parents, link, (size_t)length, error)) return false;
     }
     size_t unused = 2 * CELL * (all->capacity - n);
     memset(to, '0', unused);
@@ -296,12 +283,10 @@ static bool write_levels(packing *all, gis_boxes *boxes, gis_error *error)
         for (size_t first = 0; first < n; first += all->capacity) {
             size_t count = n - first < all->capacity ? n - first : all->capacity;
             struct gis_box node;
-            if (!write_node(all, boxes->at + first, count, depth == 0, top ? depth : -1, &node, error))
-                return false;
+            if (!write_node(all, boxes->at + first, count, depth == 0, top ? depth : -1, &node, error)) return false;
             boxes->at[made++] = node; /* made <= first: these cells are written already */
         }
-        if (top)
-            return true;
+        if (top) return true;
         n = made;
     }
 }
@@ -336,10 +321,8 @@ static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
 static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
     size_t capacity = node_capacity(dataset, layer);
-    if (!capacity)
-        return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
-    if (!sort_boxes(boxes))
-        return gis_no_memory(error);
+    if (!capacity) return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
+    if (!sort_boxes(boxes)) return gis_no_memory(error);
     packing all = {begin_rows(dataset, layer, "_node"),
                    begin_rows(dataset, layer, "_parent"),
                    begin_rows(dataset, layer, "_rowid"),
@@ -356,8 +339,7 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_er
 
 bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
-    if (!boxes->trigger)
-        return true;
+    if (!boxes->trigger) return true;
     bool done = (boxes->n == 0 || fill(dataset, layer, boxes, error)) && run(dataset, boxes->trigger, error);
     gis_boxes_clear(boxes);
     return done;

@@ -16,8 +16,7 @@
 
 char *gis_sink_inside(const gis_sink *sink, const char *file)
 {
-    if (sink->place == GIS_PLACE_DATABASE)
-        return CPLStrdup(sink->request.path);
+    if (sink->place == GIS_PLACE_DATABASE) return CPLStrdup(sink->request.path);
     return sink->memory ? CPLStrdup(CPLSPrintf("%s/%s", sink->memory, file)) : gis_stage_inside(sink->stage, file);
 }
 
@@ -36,12 +35,9 @@ char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
 {
     const char *name = CPLGetFilename(sink->request.path);
     const char *ending = double_ending(name);
-    if (!ending)
-        ending = strrchr(name, '.');
-    if (!ending)
-        ending = name + strlen(name);
-    if (!suffix[0])
-        return CPLStrdup(name);
+    if (!ending) ending = strrchr(name, '.');
+    if (!ending) ending = name + strlen(name);
+    if (!suffix[0]) return CPLStrdup(name);
     return CPLStrdup(CPLSPrintf("%.*s_%s%s", (int)(ending - name), name, suffix, ending));
 }
 
@@ -51,14 +47,12 @@ char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
 static void fix_date(gis_sink *sink)
 {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");
-    if (!epoch || !epoch[0] || CPLGetConfigOption("OGR_CURRENT_DATE", NULL))
-        return;
+    if (!epoch || !epoch[0] || CPLGetConfigOption("OGR_CURRENT_DATE", NULL)) return;
     char *end;
     time_t seconds = (time_t)strtoll(epoch, &end, 10);
     struct tm broken;
     char text[40];
-    if (*end || !gmtime_r(&seconds, &broken))
-        return;
+    if (*end || !gmtime_r(&seconds, &broken)) return;
     strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S.000Z", &broken);
     CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", text);
     sink->set_date = true;
@@ -85,13 +79,11 @@ static void make_memory(gis_sink *sink)
 static bool prepare_place(gis_sink *sink, gis_error *error)
 {
     if (sink->place == GIS_PLACE_FILE) {
-        if (!gis_stage_new(sink->request.path, &sink->stage, error))
-            return false;
+        if (!gis_stage_new(sink->request.path, &sink->stage, error)) return false;
         sink->main_file = CPLStrdup(gis_stage_main(sink->stage));
         /* Nobody will read it back, and drivers do not hear of every write that fails: so it is made in memory, and
          * goes to the disk by writes of our own. */
-        if (sink->format.only_written && !sink->updating)
-            make_memory(sink);
+        if (sink->format.only_written && !sink->updating) make_memory(sink);
     } else if (sink->place == GIS_PLACE_MEMORY) {
         if (sink->updating)
             return gis_fail(error, "%s: --update works on plain files and databases only", sink->request.path);
@@ -117,8 +109,7 @@ static bool check_request(const gis_sink_request *request, gis_error *error)
 {
     if (request->overwrite && request->update)
         return gis_fail_usage(error, "--overwrite replaces the whole output and --update keeps it: give one of them");
-    if (request->overwrite_layer && !request->update)
-        return gis_fail_usage(error, "--overwrite-layer needs --update");
+    if (request->overwrite_layer && !request->update) return gis_fail_usage(error, "--overwrite-layer needs --update");
     return true;
 }
 
@@ -129,8 +120,7 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
         !gis_format_find(request->path, request->format, request->layer_options, &format, error))
         return false;
     gis_sink *sink = calloc(1, sizeof *sink);
-    if (!sink)
-        return gis_no_memory(error);
+    if (!sink) return gis_no_memory(error);
     sink->request = *request;
     sink->source = source;
     sink->format = format;
@@ -170,14 +160,12 @@ static void free_layer(gis_sink_layer *layer)
 static gis_sink_layer *new_layer(gis_sink *sink, const gis_layer_request *request)
 {
     gis_sink_layer *layer = calloc(1, sizeof *layer);
-    if (!layer)
-        return NULL;
+    if (!layer) return NULL;
     layer->sink = sink;
     layer->request = *request;
     layer->request.suffix = CPLStrdup(request->suffix);
     gis_field *fields = CPLMalloc((request->n_fields + 1) * sizeof *fields);
-    if (request->n_fields)
-        memcpy(fields, request->fields, request->n_fields * sizeof *fields);
+    if (request->n_fields) memcpy(fields, request->fields, request->n_fields * sizeof *fields);
     layer->request.fields = fields;
     layer->name = gis_sink_name_for(sink, request->suffix);
     if (sink->format.one_layer)
@@ -190,44 +178,34 @@ static gis_sink_layer *new_layer(gis_sink *sink, const gis_layer_request *reques
 bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_layer **out, gis_error *error)
 {
     gis_sink_layer *previous = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
-    if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error))
-        return false;
-    if (!gis_sink_flush(sink, error))
-        return false;
+    if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error)) return false;
+    if (!gis_sink_flush(sink, error)) return false;
     gis_sink_layer **layers = realloc(sink->layers, (sink->n_layers + 1) * sizeof *layers);
-    if (layers)
-        sink->layers = layers;
+    if (layers) sink->layers = layers;
     gis_sink_layer *layer = layers ? new_layer(sink, request) : NULL;
-    if (!layer)
-        return gis_no_memory(error);
+    if (!layer) return gis_no_memory(error);
     sink->layers[sink->n_layers++] = layer; /* a layer that fails now is freed with the sink */
-    if (!gis_sink_dataset_for(sink, layer, error) || !gis_sink_create_layer(layer, error))
-        return false;
+    if (!gis_sink_dataset_for(sink, layer, error) || !gis_sink_create_layer(layer, error)) return false;
     *out = layer;
     return true;
 }
 
 void gis_sink_free(gis_sink *sink)
 {
-    if (!sink)
-        return;
+    if (!sink) return;
     gis_sink_drop(sink);
     if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
         gis_sqlite_has_journal(sink->request.path) && !gis_sqlite_being_written(sink->request.path))
         gis_say_warning("%s-journal holds what the database was; SQLite brings it back when it is next written",
                         sink->request.path);
-    for (size_t i = 0; i < sink->n_layers; i++)
-        free_layer(sink->layers[i]);
+    for (size_t i = 0; i < sink->n_layers; i++) free_layer(sink->layers[i]);
     free(sink->layers);
     gis_stage_free(sink->stage);
-    if (sink->memory)
-        VSIRmdirRecursive(sink->memory);
+    if (sink->memory) VSIRmdirRecursive(sink->memory);
     CPLFree(sink->memory);
     CPLFree(sink->main_file);
-    if (sink->set_rewind)
-        CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", NULL);
-    if (sink->set_date)
-        CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", NULL);
+    if (sink->set_rewind) CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", NULL);
+    if (sink->set_date) CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", NULL);
     gis_list_clear(&sink->losses);
     gis_list_clear(&sink->warnings);
     free(sink);

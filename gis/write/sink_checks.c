@@ -67,8 +67,7 @@ static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, const c
 static bool check_layer_names(const gis_sink *sink, gis_error *error)
 {
     GDALDatasetH dataset = open_quietly(sink->request.path, GDAL_OF_READONLY, NULL);
-    if (!dataset)
-        return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
+    if (!dataset) return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
     bool is_source = gis_source_lies_in(sink->source, sink->request.path);
     bool done = check_layer_name(sink, dataset, "", is_source, error);
     for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix; suffix++)
@@ -124,8 +123,7 @@ static void settle_journal(const gis_sink *sink)
     const char *path = sink->request.path;
     gis_say_warning("%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
     GDALDatasetH dataset = sink->request.update ? open_quietly(path, GDAL_OF_UPDATE, &sink->format) : NULL;
-    if (dataset)
-        GDALClose(dataset);
+    if (dataset) GDALClose(dataset);
 }
 
 /* A SQLite database has companions that belong to its content, and others may have it open. */
@@ -136,8 +134,7 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
     if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
         return gis_fail(error, "%s%s is left of another database and would count as part of the new one; move it away",
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
-    if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path))
-        settle_journal(sink);
+    if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path)) settle_journal(sink);
     if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&
         gis_sqlite_in_use(path))
         return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
@@ -147,20 +144,17 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
 static bool check_whole(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
-    if (!check_is_file(path, error) || (sink->format.sqlite && !check_database_file(sink, error)))
-        return false;
+    if (!check_is_file(path, error) || (sink->format.sqlite && !check_database_file(sink, error))) return false;
     bool there = gis_sink_exists(path);
     if (there && sink->request.update) {
         sink->updating = true;
-        if (sink->format.sqlite && sink->place == GIS_PLACE_FILE)
-            sink->place = GIS_PLACE_DATABASE;
+        if (sink->format.sqlite && sink->place == GIS_PLACE_FILE) sink->place = GIS_PLACE_DATABASE;
         return check_layer_names(sink, error);
     }
     /* A new member of the archive that is read counts, too: its directory is written anew. */
     if ((there || sink->place == GIS_PLACE_MEMORY) && gis_source_lies_in(sink->source, path))
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
-    if (!there)
-        return true;
+    if (!there) return true;
     if (!sink->request.overwrite)
         return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
     if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
@@ -182,10 +176,8 @@ static bool check_database(gis_sink *sink, gis_error *error)
 
 bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
 {
-    if (sink->to_stdout)
-        return true;
-    if (sink->place == GIS_PLACE_DATABASE)
-        return check_database(sink, error);
+    if (sink->to_stdout) return true;
+    if (sink->place == GIS_PLACE_DATABASE) return check_database(sink, error);
     return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
 }
 
@@ -201,8 +193,7 @@ static bool is_wgs84(OGRSpatialReferenceH crs)
 bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error)
 {
     OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : NULL;
-    if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs))
-        return true;
+    if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs)) return true;
     return gis_fail(error,
                     "%s: %s would reproject the coordinates to WGS 84, so that nothing could be said of the written "
                     "features; write another format, or give --allow-inexact-output",

@@ -26,8 +26,7 @@ static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
     const gis_sink *sink = layer->sink;
     if (!found && !sink->updating && (size_t)GDALDatasetGetLayerCount(dataset) == sink->n_layers)
         for (size_t i = 0; i < sink->n_layers; i++) /* others change its name when they write it */
-            if (sink->layers[i] == layer)
-                found = GDALDatasetGetLayer(dataset, (int)i);
+            if (sink->layers[i] == layer) found = GDALDatasetGetLayer(dataset, (int)i);
     return found;
 }
 
@@ -77,15 +76,13 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
     gis_sink_result seen = {.exact = true};
     OGRLayerH as_written = dataset ? find_layer(layer, dataset) : NULL;
     *again = false;
-    if (!as_written)
-        return leave_unread(layer, result, error);
+    if (!as_written) return leave_unread(layer, result, error);
     if (!(layer->digests.wanted ? gis_digests_agree(layer, as_written, error)
                                 : gis_sink_compare(layer, as_written, &seen, error)) ||
         !gis_sink_check_companions(layer, as_written, error))
         return false;
     *again = gis_sink_may_rewrite(layer, &seen);
-    if (*again)
-        return true;
+    if (*again) return true;
     if (layer->promised) {
         result->exact = result->exact && seen.exact;
         result->deviation = fmax(result->deviation, seen.deviation);
@@ -114,8 +111,7 @@ static bool inspect_file(gis_sink_layer *layer, gis_sink_result *result, gis_err
     do {
         GDALDatasetH dataset = reopen(layer->sink, layer->file);
         done = inspect_layer(layer, dataset, result, &again, error);
-        if (dataset)
-            GDALClose(dataset);
+        if (dataset) GDALClose(dataset);
     } while (done && again && (done = gis_sink_rewrite(layer, error)));
     return done;
 }
@@ -134,8 +130,7 @@ static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
         gis_sink_forget_sent(layer);
         gis_digests_clear(&layer->digests);
     }
-    if (common)
-        GDALClose(common);
+    if (common) GDALClose(common);
     gis_listen_end();
     gis_listener_clear(&listener);
     return done;
@@ -146,8 +141,7 @@ static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error 
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_find_losses(sink->layers[i], sink->layers[i]->layer);
-        if (!gis_digests_agree(sink->layers[i], sink->layers[i]->layer, error))
-            return false;
+        if (!gis_digests_agree(sink->layers[i], sink->layers[i]->layer, error)) return false;
     }
     if (!sink->format.keeps_doubles) {
         result->exact = false;
@@ -158,10 +152,8 @@ static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error 
 
 static bool apply_strict(const gis_sink *sink, gis_error *error)
 {
-    if (!sink->request.strict || !sink->losses.n)
-        return true;
-    if (sink->losses.n == 1)
-        return gis_fail(error, "%s: %s (--strict)", sink->request.path, sink->losses.items[0]);
+    if (!sink->request.strict || !sink->losses.n) return true;
+    if (sink->losses.n == 1) return gis_fail(error, "%s: %s (--strict)", sink->request.path, sink->losses.items[0]);
     return gis_fail(error, "%s: %s, and %zu more losses (--strict)", sink->request.path, sink->losses.items[0],
                     sink->losses.n - 1);
 }
@@ -188,13 +180,10 @@ static bool copy_out(gis_sink *sink, const char *file, const char *target, gis_e
     VSILFILE *to = from && target ? VSIFOpenL(target, "wb") : NULL;
     errno = 0;
     bool done = from && (to || !target) && copy_stream(from, target ? NULL : stdout, to);
-    if (to && VSIFCloseL(to) != 0)
-        done = false;
-    if (!target && fflush(stdout) != 0)
-        done = false;
+    if (to && VSIFCloseL(to) != 0) done = false;
+    if (!target && fflush(stdout) != 0) done = false;
     int reason = errno;
-    if (from)
-        VSIFCloseL(from);
+    if (from) VSIFCloseL(from);
     CPLFree(inside);
     return done || gis_fail(error, "%s: cannot be written%s%s", sink->request.path, reason ? ": " : "",
                             reason ? strerror(reason) : "");
@@ -206,8 +195,7 @@ static bool stage_memory(const gis_sink *sink, const char *memory, const char *i
     char **files = VSIReadDir(memory);
     bool done = true;
     for (char **file = files; file && *file && done && (done = gis_go_on(error)); file++) {
-        if (strcmp(*file, ".") == 0 || strcmp(*file, "..") == 0)
-            continue;
+        if (strcmp(*file, ".") == 0 || strcmp(*file, "..") == 0) continue;
         char *from = CPLStrdup(CPLSPrintf("%s/%s", memory, *file));
         char *to = inside[0] ? CPLStrdup(CPLSPrintf("%s/%s", inside, *file)) : CPLStrdup(*file);
         vsi_l_offset length = 0;
@@ -245,8 +233,7 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
         VSIUnlink(target);
         CPLFree(target);
     }
-    if (done)
-        gis_set_outcome(GIS_DECIDED);
+    if (done) gis_set_outcome(GIS_DECIDED);
     CPLFree(base);
     CSLDestroy(files);
     return done;
@@ -256,8 +243,7 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
 
 static bool write_styles(gis_sink *sink, gis_error *error)
 {
-    if (!sink->format.geopackage || sink->request.no_styles)
-        return true;
+    if (!sink->format.geopackage || sink->request.no_styles) return true;
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
         if (!gis_styles_write(layer->dataset, layer->layer, layer->request.style,
@@ -271,8 +257,7 @@ static bool write_indexes(gis_sink *sink, gis_error *error)
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        if (!gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error))
-            return false;
+        if (!gis_rtree_end(layer->dataset, layer->layer, &layer->boxes, error)) return false;
     }
     return true;
 }
@@ -280,8 +265,7 @@ static bool write_indexes(gis_sink *sink, gis_error *error)
 static bool close_all(gis_sink *sink, gis_error *error)
 {
     for (size_t i = 0; i < sink->n_layers; i++)
-        if (sink->layers[i]->file && !gis_sink_close(sink, sink->layers[i], error))
-            return false;
+        if (sink->layers[i]->file && !gis_sink_close(sink, sink->layers[i], error)) return false;
     return gis_sink_close(sink, NULL, error);
 }
 
@@ -290,8 +274,7 @@ static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
 {
     if (seen->unread)
         gis_list_add(&sink->losses, "what was written was not read back: %s is only written", sink->format.name);
-    if (seen->exact || seen->unread)
-        return;
+    if (seen->exact || seen->unread) return;
     if (isfinite(seen->deviation))
         gis_list_add(&sink->losses, "the format rounds coordinates: they are off by up to %.9g", seen->deviation);
     else
@@ -318,8 +301,7 @@ bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
         return false;
     }
     note_inexact(sink, &seen);
-    if (!apply_strict(sink, error))
-        return false;
+    if (!apply_strict(sink, error)) return false;
     note_stream(sink);
     *result = seen;
     return true;
@@ -332,8 +314,7 @@ static bool rename_over(gis_sink *sink, gis_error *error)
     const char *path = sink->request.path;
     int lock = sink->request.overwrite && gis_sqlite_is(path) ? gis_sqlite_lock(path, error) : -2;
     bool done = lock != -1 && gis_stage_publish(sink->stage, sink->request.overwrite, error);
-    if (lock >= 0)
-        close(lock);
+    if (lock >= 0) close(lock);
     return done;
 }
 

@@ -30,19 +30,16 @@ static const double *vertex(const ring_view *ring, size_t i)
 
 static int compare_points(const double *p, const double *q)
 {
-    if (p[0] != q[0])
-        return p[0] < q[0] ? -1 : 1;
+    if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
     return (p[1] > q[1]) - (p[1] < q[1]);
 }
 
 static int compare_rings(const ring_view *a, const ring_view *b)
 {
-    if (a->n != b->n)
-        return a->n < b->n ? -1 : 1;
+    if (a->n != b->n) return a->n < b->n ? -1 : 1;
     for (size_t i = 0; i < a->n; i++) {
         int order = compare_points(vertex(a, i), vertex(b, i));
-        if (order)
-            return order;
+        if (order) return order;
     }
     return 0;
 }
@@ -51,21 +48,17 @@ static int compare_rings(const ring_view *a, const ring_view *b)
  * themselves seldom and in few places, so trying each is cheap. */
 static ring_view normal_ring(const double *xy, size_t n)
 {
-    if (n > 1 && compare_points(xy, xy + 2 * (n - 1)) == 0)
-        n--;
+    if (n > 1 && compare_points(xy, xy + 2 * (n - 1)) == 0) n--;
     ring_view best = {xy, n, 0, false};
     size_t smallest = 0;
     for (size_t i = 1; i < n; i++)
-        if (compare_points(xy + 2 * i, xy + 2 * smallest) < 0)
-            smallest = i;
+        if (compare_points(xy + 2 * i, xy + 2 * smallest) < 0) smallest = i;
     bool any = false;
     for (size_t i = smallest; i < n; i++) {
-        if (compare_points(xy + 2 * i, xy + 2 * smallest) != 0)
-            continue;
+        if (compare_points(xy + 2 * i, xy + 2 * smallest) != 0) continue;
         for (int backward = 0; backward < 2; backward++) {
             ring_view candidate = {xy, n, i, backward != 0};
-            if (!any || compare_rings(&candidate, &best) < 0)
-                best = candidate;
+            if (!any || compare_rings(&candidate, &best) < 0) best = candidate;
             any = true;
         }
     }
@@ -85,12 +78,10 @@ typedef struct member {
 static int order_members(const void *a, const void *b)
 {
     const member *p = a, *q = b;
-    if (p->n != q->n)
-        return p->n < q->n ? -1 : 1;
+    if (p->n != q->n) return p->n < q->n ? -1 : 1;
     for (size_t r = 0; r < p->n; r++) {
         int order = compare_rings(&p->rings[r], &q->rings[r]);
-        if (order)
-            return order;
+        if (order) return order;
     }
     return 0;
 }
@@ -106,8 +97,7 @@ static void normalise(const gis_polygons *rings, member *members, ring_view *vie
             views[r] = normal_ring(rings->xy + 2 * start, rings->ring_end[r] - start);
         }
         members[p] = (member){views + first, r - first};
-        if (r - first > 2)
-            qsort(views + first + 1, r - first - 1, sizeof *views, order_rings);
+        if (r - first > 2) qsort(views + first + 1, r - first - 1, sizeof *views, order_rings);
     }
     qsort(members, rings->polygons, sizeof *members, order_members);
 }
@@ -123,8 +113,7 @@ static bool identical(const gis_polygons *a, const gis_polygons *b)
 static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *same, gis_error *error)
 {
     *same = identical(a, b);
-    if (*same || a->polygons != b->polygons || a->rings != b->rings)
-        return true;
+    if (*same || a->polygons != b->polygons || a->rings != b->rings) return true;
     member *members = malloc((2 * a->polygons + 1) * sizeof *members);
     ring_view *views = malloc((2 * a->rings + 1) * sizeof *views);
     if (members && views) {
@@ -162,8 +151,7 @@ static bool any_elsewhere(const gis_polygons *a, const gis_polygons *b)
 
 static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
 {
-    if (a->polygons != b->polygons || a->rings != b->rings || a->vertices != b->vertices)
-        return INFINITY;
+    if (a->polygons != b->polygons || a->rings != b->rings || a->vertices != b->vertices) return INFINITY;
     return fmax(vertex_distance(a, b), vertex_distance(b, a));
 }
 
@@ -188,8 +176,7 @@ static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, workspace *wo
     double *a = NULL, *b = NULL;
     size_t n_a = 0, n_b = 0;
     bool done = gis_geometry_points(sent, &a, &n_a, error) && gis_geometry_points(kept, &b, &n_b, error);
-    if (done && n_a != n_b)
-        differ(result, INFINITY);
+    if (done && n_a != n_b) differ(result, INFINITY);
     for (size_t i = 0; done && n_a == n_b && i < n_a; i++)
         if (compare_points(a + 2 * i, b + 2 * i) != 0)
             differ(result, hypot(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]));
@@ -208,18 +195,15 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
         differ(result, INFINITY);
         return true;
     }
-    if (content == GIS_NOTHING)
-        return true;
-    if (content != GIS_POLYGONS)
-        return compare_vertices(sent, kept, work, result, error);
+    if (content == GIS_NOTHING) return true;
+    if (content != GIS_POLYGONS) return compare_vertices(sent, kept, work, result, error);
     bool same;
     if (!gis_geometry_rings(sent, &work->sent, error) || !gis_geometry_rings(kept, &work->kept, error) ||
         !same_polygons(&work->sent.set, &work->kept.set, &same, error))
         return false;
     if (!same) /* rings that came into other members have their vertices still */
         work->damaged = work->damaged || (work->keeps_vertices && any_elsewhere(&work->sent.set, &work->kept.set));
-    if (!same)
-        differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
+    if (!same) differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
     return true;
 }
 
@@ -240,10 +224,8 @@ static bool compare_sent(const gis_sent *sent, OGRGeometryH kept, workspace *wor
 static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
 {
     OGRGeometryH geometry = sent->made;
-    if (!geometry && sent->feature && sent->moved)
-        geometry = OGR_F_GetGeometryRef(sent->feature);
-    if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry))
-        return;
+    if (!geometry && sent->feature && sent->moved) geometry = OGR_F_GetGeometryRef(sent->feature);
+    if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry)) return;
     gis_list *losses = &layer->sink->losses;
     const char *format = layer->sink->format.name;
     if (!kept || OGR_G_IsEmpty(kept)) {
@@ -261,10 +243,8 @@ static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRG
 static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
 {
     bool has = OGR_F_IsFieldSetAndNotNull(sent, i);
-    if (has != OGR_F_IsFieldSetAndNotNull(kept, k))
-        return false;
-    if (!has)
-        return true;
+    if (has != OGR_F_IsFieldSetAndNotNull(kept, k)) return false;
+    if (!has) return true;
     OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(sent, i));
     OGRFieldType as = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(kept, k));
     if (type == OFTReal && as == OFTReal)
@@ -315,11 +295,9 @@ static bool compare_features(gis_sink_layer *layer, OGRLayerH as_written, int n,
         if (i < layer->n_sent) {
             const gis_sent *sent = &layer->sent[i];
             done = compare_sent(sent, OGR_F_GetGeometryRef(kept), work, result, error) && gis_go_on(error);
-            if (done && work->damaged)
-                done = fail_damaged(layer, i + 1, error);
+            if (done && work->damaged) done = fail_damaged(layer, i + 1, error);
             find_dropped(layer, sent, OGR_F_GetGeometryRef(kept));
-            if (done && layer->changes && sent->feature)
-                compare_attributes(sent->feature, kept, layer->changes, n);
+            if (done && layer->changes && sent->feature) compare_attributes(sent->feature, kept, layer->changes, n);
         }
         OGR_F_Destroy(kept);
     }
@@ -336,8 +314,7 @@ bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_resu
 {
     bool attributes = gis_sink_tells(layer) && layer->sink->format.keeps_order && layer->created;
     int n = attributes ? OGR_FD_GetFieldCount(OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))) : 0;
-    if (attributes && !(layer->changes = new_changes(layer, as_written, n)))
-        return gis_no_memory(error);
+    if (attributes && !(layer->changes = new_changes(layer, as_written, n))) return gis_no_memory(error);
     workspace work = {.keeps_vertices = layer->sink->format.keeps_vertices};
     bool done = compare_features(layer, as_written, n, &work, result, error);
     gis_rings_clear(&work.sent);

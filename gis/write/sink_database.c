@@ -70,8 +70,7 @@ static version version_of(const char *path, GDALDatasetH dataset)
 {
     struct stat status = {0};
     version now = {0};
-    if (stat(path, &status) == 0)
-        now = (version){status.st_dev, status.st_ino, NULL};
+    if (stat(path, &status) == 0) now = (version){status.st_dev, status.st_ino, NULL};
     now.schema = dataset ? gis_sql_ask(dataset, "PRAGMA schema_version") : NULL;
     return now;
 }
@@ -88,8 +87,7 @@ static version version_before(const gis_sink *sink)
     gis_listen_begin(&listener);
     GDALDatasetH dataset = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     version before = version_of(sink->request.path, dataset);
-    if (dataset)
-        GDALClose(dataset);
+    if (dataset) GDALClose(dataset);
     gis_listen_end();
     gis_listener_clear(&listener);
     return before;
@@ -130,11 +128,9 @@ static bool guard(gis_sink *sink, gis_error *error)
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
-    if (sink->reader)
-        sink->reading = GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL);
+    if (sink->reader) sink->reading = GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL);
     OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL; /* the first of several */
-    if (row)
-        OGR_F_Destroy(row);
+    if (row) OGR_F_Destroy(row);
     gis_listen_end();
     gis_listener_clear(&listener);
     return (row || gis_fail(error, "%s: cannot be read while it is written", sink->request.path)) &&
@@ -145,10 +141,8 @@ static bool guard(gis_sink *sink, gis_error *error)
 
 static void unguard(gis_sink *sink)
 {
-    if (sink->reading)
-        GDALDatasetReleaseResultSet(sink->reader, sink->reading);
-    if (sink->reader)
-        GDALClose(sink->reader);
+    if (sink->reading) GDALDatasetReleaseResultSet(sink->reader, sink->reading);
+    if (sink->reader) GDALClose(sink->reader);
     gis_leftover_forget(sink->journal);
     sink->reading = NULL;
     sink->reader = NULL;
@@ -169,8 +163,7 @@ static bool begin_locked(gis_sink *sink, gis_error *error)
 
 bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
 {
-    if (!in_sqlite_file(sink) || !sink->in_transaction)
-        return true;
+    if (!in_sqlite_file(sink) || !sink->in_transaction) return true;
     char *mark = gis_sql_ask(sink->dataset, "SELECT 1 FROM sqlite_temp_master WHERE name = '" MARK "'");
     bool there = mark != NULL;
     CPLFree(mark);
@@ -183,8 +176,7 @@ static void abandon(gis_sink *sink)
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     gis_sink_roll_back(sink);
-    if (sink->dataset)
-        GDALClose(sink->dataset);
+    if (sink->dataset) GDALClose(sink->dataset);
     sink->dataset = NULL;
     gis_listen_end();
     gis_listener_clear(&listener);
@@ -198,16 +190,13 @@ bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
     for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
         version before = version_before(sink), after = {0};
         bool locked = gis_sink_open_for_update(sink, error) && begin_locked(sink, error);
-        if (locked)
-            after = version_of(sink->request.path, sink->dataset);
+        if (locked) after = version_of(sink->request.path, sink->dataset);
         bool done = locked && same_version(&before, &after);
         CPLFree(before.schema);
         CPLFree(after.schema);
-        if (done)
-            return true;
+        if (done) return true;
         abandon(sink);
-        if (!locked)
-            return false;
+        if (!locked) return false;
     }
     return gis_fail(error, "%s: other programs keep changing it; nothing was changed by this one", sink->request.path);
 }
@@ -218,13 +207,11 @@ bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
 bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
 {
     for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
-        if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name))
-            continue;
+        if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name)) continue;
         if (!sink->request.overwrite_layer)
             return gis_fail(error, "%s has a layer %s by now: --overwrite-layer replaces it, --output-layer names "
                             "another", sink->request.path, name);
-        if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error))
-            return false;
+        if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error)) return false;
         gis_listener listener = {0};
         gis_listen_begin(&listener);
         bool done = GDALDatasetDeleteLayer(sink->dataset, i) == OGRERR_NONE && !listener.failures;
@@ -243,8 +230,7 @@ bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
 bool gis_sink_flush(gis_sink *sink, gis_error *error)
 {
     gis_sink_layer *last = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
-    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer)
-        return true;
+    if (sink->place != GIS_PLACE_DATABASE || !last || !last->layer) return true;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     GDALFlushCache(sink->dataset);
@@ -260,8 +246,7 @@ bool gis_sink_flush(gis_sink *sink, gis_error *error)
 /* What GDAL would still like to note when it closes the file would be outside the transaction. */
 static void seal(gis_sink *sink)
 {
-    if (in_sqlite_file(sink))
-        gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
+    if (in_sqlite_file(sink)) gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
 }
 
 void gis_sink_roll_back(gis_sink *sink)
@@ -279,21 +264,17 @@ static bool clear_the_way(gis_sink *sink, gis_error *error)
 {
     char wait[64];
     snprintf(wait, sizeof wait, "PRAGMA busy_timeout = %d", gis_sqlite_patience());
-    if (!in_sqlite_file(sink))
-        return true;
-    if (!gis_sink_unbroken(sink, error) || !gis_sql_run(sink->dataset, wait, "the database", error))
-        return false;
+    if (!in_sqlite_file(sink)) return true;
+    if (!gis_sink_unbroken(sink, error) || !gis_sql_run(sink->dataset, wait, "the database", error)) return false;
     unguard(sink);
     return true;
 }
 
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
 {
-    if (!sink->in_transaction)
-        return true;
+    if (!sink->in_transaction) return true;
     bool final = sink->place == GIS_PLACE_DATABASE; /* else it is in the stage */
-    if (!clear_the_way(sink, error) || (final && !gis_decide(error)))
-        return false;
+    if (!clear_the_way(sink, error) || (final && !gis_decide(error))) return false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
@@ -306,8 +287,7 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
                  gis_listener_reason(&listener, "the transaction cannot be committed"));
     else
         seal(sink);
-    if (final)
-        gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
+    if (final) gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
     gis_listener_clear(&listener);
     return done;
 }

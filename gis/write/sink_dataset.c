@@ -18,12 +18,10 @@ static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
 static void supersede(gis_sink *sink, const char *path)
 {
     gis_stage_supersede(sink->stage, path);
-    if (gis_sink_is_directory(path))
-        return;
+    if (gis_sink_is_directory(path)) return;
     for (size_t i = 0; i < sizeof sqlite_companions / sizeof *sqlite_companions; i++) {
         char *companion = CPLStrdup(CPLSPrintf("%s%s", path, sqlite_companions[i]));
-        if (gis_sink_exists(companion))
-            gis_stage_supersede(sink->stage, companion);
+        if (gis_sink_exists(companion)) gis_stage_supersede(sink->stage, companion);
         CPLFree(companion);
     }
     gis_listener listener = {0};
@@ -32,12 +30,10 @@ static void supersede(gis_sink *sink, const char *path)
     char **files = old ? GDALGetFileList(old) : NULL;
     char *directory = CPLStrdup(CPLGetPath(path));
     for (char **file = files; file && *file; file++)
-        if (strcmp(CPLGetPath(*file), directory) == 0)
-            gis_stage_supersede(sink->stage, *file);
+        if (strcmp(CPLGetPath(*file), directory) == 0) gis_stage_supersede(sink->stage, *file);
     CPLFree(directory);
     CSLDestroy(files);
-    if (old)
-        GDALClose(old);
+    if (old) GDALClose(old);
     gis_listen_end();
     gis_listener_clear(&listener);
 }
@@ -46,11 +42,9 @@ static void supersede(gis_sink *sink, const char *path)
  * fails. */
 static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
-    if (sink->place != GIS_PLACE_FILE || !may_replace)
-        return;
+    if (sink->place != GIS_PLACE_FILE || !may_replace) return;
     char *outside = gis_stage_outside(sink->stage, file);
-    if (gis_sink_exists(outside))
-        supersede(sink, outside);
+    if (gis_sink_exists(outside)) supersede(sink, outside);
     CPLFree(outside);
 }
 
@@ -61,22 +55,19 @@ static void supersede_existing(gis_sink *sink, const char *file, bool may_replac
 static bool relax_sqlite(void)
 {
     bool relaxed = !CPLGetConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
-    if (relaxed)
-        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
+    if (relaxed) CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF");
     return relaxed;
 }
 
 static void restore_sqlite(bool relaxed)
 {
-    if (relaxed)
-        CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
+    if (relaxed) CPLSetThreadLocalConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
 }
 
 static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
 {
     char **all = sink->source ? GDALGetMetadata(gis_source_dataset(sink->source), NULL) : NULL;
-    if (sink->format.geopackage && CSLCount(all) > 0)
-        GDALSetMetadata(to, all, NULL);
+    if (sink->format.geopackage && CSLCount(all) > 0) GDALSetMetadata(to, all, NULL);
 }
 
 static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
@@ -88,8 +79,7 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
     bool relaxed = relax_sqlite();
     *out = GDALCreate(sink->format.driver, path, 0, 0, 0, GDT_Unknown, (CSLConstList)sink->request.dataset_options);
     restore_sqlite(relaxed);
-    if (*out)
-        copy_metadata(sink, *out);
+    if (*out) copy_metadata(sink, *out);
     gis_listen_end();
     CPLFree(path);
     bool done = *out && !(sink->format.sqlite && listener.failures); /* a database may go on with half of its tables */
@@ -119,15 +109,13 @@ static bool open_for_update(gis_sink *sink, gis_error *error)
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
-    if (sink->stage && !gis_stage_make(sink->stage, error))
-        return false;
+    if (sink->stage && !gis_stage_make(sink->stage, error)) return false;
     if (layer->file) {
         supersede_existing(sink, layer->file, sink->request.overwrite || sink->request.overwrite_layer);
         return create(sink, layer->file, &layer->dataset, error);
     }
     if (!sink->dataset) {
-        if (!sink->updating)
-            supersede_existing(sink, sink->main_file, sink->request.overwrite);
+        if (!sink->updating) supersede_existing(sink, sink->main_file, sink->request.overwrite);
         if (!(sink->updating ? open_for_update(sink, error)
                              : create(sink, sink->main_file, &sink->dataset, error) &&
                                    gis_sink_begin_transaction(sink, error)))
@@ -146,8 +134,7 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
             sink->layers[i]->dataset = NULL;
             sink->layers[i]->layer = NULL;
         }
-    if (sink->dataset == dataset)
-        sink->dataset = NULL;
+    if (sink->dataset == dataset) sink->dataset = NULL;
 }
 
 /* The last byte of a text is a line break, which GDAL does not hear of if it could not be written, and which no reader
@@ -161,8 +148,7 @@ static bool end_last_line(const gis_sink *sink, const char *file, gis_error *err
     if (text && done && VSIFTellL(text) > 0)
         done = VSIFSeekL(text, VSIFTellL(text) - 1, SEEK_SET) == 0 && VSIFReadL(&last, 1, 1, text) == 1 &&
                (last == '\n' || (VSIFSeekL(text, 0, SEEK_END) == 0 && VSIFWriteL("\n", 1, 1, text) == 1));
-    if (text && VSIFCloseL(text) != 0)
-        done = false;
+    if (text && VSIFCloseL(text) != 0) done = false;
     CPLFree(path);
     return done || gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path,
                             file);
@@ -171,10 +157,8 @@ static bool end_last_line(const gis_sink *sink, const char *file, gis_error *err
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
 {
     GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
-    if (!dataset)
-        return true;
-    if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error))
-        return false;
+    if (!dataset) return true;
+    if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error)) return false;
     bool committed = dataset == sink->dataset && sink->place == GIS_PLACE_DATABASE; /* it cannot fail any more */
     gis_listener listener = {0};
     gis_listen_begin(&listener);
@@ -186,8 +170,7 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
     if (!done)
         gis_fail(error, "%s: writing failed: %s", sink->request.path,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
-    for (size_t i = 0; i < listener.warnings.n; i++)
-        gis_list_add(&sink->warnings, "%s", listener.warnings.items[i]);
+    for (size_t i = 0; i < listener.warnings.n; i++) gis_list_add(&sink->warnings, "%s", listener.warnings.items[i]);
     gis_listener_clear(&listener);
     return done && end_last_line(sink, layer && layer->file ? layer->file : sink->main_file, error);
 }

@@ -55,17 +55,14 @@ static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far
     size_t n = (size_t)OGR_G_GetPointCount(geometry);
     if (n > all->room) {
         double *larger = realloc(all->xy, 2 * n * sizeof *larger);
-        if (!larger)
-            return false;
+        if (!larger) return false;
         all->xy = larger;
         all->room = n;
     }
     int stride = 2 * sizeof(double);
-    if (n)
-        OGR_G_GetPoints(geometry, all->xy, stride, all->xy + 1, stride, NULL, 0);
+    if (n) OGR_G_GetPoints(geometry, all->xy, stride, all->xy + 1, stride, NULL, 0);
     *so_far = mix(*so_far, n);
-    for (size_t i = 0; i < 2 * n; i++)
-        *so_far = mix_double(*so_far, all->xy[i]);
+    for (size_t i = 0; i < 2 * n; i++) *so_far = mix_double(*so_far, all->xy[i]);
     return true;
 }
 
@@ -78,12 +75,10 @@ static bool mix_geometry(OGRGeometryH geometry, gis_digests *all, uint64_t *so_f
         return true;
     }
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (type == wkbPolygon || type == wkbCurvePolygon)
-        *so_far = mix(*so_far, POLYGON);
+    if (type == wkbPolygon || type == wkbCurvePolygon) *so_far = mix(*so_far, POLYGON);
     int parts = OGR_G_GetGeometryCount(geometry);
     for (int i = 0; i < parts; i++)
-        if (!mix_geometry(OGR_G_GetGeometryRef(geometry, i), all, so_far))
-            return false;
+        if (!mix_geometry(OGR_G_GetGeometryRef(geometry, i), all, so_far)) return false;
     return parts > 0 || mix_points(geometry, all, so_far);
 }
 
@@ -97,12 +92,9 @@ static uint64_t mix_text(uint64_t so_far, const char *text, int width)
 
 static uint64_t mix_value(uint64_t so_far, OGRFeatureH feature, int field, const gis_plain_field *as)
 {
-    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field))
-        return mix(so_far, NO_VALUE);
-    if (as->type == OFTString)
-        return mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
-    if (as->type != OFTReal)
-        return mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
+    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field)) return mix(so_far, NO_VALUE);
+    if (as->type == OFTString) return mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
+    if (as->type != OFTReal) return mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
     double x = OGR_F_GetFieldAsDouble(feature, field);
     return isnan(x) ? mix(so_far, NO_VALUE) : mix_double(so_far, x); /* databases store a NaN as null */
 }
@@ -110,8 +102,7 @@ static uint64_t mix_value(uint64_t so_far, OGRFeatureH feature, int field, const
 static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_written, gis_digest *out)
 {
     *out = (gis_digest){START, START};
-    if (all->with_fid)
-        out->place = mix(out->place, (uint64_t)fid);
+    if (all->with_fid) out->place = mix(out->place, (uint64_t)fid);
     for (size_t i = 0; i < all->n_fields; i++)
         out->values = mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent,
                                 &all->fields[i]);
@@ -168,8 +159,7 @@ static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
     if (*n == *capacity) {
         size_t larger = *capacity ? 2 * *capacity : 256;
         gis_digest *moved = realloc(*at, larger * sizeof *moved);
-        if (!moved)
-            return false;
+        if (!moved) return false;
         *at = moved;
         *capacity = larger;
     }
@@ -180,8 +170,7 @@ static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
 bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_error *error)
 {
     gis_digest one;
-    if (!all->wanted)
-        return true;
+    if (!all->wanted) return true;
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
     all->with_z += geometry && OGR_G_Is3D(geometry) && !OGR_G_IsEmpty(geometry);
     return (digest(all, feature, fid, false, &one) && append(&all->sent, &all->n, &all->capacity, one)) ||
@@ -190,8 +179,7 @@ bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_err
 
 void gis_digests_clear(gis_digests *all)
 {
-    for (size_t i = 0; i < all->n_fields; i++)
-        CPLFree(all->fields[i].name);
+    for (size_t i = 0; i < all->n_fields; i++) CPLFree(all->fields[i].name);
     CPLFree(all->fields);
     free(all->sent);
     free(all->xy);
@@ -201,8 +189,7 @@ void gis_digests_clear(gis_digests *all)
 static int order(const void *a, const void *b)
 {
     const gis_digest *p = a, *q = b;
-    if (p->place != q->place)
-        return p->place < q->place ? -1 : 1;
+    if (p->place != q->place) return p->place < q->place ? -1 : 1;
     return (p->values > q->values) - (p->values < q->values);
 }
 

@@ -19,10 +19,8 @@ static void say(parts *all, const char *format, ...) __attribute__((format(print
 static void say(parts *all, const char *format, ...)
 {
     size_t used = strlen(all->text);
-    if (used)
-        used += (size_t)snprintf(all->text + used, sizeof all->text - used, ", ");
-    if (used >= sizeof all->text)
-        return;
+    if (used) used += (size_t)snprintf(all->text + used, sizeof all->text - used, ", ");
+    if (used >= sizeof all->text) return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(all->text + used, sizeof all->text - used, format, arguments);
@@ -52,17 +50,13 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
 {
     parts lost = {""};
     const char *name = OGR_Fld_GetNameRef(sent);
-    if (strcmp(name, OGR_Fld_GetNameRef(kept)) != 0)
-        say(&lost, "called %s", OGR_Fld_GetNameRef(kept));
+    if (strcmp(name, OGR_Fld_GetNameRef(kept)) != 0) say(&lost, "called %s", OGR_Fld_GetNameRef(kept));
     if (OGR_Fld_GetType(sent) != OGR_Fld_GetType(kept) || OGR_Fld_GetSubType(sent) != OGR_Fld_GetSubType(kept))
         say(&lost, "%s instead of %s", type_name(kept), type_name(sent));
     int width = OGR_Fld_GetWidth(sent), width_kept = OGR_Fld_GetWidth(kept);
-    if (width_kept != 0 && width > width_kept)
-        say(&lost, "width %d instead of %d", width_kept, width);
-    if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept))
-        say(&lost, "may be null");
-    if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept))
-        say(&lost, "need not be unique");
+    if (width_kept != 0 && width > width_kept) say(&lost, "width %d instead of %d", width_kept, width);
+    if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept)) say(&lost, "may be null");
+    if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept)) say(&lost, "need not be unique");
     if (!same_text(OGR_Fld_GetDefault(sent), OGR_Fld_GetDefault(kept)))
         say(&lost, "no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
     if (has_domain(NULL, sent) &&
@@ -71,8 +65,7 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
     if (change && change->count)
         say(&lost, "%zu value%s cannot be held as %s (first: FID %" PRId64 ")", change->count,
             change->count == 1 ? "" : "s", change->count == 1 ? "it is" : "they are", (int64_t)change->first);
-    if (lost.text[0])
-        gis_list_add(&layer->sink->losses, "field %s: %s", name, lost.text);
+    if (lost.text[0]) gis_list_add(&layer->sink->losses, "field %s: %s", name, lost.text);
 }
 
 static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
@@ -81,8 +74,7 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
     OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(sink->source));
     for (int i = 0; i < OGR_FD_GetFieldCount(source); i++) {
         const char *name = CSLGetField(layer->created, i);
-        if (!name[0])
-            continue; /* replaced, or its loss was noted when it was made */
+        if (!name[0]) continue; /* replaced, or its loss was noted when it was made */
         OGRFieldDefnH sent = OGR_FD_GetFieldDefn(source, i);
         int index = OGR_FD_GetFieldIndex(as_written, name);
         if (index < 0)
@@ -116,19 +108,16 @@ static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
 {
     OGRSpatialReferenceH sent = gis_source_crs(layer->sink->source), kept = OGR_L_GetSpatialRef(as_written);
     static const char *const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", NULL};
-    if (!sent && !kept)
-        return;
+    if (!sent && !kept) return;
     if (!sent || !kept || !OSRIsSameEx(sent, kept, options)) {
-        if (!sent && strstr(crs_name(kept), "ndefined"))
-            return; /* the GeoPackage's way to say that there is none */
+        if (!sent && strstr(crs_name(kept), "ndefined")) return; /* the GeoPackage's way to say that there is none */
         gis_list_add(&layer->sink->losses, "the CRS is %s instead of %s", crs_name(kept), crs_name(sent));
     }
 }
 
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
 {
-    if (!gis_sink_tells(layer) || !layer->sink->source)
-        return;
+    if (!gis_sink_tells(layer) || !layer->sink->source) return;
     gis_listener listener = {0}; /* comparing CRSs may make PROJ grumble */
     gis_listen_begin(&listener);
     compare_fields(layer, OGR_L_GetLayerDefn(as_written));
@@ -156,8 +145,7 @@ static bool esri_knows(OGRSpatialReferenceH crs)
 bool gis_sink_check_companions(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
 {
     const gis_sink *sink = layer->sink;
-    if (!sink->format.shapefile)
-        return true;
+    if (!sink->format.shapefile) return true;
     bool crs = OGR_L_GetSpatialRef(as_written) != NULL || !esri_knows(gis_sink_crs(layer));
     bool encoding = GDALGetMetadataItem(as_written, "ENCODING_FROM_CPG", "SHAPEFILE") != NULL || !layer->has_encoding;
     return (crs && encoding) || gis_fail(error, "%s, layer %s: the file of its %s was not written; is the disk full?",

@@ -24,28 +24,24 @@ static gis_value *values_of(const gis_sink_layer *layer, size_t i)
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error)
 {
     size_t n = layer->request.n_fields;
-    if (!layer->can_rewrite || n == 0)
-        return true;
+    if (!layer->can_rewrite || n == 0) return true;
     if (layer->values_room < layer->capacity) {
         gis_value *larger = realloc(layer->sent_values, layer->capacity * n * sizeof *larger);
-        if (!larger)
-            return gis_no_memory(error);
+        if (!larger) return gis_no_memory(error);
         layer->sent_values = larger;
         layer->values_room = layer->capacity;
     }
     gis_value *to = values_of(layer, layer->n_sent - 1);
     memcpy(to, values, n * sizeof *to);
     for (size_t k = 0; k < n; k++)
-        if (to[k].kind == GIS_TEXT)
-            to[k].as.text = CPLStrdup(to[k].as.text);
+        if (to[k].kind == GIS_TEXT) to[k].as.text = CPLStrdup(to[k].as.text);
     return true;
 }
 
 void gis_sink_forget_values(gis_sink_layer *layer)
 {
     for (size_t i = 0; layer->sent_values && i < layer->n_sent * layer->request.n_fields; i++)
-        if (layer->sent_values[i].kind == GIS_TEXT)
-            CPLFree((void *)layer->sent_values[i].as.text);
+        if (layer->sent_values[i].kind == GIS_TEXT) CPLFree((void *)layer->sent_values[i].as.text);
     free(layer->sent_values);
     layer->sent_values = NULL;
     layer->values_room = 0;
@@ -55,8 +51,7 @@ static bool any_real_changed(const gis_sink_layer *layer)
 {
     OGRFeatureDefnH source = layer->changes ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source)) : NULL;
     for (int i = 0; source && i < OGR_FD_GetFieldCount(source); i++)
-        if (layer->changes[i].count && OGR_Fld_GetType(OGR_FD_GetFieldDefn(source, i)) == OFTReal)
-            return true;
+        if (layer->changes[i].count && OGR_Fld_GetType(OGR_FD_GetFieldDefn(source, i)) == OFTReal) return true;
     return false;
 }
 
@@ -121,34 +116,27 @@ static bool loses(double x)
 {
     char text[64];
     snprintf(text, sizeof text, "%.17g", x);
-    if (!has_run(text))
-        return false;
+    if (!has_run(text)) return false;
     for (int digits = 16; digits >= 14; digits--) {
         snprintf(text, sizeof text, "%.*g", digits, x);
-        if (strchr(text, '.') && !has_run(text))
-            return strtod(text, NULL) != x;
+        if (strchr(text, '.') && !has_run(text)) return strtod(text, NULL) != x;
     }
     return false;
 }
 
 static bool any_loses(OGRGeometryH geometry)
 {
-    if (!geometry)
-        return false;
+    if (!geometry) return false;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (any_loses(OGR_G_GetGeometryRef(geometry, i)))
-            return true;
-    if (OGR_G_GetGeometryCount(geometry))
-        return false;
+        if (any_loses(OGR_G_GetGeometryRef(geometry, i))) return true;
+    if (OGR_G_GetGeometryCount(geometry)) return false;
     for (int i = 0; i < OGR_G_GetPointCount(geometry); i++)
-        if (loses(OGR_G_GetX(geometry, i)) || loses(OGR_G_GetY(geometry, i)))
-            return true;
+        if (loses(OGR_G_GetX(geometry, i)) || loses(OGR_G_GetY(geometry, i))) return true;
     return false;
 }
 
 bool gis_sink_watch_digits(gis_sink_layer *layer, OGRFeatureH written, gis_error *error)
 {
-    if (!layer->can_rewrite || layer->more_digits || !any_loses(OGR_F_GetGeometryRef(written)))
-        return true;
+    if (!layer->can_rewrite || layer->more_digits || !any_loses(OGR_F_GetGeometryRef(written))) return true;
     return gis_sink_close(layer->sink, layer, error) && send_again(layer, error);
 }

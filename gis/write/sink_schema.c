@@ -19,10 +19,8 @@ static OGRFeatureDefnH source_definition(const gis_sink_layer *layer)
 static bool is_own(const gis_sink_layer *layer, const char *name)
 {
     for (size_t i = 0; i < layer->request.n_fields; i++)
-        if (EQUAL(layer->request.fields[i].name, name))
-            return true;
-    if (layer->request.copied && EQUAL(OGR_Fld_GetNameRef(layer->request.copied), name))
-        return true;
+        if (EQUAL(layer->request.fields[i].name, name)) return true;
+    if (layer->request.copied && EQUAL(OGR_Fld_GetNameRef(layer->request.copied), name)) return true;
     return !layer->sink->fids_kept && EQUAL(name, FID_FIELD);
 }
 
@@ -50,8 +48,7 @@ static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry",
  * unless an ordinary field has a name that the driver might choose: then the first name that is free. */
 static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual)
 {
-    if (wanted && wanted[0] && !any_field_is(layer, wanted))
-        return wanted;
+    if (wanted && wanted[0] && !any_field_is(layer, wanted)) return wanted;
     bool taken = false;
     const char *found = NULL;
     for (const char *const *each = usual; *each; each++) {
@@ -62,8 +59,7 @@ static const char *free_name(const gis_sink_layer *layer, const char *wanted, co
     }
     for (int i = 1; taken && !found; i++) {
         const char *numbered = CPLSPrintf("%s_%d", usual[0], i);
-        if (!any_field_is(layer, numbered))
-            found = numbered;
+        if (!any_field_is(layer, numbered)) found = numbered;
     }
     return taken ? found : NULL;
 }
@@ -75,10 +71,8 @@ static bool identifier_taken(const gis_sink *sink, const char *identifier)
     OGRLayerH result = GDALDatasetExecuteSQL(sink->dataset, sql, NULL, NULL);
     OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
     bool taken = row != NULL;
-    if (row)
-        OGR_F_Destroy(row);
-    if (result)
-        GDALDatasetReleaseResultSet(sink->dataset, result);
+    if (row) OGR_F_Destroy(row);
+    if (result) GDALDatasetReleaseResultSet(sink->dataset, result);
     CPLFree(quoted);
     CPLFree(sql);
     return taken;
@@ -119,11 +113,9 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
 /* A Shapefile from a Shapefile keeps the code page of its texts; any other is UTF-8. */
 static const char *shapefile_encoding(const gis_sink *sink)
 {
-    if (!sink->source)
-        return "UTF-8";
+    if (!sink->source) return "UTF-8";
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(sink->source));
-    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile"))
-        return "UTF-8";
+    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile")) return "UTF-8";
     OGRLayerH layer = gis_source_layer(sink->source);
     const char *encoding = GDALGetMetadataItem(layer, "SOURCE_ENCODING", "SHAPEFILE");
     return encoding && encoding[0] ? encoding : "UTF-8";
@@ -141,10 +133,8 @@ static char **layer_options(const gis_sink_layer *layer)
     }
     options = offer(layer, options, "LAUNDER", "NO");
     options = offer(layer, options, "GEOMETRY", "AS_WKT");
-    if (!sink->to_stdout)
-        options = offer(layer, options, "CREATE_CSVT", "YES");
-    if (sink->format.shapefile)
-        options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
+    if (!sink->to_stdout) options = offer(layer, options, "CREATE_CSVT", "YES");
+    if (sink->format.shapefile) options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
     if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double: see sink_rewrite.c */
         options = offer(layer, options, "SIGNIFICANT_FIGURES", layer->more_digits ? "20" : "17");
     return options;
@@ -157,37 +147,31 @@ static char **layer_options(const gis_sink_layer *layer)
 static bool must_promote(const gis_sink_layer *layer, OGRwkbGeometryType type)
 {
     const gis_source *source = layer->sink->source;
-    if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon)
-        return false;
+    if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon) return false;
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
-    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile"))
-        return false;
+    if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile")) return false;
     for (size_t i = 0; i < gis_source_count(source); i++) {
         OGRGeometryH geometry = gis_source_geometry(source, i);
-        if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon)
-            return true;
+        if (geometry && wkbFlatten(OGR_G_GetGeometryType(geometry)) == wkbMultiPolygon) return true;
     }
     return false;
 }
 
 static void copy_metadata(const gis_sink_layer *layer)
 {
-    if (!layer->sink->format.geopackage)
-        return;
+    if (!layer->sink->format.geopackage) return;
     char **all = CSLDuplicate(GDALGetMetadata(gis_source_layer(layer->sink->source), NULL));
     const char *const set_otherwise[] = {"IDENTIFIER", "DESCRIPTION", "DBF_DATE_LAST_UPDATE"};
     for (size_t i = 0; i < sizeof set_otherwise / sizeof *set_otherwise; i++)
         all = CSLSetNameValue(all, set_otherwise[i], NULL);
-    if (CSLCount(all) > 0)
-        GDALSetMetadata(layer->layer, all, NULL);
+    if (CSLCount(all) > 0) GDALSetMetadata(layer->layer, all, NULL);
     CSLDestroy(all);
 }
 
 static void copy_domain(gis_sink_layer *layer, OGRFieldDefnH field)
 {
     const char *name = OGR_Fld_GetDomainName(field);
-    if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name))
-        return;
+    if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name)) return;
     OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->sink->source), name);
     if (domain) /* where it fails the field comes out without it, which is found when it is read back */
         GDALDatasetAddFieldDomain(layer->dataset, domain, NULL);
@@ -230,8 +214,7 @@ static void create_source_fields(gis_sink_layer *layer)
 static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
 {
     OGRFieldDefnH field = OGR_Fld_Create(name, type);
-    if (!field)
-        return -1;
+    if (!field) return -1;
     OGR_Fld_SetWidth(field, width);
     int index = create_field(layer, field);
     OGR_Fld_Destroy(field);
@@ -243,8 +226,7 @@ static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType
 static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
 {
     int index = create_field_of(layer, name, type, width);
-    if (index < 0 && type == OFTInteger64)
-        index = create_field_of(layer, name, OFTReal, 0);
+    if (index < 0 && type == OFTInteger64) index = create_field_of(layer, name, OFTReal, 0);
     if (index < 0)
         gis_list_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name, name,
                      layer->sink->format.name);
@@ -258,8 +240,7 @@ static void create_copy(gis_sink_layer *layer)
     OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
     int n = OGR_FD_GetFieldCount(source);
     OGRFieldDefnH field = OGR_Fld_Create(OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
-    if (!field)
-        return;
+    if (!field) return;
     OGR_Fld_SetSubType(field, OGR_Fld_GetSubType(like));
     OGR_Fld_SetWidth(field, OGR_Fld_GetWidth(like));
     OGR_Fld_SetPrecision(field, OGR_Fld_GetPrecision(like));
@@ -291,8 +272,7 @@ static void create_own_fields(gis_sink_layer *layer)
         const gis_field *field = &layer->request.fields[i];
         layer->own[i] = create_own_field(layer, field->name, field->type, field->width);
     }
-    if (layer->request.copied)
-        create_copy(layer);
+    if (layer->request.copied) create_copy(layer);
     if (source_definition(layer) && !layer->sink->fids_kept)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }
@@ -301,10 +281,8 @@ static void create_own_fields(gis_sink_layer *layer)
 static void note_name(gis_sink_layer *layer)
 {
     const char *name = OGR_L_GetName(layer->layer);
-    if (strcmp(name, layer->name) == 0)
-        return;
-    if (!layer->file)
-        gis_list_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
+    if (strcmp(name, layer->name) == 0) return;
+    if (!layer->file) gis_list_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
     CPLFree(layer->name);
     layer->name = CPLStrdup(name);
 }
@@ -340,8 +318,7 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     bool done = layer->layer != NULL;
     if (done) {
         note_name(layer);
-        if (layer->request.as_source)
-            copy_metadata(layer);
+        if (layer->request.as_source) copy_metadata(layer);
         create_source_fields(layer);
         create_own_fields(layer);
         done = !sink->format.geopackage || gis_rtree_begin(layer->dataset, layer->layer, &layer->boxes, error);
@@ -359,7 +336,6 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
     layer->promised = layer->request.like_source || !layer->request.suffix[0];
     layer->keep_sent = !sink->format.keeps_doubles && sink->place != GIS_PLACE_DATABASE;
     layer->can_rewrite = layer->keep_sent && layer->file && digits_are_ours(sink);
-    if (done && sink->format.keeps_doubles)
-        gis_digests_begin(layer);
+    if (done && sink->format.keeps_doubles) gis_digests_begin(layer);
     return done && gis_sink_unbroken(sink, error);
 }

@@ -27,8 +27,7 @@ static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
 void gis_sink_forget_sent(gis_sink_layer *layer)
 {
     gis_sink_forget_values(layer);
-    for (size_t i = 0; i < layer->n_sent; i++)
-        OGR_G_DestroyGeometry(layer->sent[i].made);
+    for (size_t i = 0; i < layer->n_sent; i++) OGR_G_DestroyGeometry(layer->sent[i].made);
     free(layer->sent);
     layer->sent = NULL;
     layer->n_sent = layer->capacity = 0;
@@ -44,14 +43,12 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
             return gis_fail(error, "layer %s: the attributes of FID %" PRId64 " cannot be copied", layer->name,
                             (int64_t)OGR_F_GetFID(feature));
         GIntBig fid = OGR_F_GetFID(feature);
-        if (layer->fid_field >= 0 && fid != OGRNullFID)
-            OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
+        if (layer->fid_field >= 0 && fid != OGRNullFID) OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
         OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
     }
     for (size_t i = 0; i < layer->request.n_fields; i++) {
         int field = layer->own[i];
-        if (field < 0)
-            continue;
+        if (field < 0) continue;
         switch (values[i].kind) {
         case GIS_NULL: OGR_F_SetFieldNull(to, field); break;
         case GIS_INTEGER: OGR_F_SetFieldInteger64(to, field, values[i].as.integer); break;
@@ -75,8 +72,7 @@ static void promote(OGRFeatureH to)
 static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
-    if (!geometry || !layer->request.as_source)
-        return;
+    if (!geometry || !layer->request.as_source) return;
     if (!layer->can_measure && OGR_G_IsMeasured(geometry) && !layer->sink->format.shapefile)
         gis_list_add(&layer->sink->losses, "M values are not written: %s has none", layer->sink->format.name);
     if (!layer->can_curve && OGR_G_HasCurveGeometry(geometry, TRUE))
@@ -116,8 +112,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
 /* The feature has all it needs; it is fitted to the format, and written. */
 static bool send(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
 {
-    if (layer->promote)
-        promote(to);
+    if (layer->promote) promote(to);
     note_losses(layer, to);
     return (!layer->wind || gis_geometry_wind_clockwise(OGR_F_GetGeometryRef(to), error)) &&
            create_feature(layer, to, feature, error);
@@ -145,8 +140,7 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
                           gis_error *error)
 {
     OGRFeatureH to = gis_go_on(error) ? OGR_F_Create(OGR_L_GetLayerDefn(layer->layer)) : NULL;
-    if (!to)
-        return gis_no_memory(error);
+    if (!to) return gis_no_memory(error);
     bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
         done = remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&

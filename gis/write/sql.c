@@ -10,8 +10,7 @@ bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_er
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
-    if (result)
-        GDALDatasetReleaseResultSet(dataset, result);
+    if (result) GDALDatasetReleaseResultSet(dataset, result);
     gis_listen_end();
     bool done = !listener.failures;
     if (!done)
@@ -28,10 +27,8 @@ char *gis_sql_ask(GDALDatasetH dataset, const char *sql)
     OGRLayerH result = GDALDatasetExecuteSQL(dataset, sql, NULL, NULL);
     OGRFeatureH row = result ? OGR_L_GetNextFeature(result) : NULL;
     char *text = row && OGR_F_IsFieldSetAndNotNull(row, 0) ? CPLStrdup(OGR_F_GetFieldAsString(row, 0)) : NULL;
-    if (row)
-        OGR_F_Destroy(row);
-    if (result)
-        GDALDatasetReleaseResultSet(dataset, result);
+    if (row) OGR_F_Destroy(row);
+    if (result) GDALDatasetReleaseResultSet(dataset, result);
     gis_listen_end();
     gis_listener_clear(&listener);
     return text;

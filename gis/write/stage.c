@@ -35,8 +35,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
     char *path = CPLStrdup(resolved ? resolved : final_path);
     free(resolved);
     size_t length = strlen(path);
-    while (length > 1 && path[length - 1] == '/')
-        path[--length] = '\0';
+    while (length > 1 && path[length - 1] == '/') path[--length] = '\0';
     *name = CPLStrdup(CPLGetFilename(path));
     *directory = CPLStrdup(CPLGetPath(path));
     if (!(*directory)[0]) {
@@ -49,8 +48,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
 /* The directory is gone, or stays as it is. */
 static void leave(gis_stage *stage)
 {
-    if (stage->lock >= 0)
-        close(stage->lock);
+    if (stage->lock >= 0) close(stage->lock);
     stage->lock = -1;
     gis_leftover_forget(stage->leftover);
     stage->leftover = NULL;
@@ -76,8 +74,7 @@ bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error)
 
 bool gis_stage_make(gis_stage *stage, gis_error *error)
 {
-    if (stage->inside)
-        return true;
+    if (stage->inside) return true;
     char *inside = gis_join(stage->directory, GIS_STAGE_PREFIX "XXXXXX");
     gis_hold(); /* it is there, and known to be */
     bool made = mkdtemp(inside) != NULL;
@@ -93,17 +90,14 @@ bool gis_stage_make(gis_stage *stage, gis_error *error)
     stage->inside = inside;
     /* Held as long as this process lives: so the next one knows whether the stage is in use. */
     stage->lock = open(inside, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (stage->lock >= 0)
-        (void)flock(stage->lock, LOCK_EX | LOCK_NB);
+    if (stage->lock >= 0) (void)flock(stage->lock, LOCK_EX | LOCK_NB);
     return true;
 }
 
 void gis_stage_free(gis_stage *stage)
 {
-    if (!stage)
-        return;
-    if (stage->inside)
-        VSIRmdirRecursive(stage->inside);
+    if (!stage) return;
+    if (stage->inside) VSIRmdirRecursive(stage->inside);
     leave(stage);
     CPLFree(stage->directory);
     CPLFree(stage->main);
@@ -135,8 +129,7 @@ static bool write_all(int to, const char *bytes, size_t n)
 {
     while (n && !gis_interrupted()) {
         ssize_t put = write(to, bytes, n < PIECE ? n : PIECE);
-        if (put < 0)
-            return false;
+        if (put < 0) return false;
         bytes += put;
         n -= (size_t)put;
     }
@@ -148,8 +141,7 @@ static bool copy_bytes(int from, int to)
     char *buffer = malloc(PIECE);
     ssize_t got = -1;
     while (buffer && (got = read(from, buffer, PIECE)) > 0)
-        if (!write_all(to, buffer, (size_t)got))
-            break;
+        if (!write_all(to, buffer, (size_t)got)) break;
     free(buffer);
     return got == 0;
 }
@@ -157,8 +149,7 @@ static bool copy_bytes(int from, int to)
 static bool copy_file(const char *from, const char *to, mode_t mode, gis_error *error)
 {
     int in = open(from, O_RDONLY | O_CLOEXEC);
-    if (in < 0)
-        return gis_fail(error, "%s: cannot be read: %s", from, strerror(errno));
+    if (in < 0) return gis_fail(error, "%s: cannot be read: %s", from, strerror(errno));
     int out = open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode & 0777);
     bool done = out >= 0 && copy_bytes(in, out);
     int reason = errno;
@@ -177,17 +168,14 @@ enum { DEEPEST = 8 };
 static bool copy_tree(const char *from, const char *to, int depth, gis_error *error)
 {
     struct stat status;
-    if (stat(from, &status) != 0)
-        return gis_fail(error, "%s: %s", from, strerror(errno));
-    if (!S_ISDIR(status.st_mode))
-        return copy_file(from, to, status.st_mode, error);
+    if (stat(from, &status) != 0) return gis_fail(error, "%s: %s", from, strerror(errno));
+    if (!S_ISDIR(status.st_mode)) return copy_file(from, to, status.st_mode, error);
     if (depth > DEEPEST || mkdir(to, status.st_mode & 0777) != 0)
         return gis_fail(error, "%s: cannot be copied: %s", from, depth > DEEPEST ? "too deep" : strerror(errno));
     char **names = VSIReadDir(from);
     bool done = true;
     for (char **name = names; done && name && *name; name++) {
-        if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0)
-            continue;
+        if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0) continue;
         char *child = gis_join(from, *name), *copy = gis_join(to, *name);
         done = copy_tree(child, copy, depth + 1, error);
         CPLFree(child);
@@ -201,8 +189,7 @@ bool gis_stage_copy_in(gis_stage *stage, const char *path, gis_error *error)
 {
     char *to = gis_stage_inside(stage, CPLGetFilename(path));
     bool done = copy_tree(path, to, 0, error);
-    if (done)
-        gis_stage_supersede(stage, path);
+    if (done) gis_stage_supersede(stage, path);
     CPLFree(to);
     return done;
 }

@@ -31,13 +31,11 @@ static bool cannot_sync(int reason)
 /* A file must be on the disk before the rename is, else a crash could leave the name with nothing behind it. */
 static bool sync_path(const char *path, gis_error *error)
 {
-    if (!gis_go_on(error))
-        return false;
+    if (!gis_go_on(error)) return false;
     int file = open(path, O_RDONLY | O_CLOEXEC);
     bool done = file >= 0 && (fsync(file) == 0 || cannot_sync(errno));
     int reason = errno;
-    if (file >= 0)
-        close(file);
+    if (file >= 0) close(file);
     return done || gis_fail(error, "%s: cannot be brought to the disk: %s", path, strerror(reason));
 }
 
@@ -58,8 +56,7 @@ static bool sync_tree(const char *path, gis_error *error)
     char **names = is_directory(path) ? VSIReadDir(path) : NULL;
     bool done = true;
     for (char **name = names; done && name && *name; name++) {
-        if (is_dots(*name))
-            continue;
+        if (is_dots(*name)) continue;
         char *child = gis_join(path, *name);
         done = sync_tree(child, error);
         CPLFree(child);
@@ -80,8 +77,7 @@ static void record_name(FILE *file, const char *kind, const char *name)
 bool gis_stage_mark(const char *path, char mark[GIS_MARK_SIZE])
 {
     struct stat status;
-    if (lstat(path, &status) != 0)
-        return false;
+    if (lstat(path, &status) != 0) return false;
     snprintf(mark, GIS_MARK_SIZE, "%ju-%jd-%jd.%ld", (uintmax_t)status.st_ino, (intmax_t)status.st_size,
              (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
     return true;
@@ -103,10 +99,8 @@ static bool write_record(const gis_stage *stage, char **names, gis_error *error)
     FILE *file = fopen(path, "wx");
     if (file) {
         record_name(file, GIS_RECORD_MAIN, stage->main);
-        for (char **name = stage->superseded; name && *name; name++)
-            record_name(file, GIS_RECORD_OLD, *name);
-        for (char **name = names; *name; name++)
-            record_new(stage, file, *name);
+        for (char **name = stage->superseded; name && *name; name++) record_name(file, GIS_RECORD_OLD, *name);
+        for (char **name = names; *name; name++) record_new(stage, file, *name);
     }
     bool done = file && fflush(file) == 0 && !ferror(file) && (fsync(fileno(file)) == 0 || cannot_sync(errno));
     int reason = errno;
@@ -114,8 +108,7 @@ static bool write_record(const gis_stage *stage, char **names, gis_error *error)
         done = false;
         reason = errno;
     }
-    if (!done)
-        gis_fail(error, "%s: %s", path, strerror(reason));
+    if (!done) gis_fail(error, "%s: %s", path, strerror(reason));
     CPLFree(path);
     return done && sync_path(stage->inside, error) && sync_path(stage->directory, error);
 }
@@ -141,16 +134,12 @@ typedef struct journal {
 /* Without `replace` what came to this name in the meantime stays, in one step where the system has it. */
 static int rename_to(const char *from, const char *to, bool replace)
 {
-    if (replace)
-        return rename(from, to);
+    if (replace) return rename(from, to);
 #ifdef RENAME_NOREPLACE
-    if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
-        return 0;
-    if (errno != ENOSYS && errno != EINVAL)
-        return -1;
+    if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) return 0;
+    if (errno != ENOSYS && errno != EINVAL) return -1;
 #endif
-    if (!gis_there(to))
-        return rename(from, to);
+    if (!gis_there(to)) return rename(from, to);
     errno = EEXIST;
     return -1;
 }
@@ -168,8 +157,7 @@ static void close_journal(journal *log, bool undo)
 {
     while (log->n > 0) {
         renaming *last = &log->done[--log->n];
-        if (undo)
-            (void)!rename(last->to, last->from);
+        if (undo) (void)!rename(last->to, last->from);
         CPLFree(last->from);
         CPLFree(last->to);
     }
@@ -206,8 +194,7 @@ static bool put_all(const gis_stage *stage, char **names, bool main_in_one_step,
 {
     bool done = true;
     for (char **name = names; done && *name; name++)
-        if (strcmp(*name, stage->main) != 0)
-            done = put_in_place(stage, *name, false, log, error);
+        if (strcmp(*name, stage->main) != 0) done = put_in_place(stage, *name, false, log, error);
     if (done && CSLFindString(names, stage->main) >= 0)
         done = put_in_place(stage, stage->main, main_in_one_step, log, error);
     return done;
@@ -243,8 +230,7 @@ static char **staged_names(const gis_stage *stage)
     char **all = VSIReadDir(stage->inside), **names = CPLCalloc((size_t)CSLCount(all) + 1, sizeof *names);
     size_t n = 0;
     for (char **name = all; name && *name; name++)
-        if (!is_dots(*name))
-            names[n++] = CPLStrdup(*name);
+        if (!is_dots(*name)) names[n++] = CPLStrdup(*name);
     CSLDestroy(all);
     return names;
 }
@@ -270,8 +256,7 @@ static bool rename_all(const gis_stage *stage, char **names, bool in_one_step, g
     bool done = gis_go_on(error) && step_aside(stage, in_one_step, &log, error) &&
                 put_all(stage, names, in_one_step, &log, error);
     close_journal(&log, !done);
-    if (done)
-        gis_set_outcome(GIS_DECIDED);
+    if (done) gis_set_outcome(GIS_DECIDED);
     gis_release();
     return done;
 }

@@ -65,8 +65,7 @@ static void read_record(remains *found)
             read_line(found, line);
         }
     free(line);
-    if (file)
-        fclose(file);
+    if (file) fclose(file);
     CPLFree(path);
 }
 
@@ -87,8 +86,7 @@ static const char *fresh_name(const char *entry)
 static bool unfinished(const remains *found)
 {
     for (char **entry = found->fresh; entry && *entry; entry++)
-        if (is_in(found->inside, fresh_name(*entry)))
-            return true;
+        if (is_in(found->inside, fresh_name(*entry))) return true;
     return false;
 }
 
@@ -118,8 +116,7 @@ static bool bring_back(const remains *found, gis_error *error)
 {
     char *aside = gis_join(found->inside, GIS_STAGE_OLD);
     bool done = true;
-    for (char **entry = found->fresh; done && entry && *entry; entry++)
-        done = take_away(found, *entry, error);
+    for (char **entry = found->fresh; done && entry && *entry; entry++) done = take_away(found, *entry, error);
     for (char **name = found->old; done && name && *name; name++)
         done = !is_in(aside, *name) || move(aside, found->directory, *name, error);
     CPLFree(aside);
@@ -131,11 +128,9 @@ static void clear_away(const remains *found)
 {
     char **names = VSIReadDir(found->inside);
     for (char **name = names; name && *name; name++) {
-        if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0 || strcmp(*name, GIS_STAGE_RECORD) == 0)
-            continue;
+        if (strcmp(*name, ".") == 0 || strcmp(*name, "..") == 0 || strcmp(*name, GIS_STAGE_RECORD) == 0) continue;
         char *path = gis_join(found->inside, *name);
-        if (unlink(path) != 0)
-            VSIRmdirRecursive(path);
+        if (unlink(path) != 0) VSIRmdirRecursive(path);
         CPLFree(path);
     }
     CSLDestroy(names);
@@ -151,11 +146,9 @@ static bool settle(remains *found, const char *name, gis_list *said, gis_error *
                          found->inside);
         return true;
     }
-    if (strcmp(found->main, name) != 0)
-        return true;
+    if (strcmp(found->main, name) != 0) return true;
     bool half = unfinished(found);
-    if (half && !bring_back(found, error))
-        return false;
+    if (half && !bring_back(found, error)) return false;
     clear_away(found);
     if (half)
         gis_list_add(said, "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
@@ -176,8 +169,7 @@ static bool look_at(remains *found, const char *name, gis_list *said, gis_error 
             gis_list_add(said, "%s is in use, or left of a run that was killed while it put its files in place; the "
                          "former ones are in %s/%s: move them back", found->inside, found->inside, GIS_STAGE_OLD);
     }
-    if (lock >= 0)
-        close(lock);
+    if (lock >= 0) close(lock);
     return done;
 }
 
@@ -188,8 +180,7 @@ bool gis_stage_recover(const char *final_path, gis_list *said, gis_error *error)
     char **entries = VSIReadDir(directory);
     bool done = true;
     for (char **entry = entries; done && entry && *entry; entry++) {
-        if (strncmp(*entry, GIS_STAGE_PREFIX, strlen(GIS_STAGE_PREFIX)) != 0)
-            continue;
+        if (strncmp(*entry, GIS_STAGE_PREFIX, strlen(GIS_STAGE_PREFIX)) != 0) continue;
         remains found = {.directory = directory, .inside = gis_join(directory, *entry)};
         done = look_at(&found, name, said, error);
         forget(&found);

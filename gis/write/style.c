@@ -82,8 +82,7 @@ static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_
     bool done = run(dataset, sql, error);
     CPLFree(sql);
     CPLFree(now);
-    for (size_t i = 0; i < n; i++)
-        CPLFree(values[i]);
+    for (size_t i = 0; i < n; i++) CPLFree(values[i]);
     return done;
 }
 
@@ -92,8 +91,7 @@ static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_
 static OGRLayerH own_styles(const gis_source *source)
 {
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
-    if (!driver || !EQUAL(GDALGetDescription(driver), "GPKG"))
-        return NULL;
+    if (!driver || !EQUAL(GDALGetDescription(driver), "GPKG")) return NULL;
     char *name = quoted(OGR_L_GetName(gis_source_layer(source)));
     char *sql = CPLStrdup(CPLSPrintf("SELECT styleName, styleQML, styleSLD, description, owner FROM layer_styles "
                                      "WHERE f_table_name = %s AND owner IS NOT '" OURS "' ORDER BY id",
@@ -115,16 +113,13 @@ static bool copy_styles(GDALDatasetH dataset, OGRLayerH layer, const gis_source 
     bool done = true;
     for (OGRFeatureH each; done && styles && (each = OGR_L_GetNextFeature(styles)) != NULL; OGR_F_Destroy(each)) {
         char *texts[5];
-        for (int i = 0; i < 5; i++)
-            texts[i] = CPLStrdup(OGR_F_GetFieldAsString(each, i));
+        for (int i = 0; i < 5; i++) texts[i] = CPLStrdup(OGR_F_GetFieldAsString(each, i));
         row style = {texts[0], texts[1], texts[2], texts[3], texts[4], false};
         done = (*table_made || prepare_table(dataset, error)) && insert(dataset, layer, &style, error);
         *table_made = true;
-        for (int i = 0; i < 5; i++)
-            CPLFree(texts[i]);
+        for (int i = 0; i < 5; i++) CPLFree(texts[i]);
     }
-    if (styles)
-        GDALDatasetReleaseResultSet(gis_source_dataset(source), styles);
+    if (styles) GDALDatasetReleaseResultSet(gis_source_dataset(source), styles);
     return done;
 }
 

@@ -41,10 +41,8 @@ typedef enum kind { OF_POINTS, OF_LINES, OF_POLYGONS } kind;
 static kind kind_of(OGRwkbGeometryType type)
 {
     OGRwkbGeometryType flat = wkbFlatten(type);
-    if (flat == wkbPoint || flat == wkbMultiPoint)
-        return OF_POINTS;
-    if (OGR_GT_IsSubClassOf(flat, wkbCurve) || OGR_GT_IsSubClassOf(flat, wkbMultiCurve))
-        return OF_LINES;
+    if (flat == wkbPoint || flat == wkbMultiPoint) return OF_POINTS;
+    if (OGR_GT_IsSubClassOf(flat, wkbCurve) || OGR_GT_IsSubClassOf(flat, wkbMultiCurve)) return OF_LINES;
     return OF_POLYGONS;
 }
 
@@ -204,8 +202,7 @@ static void add_plain(text *to, kind of, const char *colour, const char *outline
 char *gis_style_qml(gis_style style, OGRwkbGeometryType type)
 {
     kind of = kind_of(type);
-    if (style == GIS_STYLE_NONE)
-        return NULL;
+    if (style == GIS_STYLE_NONE) return NULL;
     text to = {0};
     add(&to, "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
              "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
