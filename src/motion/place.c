@@ -205,7 +205,7 @@ sunder_i_big sunder_i_place_distance(sunder_i_arena *m, const sunder_i_place_at 
 {
     const sunder_i_big dx = sunder_i_big_sub(m, sunder_i_big_mul(m, b->x, a->w), sunder_i_big_mul(m, a->x, b->w));
     const sunder_i_big dy = sunder_i_big_sub(m, sunder_i_big_mul(m, b->y, a->w), sunder_i_big_mul(m, a->y, b->w));
-    const sunder_i_big square = sunder_i_big_add(m, sunder_i_big_mul(m, dx, dx), sunder_i_big_mul(m, dy, dy));
+    const sunder_i_big square = sunder_i_big_norm(m, dx, dy);
     const sunder_i_big w = sunder_i_big_mul(m, a->w, b->w);
     if (m->failed) return (sunder_i_big){NULL, 0};
     /* sqrt(4^bits square) / w, each floored: floor(floor(r) / w) = floor(r / w) for an integer w. */

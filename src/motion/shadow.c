@@ -6,12 +6,6 @@
 /* Far more than what turns and rays are rounded by (a few 2^-52), far less than a bin. */
 #define TURN_ROUNDING 0x1p-44
 
-double sunder_i_turn(double dx, double dy)
-{
-    const double t = dy / (fabs(dx) + fabs(dy));
-    return dx < 0 ? 2 - t : t < 0 ? 4 + t : t;
-}
-
 static double wrap(double turn) { return turn < 0 ? turn + 4 : turn >= 4 ? turn - 4 : turn; }
 
 double sunder_i_turn_between(double a, double b) { return wrap(wrap(b) - wrap(a)); }

@@ -8,6 +8,8 @@
 #ifndef SUNDER_I_SHADOW_H
 #define SUNDER_I_SHADOW_H
 
+#include "predicate/turn.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -28,8 +30,6 @@ typedef struct sunder_i_shadow {
     double depth[SUNDER_I_BINS];
 } sunder_i_shadow;
 
-/* The direction of (dx, dy), not both 0. */
-double sunder_i_turn(double dx, double dy);
 /* From direction a on to b, anticlockwise, in [0, 4). */
 double sunder_i_turn_between(double a, double b);
 /* The directions of n points around an eye at the origin, off by `error` each; false if they may be half of all, or

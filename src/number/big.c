@@ -218,6 +218,11 @@ sunder_i_big sunder_i_big_div_floor(sunder_i_arena *arena, sunder_i_big a, sunde
     return sunder_i_big_neg(q);
 }
 
+sunder_i_big sunder_i_big_norm(sunder_i_arena *arena, sunder_i_big x, sunder_i_big y)
+{
+    return sunder_i_big_add(arena, sunder_i_big_mul(arena, x, x), sunder_i_big_mul(arena, y, y));
+}
+
 sunder_i_big sunder_i_big_sqrt_floor(sunder_i_arena *arena, sunder_i_big a)
 {
     if (a.size <= 0) return zero;

@@ -39,6 +39,8 @@ sunder_i_big sunder_i_big_div_floor(sunder_i_arena *arena, sunder_i_big a, sunde
 sunder_i_big sunder_i_big_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder);
 /* floor(sqrt(a)), a >= 0. */
 sunder_i_big sunder_i_big_sqrt_floor(sunder_i_arena *arena, sunder_i_big a);
+/* x^2 + y^2. */
+sunder_i_big sunder_i_big_norm(sunder_i_arena *arena, sunder_i_big x, sunder_i_big y);
 /* Greatest common divisor, >= 0. */
 sunder_i_big sunder_i_big_gcd(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b);
 

@@ -26,17 +26,6 @@ static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32
     return list;
 }
 
-/* Squared distance of a point and a segment, in doubles. Coordinates are off by at most `error`, so the distance by
- * less than 8 times that. */
-static double end_square(const double p[2], const double a[2], const double b[2])
-{
-    const double ux = b[0] - a[0], uy = b[1] - a[1], square = ux * ux + uy * uy;
-    double t = square > 0 ? ((p[0] - a[0]) * ux + (p[1] - a[1]) * uy) / square : 0;
-    t = t > 0 ? t < 1 ? t : 1 : 0;
-    const double x = a[0] + t * ux - p[0], y = a[1] + t * uy - p[1];
-    return x * x + y * y;
-}
-
 typedef enum nearness { FAR, NEAR, IN_DOUBT } nearness;
 
 /* Is a point of edge i of P nearer than `units` to one of edge j of Q? The interiors are disjoint. In doubles. */
@@ -48,9 +37,10 @@ static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, ui
     if (fmin(a[0], b[0]) > fmax(c[0], d[0]) + reach || fmin(c[0], d[0]) > fmax(a[0], b[0]) + reach ||
         fmin(a[1], b[1]) > fmax(c[1], d[1]) + reach || fmin(c[1], d[1]) > fmax(a[1], b[1]) + reach)
         return FAR;
-    /* With disjoint interiors no two edges cross properly, so the least distance is at an end. */
-    const double square =
-        fmin(fmin(end_square(a, c, d), end_square(b, c, d)), fmin(end_square(c, a, b), end_square(d, a, b)));
+    /* With disjoint interiors no two edges cross properly, so the least distance is at an end; with coordinates off by
+     * at most the error it is off by less than 8 times that. */
+    const double square = fmin(fmin(sunder_i_point_square(a, c, d), sunder_i_point_square(b, c, d)),
+                               fmin(sunder_i_point_square(c, a, b), sunder_i_point_square(d, a, b)));
     const double distance = sqrt(square);
     return distance + doubt < units ? NEAR : distance - doubt > units ? FAR : IN_DOUBT;
 }

@@ -13,38 +13,26 @@ typedef struct interval {
     sunder_i_fraction low, high;
 } interval;
 
-typedef struct convex {
-    const uint32_t *corner;
-    const sunder_i_point *at;
-    const double *box;
-    uint32_t n;
-} convex;
-
-static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
-{
-    const sunder_shape *s = g->shape[side];
-    const uint32_t first = i ? s->piece_end[i - 1] : 0;
-    return (convex){s->piece_vertex + first, g->at[side], g->piece_box[side] + 4 * (size_t)i, s->piece_end[i] - first};
-}
-
-/* The part of the segment ab (t in [0, 1]) in the convex c; false if it has no length. Along a side of c the interior
- * may lie on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if `right` is
- * false. */
-static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, const convex *c, bool right, interval *out)
+/* The part of the segment ab (t in [0, 1]) in piece i of operand `side`; false if it has no length. Along a side of it
+ * the interior may lie on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if
+ * `right` is false. */
+static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int side, uint32_t i, bool right,
+                 interval *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const sunder_i_point d = sunder_i_point_sub(l, b, a);
+    const sunder_i_point d = sunder_i_point_sub(l, b, a), *at = g->at[side];
+    const sunder_i_operand_piece c = sunder_i_operands_piece(g, side, i);
     out->low = sunder_i_fraction_int(l, 0);
     out->high = sunder_i_fraction_int(l, 1);
-    for (uint32_t k = 0; k < c->n; k++) {
-        const sunder_i_point u = c->at[c->corner[k]], v = c->at[c->corner[k + 1 < c->n ? k + 1 : 0]];
+    for (uint32_t k = 0; k < c.n; k++) {
+        const sunder_i_point u = at[c.corner[k]], v = at[sunder_i_piece_next(&c, k)];
         const sunder_i_point s = sunder_i_point_sub(l, v, u);
         const int turn = sunder_i_cross_sign(l, s, d);
         if (turn == 0) {
-            const int side = sunder_i_orient(l, u, v, a);
+            const int where = sunder_i_orient(l, u, v, a);
             /* On the line of the side: the convex set is on the side's left, so on the right of ab if they run
              * opposite. */
-            if (side < 0 || (side == 0 && !(right && sunder_i_dot_sign(l, s, d) < 0))) return false;
+            if (where < 0 || (where == 0 && !(right && sunder_i_dot_sign(l, s, d) < 0))) return false;
             continue;
         }
         const sunder_i_fraction t = sunder_i_crossing(l, a, b, u, v);
@@ -83,20 +71,20 @@ static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const 
     return sunder_i_fraction_cmp(l, &reached, &want->high) >= 0;
 }
 
-/* Is the right side of edge e of Q, as far as it runs inside c, in Q? */
-static bool edge_harmless(sunder_i_operands *g, const convex *c, uint32_t e, interval *buffer)
+/* Is the right side of edge e of Q, as far as it runs inside piece i of P, in Q? */
+static bool edge_harmless(sunder_i_operands *g, uint32_t i, uint32_t e, interval *buffer)
 {
     const sunder_shape *q = g->shape[1];
     const uint32_t next = q->next[e];
     const double *ax = g->xy[1] + 2 * e, *bx = g->xy[1] + 2 * next;
     const sunder_i_point a = g->at[1][e], b = g->at[1][next];
     interval want;
-    if (box_misses(c->box, ax, bx, g->error) || !clip(g, a, b, c, false, &want)) return true;
+    if (box_misses(g->piece_box[0] + 4 * (size_t)i, ax, bx, g->error) || !clip(g, a, b, 0, i, false, &want))
+        return true;
     uint32_t n = 0;
-    for (uint32_t j = 0; j < q->pieces; j++) {
-        const convex d = piece_of(g, 1, j);
-        if (!box_misses(d.box, ax, bx, g->error) && clip(g, a, b, &d, true, buffer + n)) n++;
-    }
+    for (uint32_t j = 0; j < q->pieces; j++)
+        if (!box_misses(g->piece_box[1] + 4 * (size_t)j, ax, bx, g->error) && clip(g, a, b, 1, j, true, buffer + n))
+            n++;
     return intervals_cover(&g->placed.lattice, buffer, n, &want);
 }
 
@@ -106,9 +94,8 @@ static bool piece_contained(sunder_i_operands *g, uint32_t i, interval *buffer)
     bool meets = false;
     for (uint32_t j = 0; j < q->pieces && !meets; j++) meets = sunder_i_pieces_overlap(g, i, j);
     if (!meets) return false;
-    const convex c = piece_of(g, 0, i);
     for (uint32_t e = 0; e < q->vertices; e++)
-        if (!edge_harmless(g, &c, e, buffer)) return false;
+        if (!edge_harmless(g, i, e, buffer)) return false;
     return true;
 }
 

@@ -210,16 +210,12 @@ static void link_ends(sunder_i_operands *g, const link *k, double on_p[2], doubl
  */
 static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector *buffer)
 {
-    const sunder_shape *p = g->shape[0], *q = g->shape[1];
-    const uint32_t first = i ? p->piece_end[i - 1] : 0, from = j ? q->piece_end[j - 1] : 0;
-    uint32_t n = p->piece_end[i] - first;
-    vector *now = buffer, *then = buffer + (n + q->piece_end[j] - from + 2);
-    for (uint32_t k = 0; k < n; k++) {
-        const uint32_t v = p->piece_vertex[first + k];
-        now[k] = (vector){g->xy[0][2 * v], g->xy[0][2 * v + 1]};
-    }
-    for (uint32_t m = from; m < q->piece_end[j]; m++) {
-        const uint32_t a = q->piece_vertex[m], b = q->piece_vertex[m + 1 < q->piece_end[j] ? m + 1 : from];
+    const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);
+    uint32_t n = p.n;
+    vector *now = buffer, *then = buffer + (n + q.n + 2);
+    for (uint32_t k = 0; k < n; k++) now[k] = (vector){g->xy[0][2 * p.corner[k]], g->xy[0][2 * p.corner[k] + 1]};
+    for (uint32_t m = 0; m < q.n; m++) {
+        const uint32_t a = q.corner[m], b = sunder_i_piece_next(&q, m);
         const double ax = g->xy[1][2 * a], ay = g->xy[1][2 * a + 1];
         const double ux = g->xy[1][2 * b] - ax, uy = g->xy[1][2 * b + 1] - ay;
         uint32_t kept = 0;

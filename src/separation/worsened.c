@@ -28,15 +28,6 @@ static bool is_less(sunder_i_arena *a, const square *p, const square *q)
 
 /* ---- Disjoint: distances ---- */
 
-/* Of point c from the edge ab, in doubles. */
-static double end_distance(const double *c, const double *a, const double *b)
-{
-    const double e[2] = {b[0] - a[0], b[1] - a[1]}, v[2] = {c[0] - a[0], c[1] - a[1]};
-    const double long_square = e[0] * e[0] + e[1] * e[1];
-    const double s = long_square > 0 ? fmin(1, fmax(0, (v[0] * e[0] + v[1] * e[1]) / long_square)) : 0;
-    return hypot(v[0] - s * e[0], v[1] - s * e[1]);
-}
-
 /* The squared distance of vertex v of one operand from an edge of the other, exactly. */
 static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t edge)
 {
@@ -74,8 +65,8 @@ static square least_square(sunder_i_operands *g)
             for (uint32_t v = 0; v < g->shape[side]->vertices; v++)
                 for (uint32_t e = 0; e < g->shape[1 - side]->vertices; e++) {
                     const double *xy = g->xy[1 - side];
-                    const double d =
-                        end_distance(g->xy[side] + 2 * v, xy + 2 * e, xy + 2 * g->shape[1 - side]->next[e]);
+                    const double d = sqrt(
+                        sunder_i_point_square(g->xy[side] + 2 * v, xy + 2 * e, xy + 2 * g->shape[1 - side]->next[e]));
                     if (pass == 0) least = fmin(least, d);
                     if (pass == 0 || d > most) continue;
                     const square s = end_square(g, side, v, e);

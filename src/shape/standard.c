@@ -97,14 +97,14 @@ static bool is_proved(const disc *d, sunder_i_arena *arena)
         const sunder_i_big px = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[0], 0));
         const sunder_i_big py = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, p[1], 0));
         if (d->inside) {
-            const sunder_i_big pp = sunder_i_big_add(a, sunder_i_big_mul(a, px, px), sunder_i_big_mul(a, py, py));
+            const sunder_i_big pp = sunder_i_big_norm(a, px, py);
             good = sunder_i_big_cmp(pp, rr) <= 0;
         } else {
             const sunder_i_big qx = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[0], 0));
             const sunder_i_big qy = sunder_i_lattice_get(&l, sunder_i_lattice_int(&l, q[1], 0));
             const sunder_i_big cross = sunder_i_big_sub(a, sunder_i_big_mul(a, px, qy), sunder_i_big_mul(a, py, qx));
             const sunder_i_big dx = sunder_i_big_sub(a, qx, px), dy = sunder_i_big_sub(a, qy, py);
-            const sunder_i_big length = sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy));
+            const sunder_i_big length = sunder_i_big_norm(a, dx, dy);
             good = sunder_i_big_sign(cross) > 0 &&
                    sunder_i_big_cmp(sunder_i_big_mul(a, cross, cross), sunder_i_big_mul(a, rr, length)) >= 0;
         }

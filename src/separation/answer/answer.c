@@ -128,11 +128,6 @@ static void slow_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long ex
     *down = sunder_i_big_ratio_down(a, twice, one, exponent - k - 1);
 }
 
-static sunder_i_big big_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big y)
-{
-    return sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
-}
-
 void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -145,7 +140,7 @@ void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *
     big_parts(g, v, &x, &y, &w);
     out->dx = sunder_i_big_ratio(&l->arena, x, w, e);
     out->dy = sunder_i_big_ratio(&l->arena, y, w, e);
-    slow_root(&l->arena, big_norm(&l->arena, x, y), w, e, &out->distance, &out->lower_bound);
+    slow_root(&l->arena, sunder_i_big_norm(&l->arena, x, y), w, e, &out->distance, &out->lower_bound);
 }
 
 /* ---- Texts ---- */
@@ -267,7 +262,7 @@ static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
     }
     sunder_i_big x, y, w;
     big_parts(g, v, &x, &y, &w);
-    return sunder_i_big_ratio_text(&l->arena, big_norm(&l->arena, x, y), sunder_i_big_mul(&l->arena, w, w),
+    return sunder_i_big_ratio_text(&l->arena, sunder_i_big_norm(&l->arena, x, y), sunder_i_big_mul(&l->arena, w, w),
                                    2 * l->exponent);
 }
 

@@ -2,6 +2,7 @@
 #include "separation/gap/search.h"
 
 #include "base/watch.h"
+#include "separation/operands/fan.h"
 
 #include <float.h>
 #include <math.h>
@@ -95,24 +96,25 @@ double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_pie
     return least < 0 ? 0 : sqrt(least);
 }
 
+/* How far the point stands out over side i. */
+static double height_over(const sunder_i_gap_piece *r, uint32_t i, double x, double y)
+{
+    return (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
+}
+
 /* How far the point stands out over the side that it is farthest outside of, good to `error`: nothing is nearer than
  * that, and if it is negative the point is inside. */
 static double out_by(const sunder_i_gap_piece *r, double x, double y)
 {
     double most = -INFINITY;
     for (uint32_t i = 0; i < r->n; i++) {
-        const double h = (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
+        const double h = height_over(r, i, x, y);
         if (h > most) most = h;
     }
     return most;
 }
 
 /* ---- Of many sides ---- */
-
-static double height_over(const sunder_i_gap_piece *r, uint32_t i, double x, double y)
-{
-    return (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
-}
 
 /* How far the point is at least on the left (turn 1) or the right (-1) of the diagonal from the lowest corner to corner
  * i, but for the error of a height. A diagonal is a difference of rounded corners, off by 2 * 8 u M a coordinate, 23 u
@@ -124,20 +126,16 @@ static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_pi
     return (turn * (dx * vy - dy * vx) - s->error * (fabs(vx) + fabs(vy))) / sunder_i_gap_length(dx, dy);
 }
 
-/* Where the point is for certain, by one triangle of the fan from the lowest corner: whoever is deep in it is as deep
- * in the piece, and whoever stands far out over one side is as far from it. */
-typedef enum whereabouts { DEEP_INSIDE, FAR_OUT, NEAR } whereabouts;
-
-static whereabouts by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y,
-                               double deep, double far, uint32_t *side)
+/* By one triangle of the fan: whoever is deep in it is as deep in the piece, and whoever stands far out over one side
+ * is as far from it. */
+static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y,
+                                       double deep, double far, uint32_t *side)
 {
-    const uint32_t low = sunder_i_subsum_fan(r->n, r->cx, r->cy, x, y), high = low + 1;
-    const double across = height_over(r, low, x, y);
-    const double left = low == 1 ? height_over(r, 0, x, y) : -beside_diagonal(s, r, low, x, y, 1);
-    const double right = high == r->n - 1 ? height_over(r, high, x, y) : -beside_diagonal(s, r, high, x, y, -1);
-    *side = low;
-    if (across > far || (low == 1 && left > far) || (high == r->n - 1 && right > far)) return FAR_OUT;
-    return across < -deep && left < -deep && right < -deep ? DEEP_INSIDE : NEAR;
+    const sunder_i_fan fan = sunder_i_fan_at(r->n, r->cx, r->cy, x, y);
+    const uint32_t low = *side = fan.low, high = low + 1;
+    const double left = fan.first ? height_over(r, 0, x, y) : -beside_diagonal(s, r, low, x, y, 1);
+    const double right = fan.last ? height_over(r, high, x, y) : -beside_diagonal(s, r, high, x, y, -1);
+    return sunder_i_fan_says(&fan, (double[3]){height_over(r, low, x, y), left, right}, deep, far);
 }
 
 /* Is side i nearer than that for certain, its ends included? Then so is the piece. */
@@ -156,8 +154,8 @@ bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, do
     const double doubt = s->margin + slack;
     if (r->n >= SUNDER_I_SIDES_MANY) {
         uint32_t side;
-        const whereabouts where = by_triangle(s, r, x, y, doubt, s->gap + doubt, &side);
-        if (where != NEAR) return where == DEEP_INSIDE;
+        const sunder_i_fan_answer where = by_triangle(s, r, x, y, doubt, s->gap + doubt, &side);
+        if (where != SUNDER_I_FAN_DOUBT) return where == SUNDER_I_FAN_INSIDE;
         if (side_is_near(r, side, x, y, s->gap - doubt)) return true;
     }
     const double out = out_by(r, x, y);
@@ -204,8 +202,9 @@ long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
 static bool is_deep(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y, double deep)
 {
     uint32_t side;
-    const whereabouts where = r->n >= SUNDER_I_SIDES_MANY ? by_triangle(s, r, x, y, deep, deep, &side) : NEAR;
-    return where == NEAR ? out_by(r, x, y) < -deep : where == DEEP_INSIDE;
+    const sunder_i_fan_answer where =
+        r->n >= SUNDER_I_SIDES_MANY ? by_triangle(s, r, x, y, deep, deep, &side) : SUNDER_I_FAN_DOUBT;
+    return where == SUNDER_I_FAN_DOUBT ? out_by(r, x, y) < -deep : where == SUNDER_I_FAN_INSIDE;
 }
 
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)

@@ -43,9 +43,7 @@ static bool find_centers(sunder_i_gap_problem *p)
 /* The way out along each axis, and the gap. */
 static double way_out(const sunder_i_operands *g, double gap)
 {
-    double d = INFINITY;
-    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
-    return (d + gap) * (1 + 0x1p-40) + 64 * g->error;
+    return (sunder_i_operands_way_out(g) + gap) * (1 + 0x1p-40) + 64 * g->error;
 }
 
 /* Does every subsum keep the gap from the origin? */
@@ -125,11 +123,7 @@ static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
     const sunder_i_operands whole = *g;
     bool done;
     if (!sunder_i_operands_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
-    for (int k = 0; k < 2 && !done; k++) {
-        g->shape[k] = whole.shape[k];
-        g->piece_box[k] = whole.piece_box[k];
-        g->ring[k] = whole.ring[k];
-    }
+    if (!done) sunder_i_operands_uncut(g, &whole);
     return true;
 }
 

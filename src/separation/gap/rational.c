@@ -146,7 +146,7 @@ static void unit_normal(sunder_i_gap_state *s, const sunder_i_surd_point *at, co
     const sunder_i_surd part[2] = {exact.x, exact.y};
     if (c->flat) {
         const sunder_i_big x = part[0].part[0], y = part[1].part[0];
-        const sunder_i_big square = sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
+        const sunder_i_big square = sunder_i_big_norm(a, x, y);
         const sunder_i_big length = sunder_i_big_sqrt_floor(a, sunder_i_big_shl(a, square, 2 * bits));
         for (int k = 0; k < 2; k++)
             n[k] = sunder_i_big_div_floor(a, sunder_i_big_shl(a, part[k].part[0], 2 * bits), length);

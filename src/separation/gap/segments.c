@@ -4,6 +4,8 @@
  * the margin, the way goes on from there: exactly, subsum by subsum, until certain steps are possible again. */
 #include "separation/gap/search.h"
 
+#include "separation/operands/fan.h"
+
 #include <math.h>
 
 typedef struct moved {

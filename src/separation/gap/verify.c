@@ -14,19 +14,6 @@ typedef struct checking {
     double at[2], gap, doubt;
 } checking;
 
-typedef struct convex {
-    int side; /* whose: 0 P's, 1 Q's */
-    const uint32_t *corner;
-    uint32_t n;
-} convex;
-
-static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
-{
-    const sunder_shape *s = g->shape[side];
-    const uint32_t first = i ? s->piece_end[i - 1] : 0;
-    return (convex){side, s->piece_vertex + first, s->piece_end[i] - first};
-}
-
 /* A side of one piece, from which corners of the other are seen: q + t - p = t - (p + (-q)), for the operands have Q
  * reflected; seen from Q all is reflected in t / 2. */
 typedef struct side {
@@ -34,13 +21,13 @@ typedef struct side {
     double x, y, dx, dy, length; /* t - a, d, |d| */
 } side;
 
-static side side_of(const checking *c, const convex *p, uint32_t k)
+static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t k)
 {
     const sunder_i_lattice *l = &c->g->placed.lattice;
     const sunder_i_point *at = c->g->at[p->side];
     const double *a = c->g->xy[p->side] + 2 * p->corner[k];
     side s = {.a = at[p->corner[k]], .x = c->at[0] - a[0], .y = c->at[1] - a[1]};
-    s.d = sunder_i_operands_diff(c->g, at[p->corner[k + 1 < p->n ? k + 1 : 0]], s.a);
+    s.d = sunder_i_operands_diff(c->g, at[sunder_i_piece_next(p, k)], s.a);
     s.dx = sunder_i_approx(l, s.d.x);
     s.dy = sunder_i_approx(l, s.d.y);
     s.length = sqrt(s.dx * s.dx + s.dy * s.dy);
@@ -48,14 +35,14 @@ static side side_of(const checking *c, const convex *p, uint32_t k)
 }
 
 /* How far the corner stands out over the side's line. */
-static double height(const checking *c, const side *s, const convex *q, uint32_t m)
+static double height(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double *b = c->g->xy[q->side] + 2 * q->corner[m];
     return (s->dy * (s->x - b[0]) - s->dx * (s->y - b[1])) / s->length;
 }
 
 /* Is its distance from the side above the gap for certain? */
-static bool certainly_off(const checking *c, const side *s, const convex *q, uint32_t m)
+static bool certainly_off(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double h = height(c, s, q, m), reach = c->gap + c->doubt;
     if (fabs(h) > reach) return true;
@@ -69,7 +56,7 @@ typedef struct exact {
     sunder_i_big over;                      /* all that in units that divide the lattice's by this */
 } exact;
 
-static exact exactly(const checking *c, const side *s, const convex *q, uint32_t m)
+static exact exactly(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     sunder_i_lattice *l = &c->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
@@ -83,12 +70,11 @@ static exact exactly(const checking *c, const side *s, const convex *q, uint32_t
     const sunder_i_big dx = sunder_i_times(a, d.x, at.w), dy = sunder_i_times(a, d.y, at.w);
     return (exact){sunder_i_big_sub(a, sunder_i_big_mul(a, dx, y), sunder_i_big_mul(a, dy, x)),
                    sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y)),
-                   sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y)),
-                   sunder_i_big_add(a, sunder_i_big_mul(a, dx, dx), sunder_i_big_mul(a, dy, dy)), over};
+                   sunder_i_big_norm(a, x, y), sunder_i_big_norm(a, dx, dy), over};
 }
 
 /* Is the corner no nearer than the gap to the side, its second end aside (that is the next side's first)? */
-static bool keeps_off(const checking *c, const side *s, const convex *q, uint32_t m)
+static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     if (certainly_off(c, s, q, m)) return true;
     sunder_i_arena *a = &c->g->placed.lattice.arena;
@@ -107,7 +93,7 @@ static bool keeps_off(const checking *c, const side *s, const convex *q, uint32_
 }
 
 /* Is the corner on the right of the side's line, or on it? */
-static bool is_outside(const checking *c, const side *s, const convex *q, uint32_t m)
+static bool is_outside(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double h = height(c, s, q, m);
     if (h > c->doubt) return true;
@@ -123,7 +109,7 @@ typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
 
 /* Does a side of p have all of q on its right? *by: one that has; of those that have them by more than the gap for
  * certain, so that there is no more to ask, if there are any. */
-static parting side_parts(const checking *c, const convex *p, const convex *q, side *by)
+static parting side_parts(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q, side *by)
 {
     bool parts = false;
     for (uint32_t k = 0; k < p->n; k++) {
@@ -145,7 +131,8 @@ typedef struct close_by {
     uint32_t *p, *q, pn, qn;
 } close_by;
 
-static close_by find_close(const checking *c, const convex *p, const convex *q, const side *by)
+static close_by find_close(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q,
+                           const side *by)
 {
     close_by b = {sunder_i_arena_alloc(&c->g->placed.lattice.arena, (size_t)p->n + q->n, sizeof *b.p), NULL, 0, 0};
     if (!b.p) return b;
@@ -162,7 +149,8 @@ static close_by find_close(const checking *c, const convex *p, const convex *q, 
     return b;
 }
 
-static bool corners_keep_off(const checking *c, const convex *p, const convex *q, const uint32_t *corner, uint32_t n)
+static bool corners_keep_off(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q,
+                             const uint32_t *corner, uint32_t n)
 {
     for (uint32_t k = 0; k < p->n; k++) {
         const side s = side_of(c, p, k);
@@ -172,12 +160,12 @@ static bool corners_keep_off(const checking *c, const convex *p, const convex *q
     return true;
 }
 
-static bool pieces_apart(const checking *c, const convex *p, const convex *q)
+static bool pieces_apart(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q)
 {
     side by;
     parting how = side_parts(c, p, q, &by);
     if (how == PARTED_NOT) {
-        const convex *other = p;
+        const sunder_i_operand_piece *other = p;
         p = q;
         q = other;
         how = side_parts(c, p, q, &by);
@@ -203,13 +191,13 @@ bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_surd_poin
     const double reach = p->gap_units * (1 + 0x1p-50) + 4 * g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
         const double *a = g->piece_box[0] + 4 * (size_t)i;
-        const convex u = piece_of(g, 0, i);
+        const sunder_i_operand_piece u = sunder_i_operands_piece(g, 0, i);
         for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
             const double *b = g->piece_box[1] + 4 * (size_t)j, x = c.at[0], y = c.at[1];
             if (x < a[0] + b[0] - reach || x > a[2] + b[2] + reach || y < a[1] + b[1] - reach ||
                 y > a[3] + b[3] + reach)
                 continue;
-            const convex v = piece_of(g, 1, j);
+            const sunder_i_operand_piece v = sunder_i_operands_piece(g, 1, j);
             if (!pieces_apart(&c, &u, &v)) return false;
         }
     }

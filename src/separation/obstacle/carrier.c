@@ -1,5 +1,6 @@
 #include "separation/obstacle/carrier.h"
 #include "separation/obstacle/board.h"
+#include "separation/operands/fan.h"
 
 #include <math.h>
 
@@ -99,16 +100,13 @@ static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double 
     return v > bound ? 1 : v < -bound ? -1 : 0;
 }
 
-/* Is the point inside, 1, or not, -1? 0 where doubles do not say. Whoever is for certain in a triangle of corners is
- * inside, and whoever is for certain on the right of a side is not. */
-static int inside_fan(const sunder_i_subsum *s, double x, double y, double e)
+static sunder_i_fan_answer inside_fan(const sunder_i_subsum *s, double x, double y, double e)
 {
-    const uint32_t low = sunder_i_subsum_fan(s->sides, s->cx, s->cy, x, y), high = low + 1;
-    const int across = side_says(s, low, x, y);
-    const int left = low == 1 ? side_says(s, 0, x, y) : diagonal_says(s, low, x, y, e);
-    const int right = high == s->sides - 1 ? side_says(s, high, x, y) : -diagonal_says(s, high, x, y, e);
-    if (across < 0 || (low == 1 && left < 0) || (high == s->sides - 1 && right < 0)) return -1;
-    return across > 0 && left > 0 && right > 0;
+    const sunder_i_fan fan = sunder_i_fan_at(s->sides, s->cx, s->cy, x, y);
+    const uint32_t low = fan.low, high = low + 1;
+    const int left = fan.first ? side_says(s, 0, x, y) : diagonal_says(s, low, x, y, e);
+    const int right = fan.last ? side_says(s, high, x, y) : -diagonal_says(s, high, x, y, e);
+    return sunder_i_fan_says(&fan, (double[3]){-side_says(s, low, x, y), -left, -right}, 0, 0);
 }
 
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
@@ -116,8 +114,8 @@ static bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sun
                    const sunder_i_subsum *s)
 {
     if (s->sides >= SUNDER_I_SIDES_MANY) {
-        const int where = inside_fan(s, x, y, g->error);
-        if (where != 0) return where > 0;
+        const sunder_i_fan_answer where = inside_fan(s, x, y, g->error);
+        if (where != SUNDER_I_FAN_DOUBT) return where == SUNDER_I_FAN_INSIDE;
     }
     g->placed.lattice.counts.orientation_tests += s->sides;
     bool certain = true;

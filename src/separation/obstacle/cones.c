@@ -3,6 +3,8 @@
  * that meet some edge of its sector: of a round outline one or two. */
 #include "separation/obstacle/cones.h"
 
+#include "predicate/turn.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -40,13 +42,6 @@ static bool make_room(sunder_i_operands *g, uint32_t n, sunder_i_cones *c)
 
 /* ---- Sectors ---- */
 
-/* From 0 to 4, growing with the angle, no faster than it. */
-static double turn_of(double x, double y)
-{
-    const double t = y / (fabs(x) + fabs(y));
-    return x < 0 ? 2 - t : t < 0 ? 4 + t : t;
-}
-
 /* How uncertain the direction of a difference of two vertices is; a quotient by zero, which is so, too. */
 static double turn_error(const sunder_i_operands *g, double x, double y) { return 4 * g->coarse / (fabs(x) + fabs(y)); }
 
@@ -56,8 +51,8 @@ static uint32_t sectors_of(const sunder_i_operands *g, const sunder_i_cones *c, 
 {
     const double error = turn_error(g, c->in_x[k], c->in_y[k]) + turn_error(g, c->out_x[k], c->out_y[k]);
     const double slack = 2 * TURN_SLACK + error;
-    const double from = turn_of(c->in_x[k], c->in_y[k]) - slack;
-    double width = turn_of(c->out_x[k], c->out_y[k]) + slack - from;
+    const double from = sunder_i_turn(c->in_x[k], c->in_y[k]) - slack;
+    double width = sunder_i_turn(c->out_x[k], c->out_y[k]) + slack - from;
     if (width < 0) width += 4;
     *n = sectors;
     if (!(slack < 0.25) || width >= 4) return 0;
@@ -142,7 +137,7 @@ uint32_t sunder_i_cones_met(const sunder_i_operands *g, const sunder_i_cones *c,
     uint32_t n = 0;
     /* Without branches: which corners pass is anyone's guess. */
     if (c->sectors && turn_error(g, dx, dy) < TURN_SLACK) {
-        const uint32_t at = (uint32_t)(turn_of(dx, dy) * (c->sectors / 4.0)) % c->sectors;
+        const uint32_t at = (uint32_t)(sunder_i_turn(dx, dy) * (c->sectors / 4.0)) % c->sectors;
         const uint32_t first = at ? c->sector_end[at - 1] : 0, last = c->sector_end[at];
         for (uint32_t i = first; i < last; i++) {
             met[n] = c->sector[i];

@@ -15,16 +15,6 @@ typedef struct sunder_i_candidates {
     size_t n, capacity;
 } sunder_i_candidates;
 
-/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
- * distance itself is good to 4 times the operands' error. */
-static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
-{
-    double t = -(ax * dx + ay * dy) * inverse;
-    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
-    const double x = ax + t * dx, y = ay + t * dy;
-    return x * x + y * y;
-}
-
 /* Adds a candidate; order() then makes a heap of them all. */
 bool sunder_i_candidates_push(sunder_i_operands *operands, sunder_i_candidates *heap, sunder_i_candidate candidate);
 void sunder_i_candidates_order(sunder_i_candidates *heap);

@@ -58,6 +58,15 @@ static bool cut_operand(sunder_i_operands *g, int side)
 
 bool sunder_i_operands_cut(sunder_i_operands *g) { return cut_operand(g, 0) && cut_operand(g, 1); }
 
+void sunder_i_operands_uncut(sunder_i_operands *g, const sunder_i_operands *before)
+{
+    for (int k = 0; k < 2; k++) {
+        g->shape[k] = before->shape[k];
+        g->piece_box[k] = before->piece_box[k];
+        g->ring[k] = before->ring[k];
+    }
+}
+
 static uint64_t parts_of(const sunder_shape *s)
 {
     uint64_t parts = 0;

@@ -210,6 +210,13 @@ sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p
 
 void sunder_i_operands_free(sunder_i_operands *operands) { sunder_i_placed_free(&operands->placed); }
 
+double sunder_i_operands_way_out(const sunder_i_operands *g)
+{
+    double d = INFINITY;
+    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
+    return d;
+}
+
 /* Is a + s + gap <= b + t for certain? Each double sum is off by at most an ulp of its larger operand. */
 static bool certainly_below(double a, double s, double b, double t, double gap)
 {

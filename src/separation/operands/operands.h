@@ -65,6 +65,8 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side);
 
 /* Cuts up the pieces that have many corners (cut_pieces.c); false if memory is out. */
 bool sunder_i_operands_cut(sunder_i_operands *operands);
+/* And takes those that there were before again. */
+void sunder_i_operands_uncut(sunder_i_operands *operands, const sunder_i_operands *before);
 /* About how many pairs of pieces there would be then. */
 uint64_t sunder_i_operands_parts(const sunder_i_operands *operands);
 
@@ -77,6 +79,9 @@ bool sunder_i_pieces_overlap(sunder_i_operands *operands, uint32_t i, uint32_t j
 /* Do the interiors of any two? False too if memory is out. */
 bool sunder_i_operands_overlap(sunder_i_operands *operands);
 
+/* The shortest way out of the sum of the boxes along an axis, which is free. Q is reflected. */
+double sunder_i_operands_way_out(const sunder_i_operands *operands);
+
 /* Lists the subsums whose boxes come within `radius` units of the origin (none is made yet). False if memory is out. */
 bool sunder_i_operands_reach(sunder_i_operands *operands, double radius);
 /* Turns all pieces at once, which is done for each when it is wanted else; false if memory is out. */
@@ -84,22 +89,41 @@ bool sunder_i_operands_turn(sunder_i_operands *operands);
 /* Makes the corners of one; false if memory is out. */
 bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum);
 
-/* Subsums of so many sides are searched by halving; the sides of others are looked at one by one. */
-#define SUNDER_I_SIDES_MANY 24
+/* A piece of an operand: its corners, counter-clockwise, as numbers of vertices. */
+typedef struct sunder_i_operand_piece {
+    int side; /* whose: 0 P's, 1 Q's */
+    const uint32_t *corner;
+    uint32_t n;
+} sunder_i_operand_piece;
 
-/* In doubles, and so only nearly: the triangle of the fan from corner 0 that (x, y) stands in, or over whose side away
- * from that corner it stands; k is returned for corners 0, k, k + 1. */
-static inline uint32_t sunder_i_subsum_fan(uint32_t sides, const double *cx, const double *cy, double x, double y)
+static inline sunder_i_operand_piece sunder_i_operands_piece(const sunder_i_operands *g, int side, uint32_t i)
 {
-    uint32_t low = 1, high = sides - 1;
-    while (high - low > 1) {
-        const uint32_t k = low + (high - low) / 2;
-        if ((cx[k] - cx[0]) * (y - cy[0]) - (cy[k] - cy[0]) * (x - cx[0]) >= 0)
-            low = k;
-        else
-            high = k;
-    }
-    return low;
+    const sunder_shape *s = g->shape[side];
+    const uint32_t first = i ? s->piece_end[i - 1] : 0;
+    return (sunder_i_operand_piece){side, s->piece_vertex + first, s->piece_end[i] - first};
+}
+
+/* The corner after the k-th. */
+static inline uint32_t sunder_i_piece_next(const sunder_i_operand_piece *piece, uint32_t k)
+{
+    return piece->corner[k + 1 < piece->n ? k + 1 : 0];
+}
+
+/* The squared distance of the origin from the segment from (ax, ay) in direction (dx, dy); inverse = 1 / |d|^2. The
+ * distance itself is good to 4 times the operands' error, if it is that of a sum of vertices from such a segment. */
+static inline double sunder_i_segment_square(double ax, double ay, double dx, double dy, double inverse)
+{
+    double t = -(ax * dx + ay * dy) * inverse;
+    t = t > 0 ? t < 1 ? t : 1 : 0; /* 0 too where a length is lost in the doubles */
+    const double x = ax + t * dx, y = ay + t * dy;
+    return x * x + y * y;
+}
+
+/* Of point c from the segment ab. */
+static inline double sunder_i_point_square(const double c[2], const double a[2], const double b[2])
+{
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    return sunder_i_segment_square(a[0] - c[0], a[1] - c[1], dx, dy, 1 / (dx * dx + dy * dy));
 }
 
 static inline sunder_i_point sunder_i_operands_diff(sunder_i_operands *g, sunder_i_point a, sunder_i_point b)

@@ -6,21 +6,19 @@
 /* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
 static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
 {
-    const sunder_shape *s = g->shape[side], *o = g->shape[!side];
-    const uint32_t *c = s->piece_vertex, *d = o->piece_vertex;
-    const uint32_t first = i ? s->piece_end[i - 1] : 0, last = s->piece_end[i];
-    const uint32_t from = j ? o->piece_end[j - 1] : 0, to = o->piece_end[j];
+    const sunder_i_operand_piece p = sunder_i_operands_piece(g, side, i), q = sunder_i_operands_piece(g, !side, j);
+    const sunder_i_point *at = g->at[side], *other = g->at[!side];
     sunder_i_lattice *l = &g->placed.lattice;
-    for (uint32_t k = first; k < last; k++) {
-        const sunder_i_point a = g->at[side][c[k]], b = g->at[side][c[k + 1 < last ? k + 1 : first]];
-        uint32_t m = from;
+    for (uint32_t k = 0; k < p.n; k++) {
+        const sunder_i_point a = at[p.corner[k]], b = at[sunder_i_piece_next(&p, k)];
+        uint32_t m = 0;
         if (l->narrow) {
             const sunder_i_point u = sunder_i_narrow_sub(b, a);
-            while (m < to && sunder_i_narrow_cross(u, sunder_i_narrow_sub(g->at[!side][d[m]], a)) <= 0) m++;
-            l->counts.orientation_tests += m - from;
+            while (m < q.n && sunder_i_narrow_cross(u, sunder_i_narrow_sub(other[q.corner[m]], a)) <= 0) m++;
+            l->counts.orientation_tests += m;
         } else
-            while (m < to && sunder_i_orient(l, a, b, g->at[!side][d[m]]) <= 0) m++;
-        if (m == to) return true;
+            while (m < q.n && sunder_i_orient(l, a, b, other[q.corner[m]]) <= 0) m++;
+        if (m == q.n) return true;
     }
     return false;
 }

@@ -21,11 +21,6 @@ typedef struct search {
     double from, to;      /* the part of the line at hand that is in the square, or all of it */
 } search;
 
-static sunder_i_big square_norm(sunder_i_arena *a, sunder_i_big x, sunder_i_big y)
-{
-    return sunder_i_big_add(a, sunder_i_big_mul(a, x, x), sunder_i_big_mul(a, y, y));
-}
-
 /* Order of the distances of two points from the origin. Degree 10 over 8. */
 static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
@@ -35,8 +30,8 @@ static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_
     sunder_i_hpoint_read(m, l, a, p);
     sunder_i_hpoint_read(m, l, b, q);
     l->counts.exact_fallbacks++;
-    const sunder_i_big left = sunder_i_big_mul(m, square_norm(m, p[0], p[1]), sunder_i_big_mul(m, q[2], q[2]));
-    const sunder_i_big right = sunder_i_big_mul(m, square_norm(m, q[0], q[1]), sunder_i_big_mul(m, p[2], p[2]));
+    const sunder_i_big left = sunder_i_big_mul(m, sunder_i_big_norm(m, p[0], p[1]), sunder_i_big_mul(m, q[2], q[2]));
+    const sunder_i_big right = sunder_i_big_mul(m, sunder_i_big_norm(m, q[0], q[1]), sunder_i_big_mul(m, p[2], p[2]));
     const int c = sunder_i_big_cmp(left, right);
     sunder_i_lattice_end(l, mark);
     return c;
@@ -143,14 +138,6 @@ static void try_candidate(search *s, const sunder_i_carrier *line)
     if (foot.value > 0.5 || sunder_i_carrier_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
 }
 
-/* The way out along each axis is free, so the nearest free point is not farther than the shortest of them. */
-static double way_out(const sunder_i_operands *g)
-{
-    double d = INFINITY;
-    for (int k = 0; k < 4; k++) d = fmin(d, fabs(g->box[0][k] + g->box[1][k]));
-    return d + 8 * g->error;
-}
-
 /* Does a subsum cover the origin? The overlap test, asked of the subsums at hand. */
 static bool origin_covered(sunder_i_operands *g, const sunder_i_fraction *zero)
 {
@@ -158,16 +145,21 @@ static bool origin_covered(sunder_i_operands *g, const sunder_i_fraction *zero)
     return sunder_i_carrier_cover(g, &axis, zero, 0, 0, NULL) >= 0;
 }
 
-static bool search_all(search *s)
+static void try_all(search *s, sunder_i_candidates *heap)
 {
     sunder_i_operands *g = s->g;
-    sunder_i_candidates heap;
-    if (!sunder_i_candidates_find(g, s->limit, &heap)) return false;
-    while (heap.n && sqrt(heap.item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
-        const sunder_i_candidate c = sunder_i_candidates_pop(&heap);
+    while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
+        const sunder_i_candidate c = sunder_i_candidates_pop(heap);
         const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
     }
+}
+
+static bool search_all(search *s)
+{
+    sunder_i_candidates heap;
+    if (!sunder_i_candidates_find(s->g, s->limit, &heap)) return false;
+    try_all(s, &heap);
     return true;
 }
 
@@ -192,11 +184,7 @@ static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark ma
     sunder_i_operands *g = s->g;
     const size_t before = s->found, pooled = g->placed.lattice.pool_n;
     s->first = 0;
-    while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
-        const sunder_i_candidate c = sunder_i_candidates_pop(heap);
-        const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
-        try_candidate(s, &line);
-    }
+    try_all(s, heap);
     if (s->found > before) {
         *list = g->subsum;
         *n = g->subsums;
@@ -252,7 +240,7 @@ static bool by_squares(search *s, bool *done)
 static search begin(sunder_i_operands *g, double limit)
 {
     return (search){.g = g,
-                    .limit = fmin(way_out(g), limit + 8 * g->error),
+                    .limit = fmin(sunder_i_operands_way_out(g), limit) + 8 * g->error,
                     .zero = sunder_i_fraction_int(&g->placed.lattice, 0),
                     .one = sunder_i_fraction_int(&g->placed.lattice, 1)};
 }
@@ -283,11 +271,7 @@ static sunder_status by_parts(sunder_i_operands *g, double limit, bool *done, su
     if (!sunder_i_operands_cut(g)) return sunder_i_no_memory(err);
     const sunder_status status = sunder_i_nearest_by_squares(g, limit, done, out, err);
     if (status || *done) return status;
-    for (int k = 0; k < 2; k++) {
-        g->shape[k] = whole.shape[k];
-        g->piece_box[k] = whole.piece_box[k];
-        g->ring[k] = whole.ring[k];
-    }
+    sunder_i_operands_uncut(g, &whole);
     return SUNDER_OK;
 }
 

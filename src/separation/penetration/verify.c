@@ -7,20 +7,6 @@
 
 #include <math.h>
 
-typedef struct convex {
-    const uint32_t *corner;
-    const sunder_i_point *at;
-    const double *xy;
-    uint32_t n;
-} convex;
-
-static convex piece_of(const sunder_i_operands *g, int side, uint32_t i)
-{
-    const sunder_shape *s = g->shape[side];
-    const uint32_t first = i ? s->piece_end[i - 1] : 0;
-    return (convex){s->piece_vertex + first, g->at[side], g->xy[side], s->piece_end[i] - first};
-}
-
 /* Sign of cross(b - a, x - c - a), x the point found: on which side of ab the corner x - c of Q + x is. Exact. */
 static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_point a, sunder_i_point b,
                       sunder_i_point c)
@@ -39,23 +25,26 @@ static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder
 }
 
 /* Does a side of p have all of x - q on its right or on it? Symmetric in p and q up to the reflection at x / 2. */
-static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const convex *p, const convex *q)
+static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_operand_piece *p,
+                       const sunder_i_operand_piece *q)
 {
+    const sunder_i_point *at = g->at[p->side];
+    const double *xy = g->xy[p->side], *other = g->xy[q->side];
     const double per_length = 4 * g->error, fixed = 32 * g->magnitude * g->rough;
     for (uint32_t k = 0; k < p->n; k++) {
-        const uint32_t a = p->corner[k], b = p->corner[k + 1 < p->n ? k + 1 : 0];
-        const double ux = p->xy[2 * b] - p->xy[2 * a], uy = p->xy[2 * b + 1] - p->xy[2 * a + 1];
+        const uint32_t a = p->corner[k], b = sunder_i_piece_next(p, k);
+        const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];
         /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
         const double bound = (fabs(ux) + fabs(uy)) * per_length + fixed + g->magnitude * g->magnitude * 0x1p-47;
-        const double x = f->x - p->xy[2 * a], y = f->y - p->xy[2 * a + 1];
+        const double x = f->x - xy[2 * a], y = f->y - xy[2 * a + 1];
         bool parts = true;
         for (uint32_t m = 0; m < q->n && parts; m++) {
             const uint32_t c = q->corner[m];
-            const double v = ux * (y - q->xy[2 * c + 1]) - uy * (x - q->xy[2 * c]);
+            const double v = ux * (y - other[2 * c + 1]) - uy * (x - other[2 * c]);
             if (v > bound)
                 parts = false;
             else if (v >= -bound)
-                parts = exact_side(g, f, p->at[a], p->at[b], q->at[c]) <= 0;
+                parts = exact_side(g, f, at[a], at[b], g->at[q->side][c]) <= 0;
         }
         if (parts) return true;
     }
@@ -68,7 +57,7 @@ static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t 
     const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
     if (f->x < a[0] + b[0] - e || f->x > a[2] + b[2] + e || f->y < a[1] + b[1] - e || f->y > a[3] + b[3] + e)
         return true;
-    const convex p = piece_of(g, 0, i), q = piece_of(g, 1, j);
+    const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);
     return side_parts(g, f, &p, &q) || side_parts(g, f, &q, &p);
 }
 

@@ -2,7 +2,8 @@
  * that lie aslant are told apart too. Of two such trees, one of P and one of -Q, it is asked which subsums come near a
  * square of the plane, and which may hold it.
  *
- * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that (sunder_i_dop_query()). */
+ * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that
+ * (sunder_i_dop_query()). */
 #ifndef SUNDER_I_DOP_TREE_H
 #define SUNDER_I_DOP_TREE_H
 

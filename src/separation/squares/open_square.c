@@ -27,12 +27,13 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
                      sunder_i_candidates *out)
 {
     sunder_i_operands *g = q->g;
-    const sunder_shape *s = g->shape[side], *o = g->shape[!side];
+    const sunder_shape *s = g->shape[side];
+    const sunder_i_operand_piece o = sunder_i_operands_piece(g, !side, j);
     const double *a = g->xy[side] + 2 * (size_t)u, *b = g->xy[side] + 2 * (size_t)s->next[u];
     const double dx = b[0] - a[0], dy = b[1] - a[1], inverse = 1 / (dx * dx + dy * dy);
     const double bound = -(fabs(dx) + fabs(dy)) * g->error - 8 * g->magnitude * g->coarse;
-    for (uint32_t k = j ? o->piece_end[j - 1] : 0; k < o->piece_end[j]; k++) {
-        const uint32_t v = o->piece_vertex[k];
+    for (uint32_t k = 0; k < o.n; k++) {
+        const uint32_t v = o.corner[k];
         const double *c = g->xy[!side] + 2 * (size_t)v;
         if (q->first_piece[!side][v] != j || !comes_near(at, 32 * g->error, a[0] + c[0], a[1] + c[1], dx, dy)) continue;
         const sunder_i_cone *w = corner_of(q, !side, v);
@@ -48,11 +49,10 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
 static bool add_edges(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t i, uint32_t j,
                       sunder_i_candidates *out)
 {
-    const sunder_shape *s = q->g->shape[side];
-    const uint32_t first = i ? s->piece_end[i - 1] : 0, end = s->piece_end[i];
-    for (uint32_t k = first; k < end; k++) {
-        const uint32_t u = s->piece_vertex[k], v = s->piece_vertex[k + 1 < end ? k + 1 : first];
-        if (sunder_i_is_boundary(s, u, v) && !add_edge(q, at, reach, side, u, j, out)) return false;
+    const sunder_i_operand_piece p = sunder_i_operands_piece(q->g, side, i);
+    for (uint32_t k = 0; k < p.n; k++) {
+        const uint32_t u = p.corner[k], v = sunder_i_piece_next(&p, k);
+        if (sunder_i_is_boundary(q->g->shape[side], u, v) && !add_edge(q, at, reach, side, u, j, out)) return false;
     }
     return true;
 }

@@ -50,13 +50,11 @@ static bool meets(const builder *b, uint32_t piece, const double box[4])
 /* Is a certain point of the box in the piece for certain? Off its middle, where sides of pieces often pass. */
 static bool has_point(const builder *b, uint32_t piece, const double box[4])
 {
-    const sunder_shape *s = b->g->shape[b->side];
+    const sunder_i_operand_piece c = sunder_i_operands_piece(b->g, b->side, piece);
     const double *xy = b->g->xy[b->side], e = 4 * b->g->error, fixed = 8 * b->g->magnitude * b->g->coarse;
     const double x = box[0] + 0.4142 * (box[2] - box[0]), y = box[1] + 0.2679 * (box[3] - box[1]);
-    const uint32_t first = piece ? s->piece_end[piece - 1] : 0, end = s->piece_end[piece];
-    for (uint32_t k = first; k < end; k++) {
-        const double *p = xy + 2 * (size_t)s->piece_vertex[k];
-        const double *q = xy + 2 * (size_t)s->piece_vertex[k + 1 < end ? k + 1 : first];
+    for (uint32_t k = 0; k < c.n; k++) {
+        const double *p = xy + 2 * (size_t)c.corner[k], *q = xy + 2 * (size_t)sunder_i_piece_next(&c, k);
         const double dx = q[0] - p[0], dy = q[1] - p[1];
         if (!(dx * (y - p[1]) - dy * (x - p[0]) > e * (fabs(dx) + fabs(dy)) + fixed)) return false;
     }

@@ -137,9 +137,10 @@ static bool make_tables(sunder_i_squares *q, int side)
     q->corner[side] = sunder_i_alloc(s->vertices, sizeof *q->corner[side]);
     q->state[side] = sunder_i_calloc(s->vertices, sizeof *q->state[side]);
     if (!q->first_piece[side] || !q->corner[side] || !q->state[side]) return false;
-    for (uint32_t i = s->pieces; i-- > 0;)
-        for (uint32_t k = i ? s->piece_end[i - 1] : 0; k < s->piece_end[i]; k++)
-            q->first_piece[side][s->piece_vertex[k]] = i;
+    for (uint32_t i = s->pieces; i-- > 0;) {
+        const sunder_i_operand_piece p = sunder_i_operands_piece(q->g, side, i);
+        for (uint32_t k = 0; k < p.n; k++) q->first_piece[side][p.corner[k]] = i;
+    }
     return true;
 }
 
