@@ -54,8 +54,8 @@ static sunder_status prepare(sunder_i_job *w, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to `to`.
- * known: nothing is to be solved but what comes of looking again. */
+/* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to
+ * `to`. known: nothing is to be solved but what comes of looking again. */
 static sunder_status seek(sunder_i_job *w, bool known, double from, double to, sunder_error *err)
 {
     const double step = (to - from) / 7;

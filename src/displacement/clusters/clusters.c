@@ -61,7 +61,7 @@ sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* ---- Clusters -------------------------------------------------------------------------------------------------- */
+/* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
 bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j)
 {
@@ -109,9 +109,10 @@ const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_
     return w->body + first;
 }
 
-/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a power of
- * two, two to four units in the last place of the largest coordinate; four times as much for each failed check. So where
- * a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins, does the same. */
+/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
+ * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
+ * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
+ * does the same. */
 static double margin_of(const sunder_i_job *w, const sunder_i_member *m, size_t n)
 {
     double largest = 0;

@@ -25,7 +25,8 @@ static bool end_truces(sunder_i_town *town, const sunder_i_cluster *cluster, siz
     return true;
 }
 
-/* The clusters' truces, in place of what the town had for the same features; those that are not hopeless are given up. */
+/* The clusters' truces, in place of what the town had for the same features; those that are not hopeless are given
+ * up. */
 static bool take_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
 {
     sunder_i_truces *all = &town->truces;

@@ -26,8 +26,7 @@ sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err)
     return status;
 }
 
-/* ---- Hopeless by itself --------------------------------------------------------------------------------------------
- */
+/* ---- Hopeless by itself ------------------------------------------------------------------------------------------ */
 
 typedef struct judging {
     const sunder_i_town *town;

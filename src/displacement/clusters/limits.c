@@ -1,11 +1,12 @@
 /* Limits of moves: first the layer is solved as if it had none.
  *
- * Whatever keeps its limits in that solution is left as it is: so limits that nothing oversteps make no difference, and a
- * limit is never the reason for a worse solution than is known without it. Only what oversteps them goes back to where it
- * came from, with all that the search found it to hang together with, and is solved again within its limits.
+ * Whatever keeps its limits in that solution is left as it is: so limits that nothing oversteps make no difference,
+ * and a limit is never the reason for a worse solution than is known without it. Only what oversteps them goes back
+ * to where it came from, with all that the search found it to hang together with, and is solved again within its
+ * limits.
  *
- * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start is set
- * aside meanwhile. If others run into it, they go back too. */
+ * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start
+ * is set aside meanwhile. If others run into it, they go back too. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/inclusion.h"
@@ -30,8 +31,7 @@ static void join_conflicts(const sunder_i_job *w, uint32_t *root)
     for (size_t b = 0; b < town->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
 }
 
-/* ---- Without limits -------------------------------------------------------------------------------------------------
- */
+/* ---- Without limits ---------------------------------------------------------------------------------------------- */
 
 /* Marks what hangs together with a pair that limits cannot part; truces wait until the limits are back. */
 static bool set_aside(sunder_i_job *w)
@@ -74,8 +74,7 @@ sunder_status sunder_i_job_lift_limits(sunder_i_job *w, bool *lifted, sunder_err
     return SUNDER_OK;
 }
 
-/* ---- Within them ----------------------------------------------------------------------------------------------------
- */
+/* ---- Within them ------------------------------------------------------------------------------------------------- */
 
 /* Marks the sets, by their roots, of which a body went too far, was set aside, or ran into one that was. */
 static void find_offenders(sunder_i_job *w, bool *root)

@@ -109,8 +109,7 @@ static sunder_status find_components(const sunder_i_job *w, components *out, sun
     return SUNDER_OK;
 }
 
-/* ---- Looking again --------------------------------------------------------------------------------------------------
- */
+/* ---- Looking again ----------------------------------------------------------------------------------------------- */
 
 typedef struct asking {
     const sunder_i_job *job;

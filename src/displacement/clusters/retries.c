@@ -91,7 +91,8 @@ static bool list_suits(const sunder_i_job *w, suits *out)
     for (size_t k = 0; k < n; k++) out->truce[k] = list[k].truce;
     for (size_t first = 0, end; first < n; first = end) {
         const claim *c = &list[first];
-        for (end = first; end < n && list[end].root == c->root && !sunder_i_by_couple(&list[end].body, &c->body);) end++;
+        for (end = first; end < n && list[end].root == c->root && !sunder_i_by_couple(&list[end].body, &c->body);)
+            end++;
         sunder_i_suit x = suit_of(&w->town, c, out->truce + first, end - first);
         add_suit(out, &x);
         for (size_t k = first; k < end && end - first > 1; k++) {
@@ -105,8 +106,7 @@ static bool list_suits(const sunder_i_job *w, suits *out)
     return ok;
 }
 
-/* ---- Asking --------------------------------------------------------------------------------------------------------
- */
+/* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
 typedef struct asking {
     const sunder_i_job *job;
@@ -138,8 +138,7 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         const uint32_t root = w->member[c->body - w->body].root;
         const size_t first = first_of(g->suits, root), last = first_of(g->suits, (uint64_t)root + 1);
         sunder_i_job_load_moves(w, c, move);
-        if (first < last)
-            status = sunder_i_cluster_retry(&w->town, c, g->suits->suit + first, last - first, move, err);
+        if (first < last) status = sunder_i_cluster_retry(&w->town, c, g->suits->suit + first, last - first, move, err);
     }
     return status;
 }

@@ -1,15 +1,17 @@
 /* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
  *
- * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair may
- * stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
+ * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair
+ * may stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
  *
- *   - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take one
+ * - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take
+ * one
  *     move, or one coordinate of it, where they are then in nobody's way;
- *   - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
+ * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is
+ * pinned
  *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *
- * A place that is taken breaks the rule for no pair, and a body that is pinned stays so, and with all at home nothing
- * stands worse: the loop ends. */
+ * A place that is taken breaks the rule for no pair, and a body that is pinned stays so, and with all at home
+ * nothing stands worse: the loop ends. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/resolution.h"
@@ -26,8 +28,7 @@
 /* So many bodies in all may be moved together in vain. */
 #define IN_VAIN 20000
 
-/* ---- The rule ------------------------------------------------------------------------------------------------------
- */
+/* ---- The rule ---------------------------------------------------------------------------------------------------- */
 
 /* Do the two stand to each other as they did, exactly? */
 static bool stand_as_they_did(const sunder_i_job *w, const sunder_i_relation *r)
@@ -51,8 +52,7 @@ sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relati
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
 static bool is_listed(const sunder_i_job *w, const sunder_i_relation *r)
 {
-    return !sunder_i_is_at_peace(r) &&
-           (w->town.body_of[r->a] != w->town.body_of[r->b] || (r->overlap && !r->touch));
+    return !sunder_i_is_at_peace(r) && (w->town.body_of[r->a] != w->town.body_of[r->b] || (r->overlap && !r->touch));
 }
 
 static sunder_status breaks_rule(const sunder_i_job *w, const sunder_i_relation *r, bool *breaks, sunder_error *err)
@@ -73,8 +73,7 @@ sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder
     return status;
 }
 
-/* ---- A place nearby ------------------------------------------------------------------------------------------------
- */
+/* ---- A place nearby ---------------------------------------------------------------------------------------------- */
 
 /* Bodies that are to have one move, or one coordinate of it, and where they stood. */
 typedef struct trial {
@@ -194,8 +193,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
     return status;
 }
 
-/* ---- All that move as one ------------------------------------------------------------------------------------------
- */
+/* ---- All that move as one ---------------------------------------------------------------------------------------- */
 
 /* Do the two move alike, as far as the trial asks, up to a few units? */
 static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
@@ -285,8 +283,7 @@ static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, size_t *budge
     return status;
 }
 
-/* ---- Staying -------------------------------------------------------------------------------------------------------
- */
+/* ---- Staying ----------------------------------------------------------------------------------------------------- */
 
 static double cost_of(const sunder_i_job *w, uint32_t b)
 {

@@ -163,7 +163,8 @@ static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
         corners += n;
     }
     if (!status)
-        status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_VALIDITY_EVEN_ODD, &town->whole[b], err);
+        status =
+            sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_VALIDITY_EVEN_ODD, &town->whole[b], err);
     sunder_i_free(xy);
     sunder_i_free(ring_end);
     sunder_i_free(poly_end);

@@ -106,7 +106,7 @@ sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, boo
     return SUNDER_OK;
 }
 
-/* ---- Which holder ---- */
+/* ---- Which holder ------------------------------------------------------------------------------------------------ */
 
 static uint32_t holder_of(const sunder_i_town *town, size_t k)
 {
@@ -156,8 +156,7 @@ sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations
     return SUNDER_OK;
 }
 
-/* ---- Walls --------------------------------------------------------------------------------------------------------
- */
+/* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
 static void add_walls(sunder_i_town *town, sunder_i_body *body, uint32_t f, double *corner, size_t *corners)
 {

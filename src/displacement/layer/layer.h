@@ -19,7 +19,7 @@ typedef struct sunder_i_rules {
     bool joins, list_inside; /* joins: touch and containment make blocks */
     sunder_containment contained;
     unsigned threads;
-    sunder_progress progress;     /* NULL: nobody asks how far it is */
+    sunder_progress progress; /* NULL: nobody asks how far it is */
     void *progress_user;
 } sunder_i_rules;
 

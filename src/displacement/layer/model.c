@@ -58,7 +58,7 @@ sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules
     return sunder_i_index_build(town->box, town->present, n, &town->tree, err);
 }
 
-/* ---- Bodies ---------------------------------------------------------------------------------------------------- */
+/* ---- Bodies ------------------------------------------------------------------------------------------------------ */
 
 typedef struct label {
     int64_t block;

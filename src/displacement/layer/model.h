@@ -1,5 +1,6 @@
-/* The layer as bodies that move: blocks, their convex pieces, pairs of one in another, pairs left in conflict, and where each
- * body stands. What is in doubles here is for the search, which decides nothing: what it finds is checked exactly. */
+/* The layer as bodies that move: blocks, their convex pieces, pairs of one in another, pairs left in conflict, and
+ * where each body stands. What is in doubles here is for the search, which decides nothing: what it finds is checked
+ * exactly. */
 #ifndef SUNDER_I_MODEL_H
 #define SUNDER_I_MODEL_H
 
@@ -46,9 +47,9 @@ struct sunder_i_town {
         *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;   /* [4 * features] as they stood at the start */
     bool *present; /* [features] */
-    sunder_i_index tree;             /* as they stood at the start */
-    const sunder_i_index *standing;  /* as they stand now: the scene's; lent */
-    sunder_i_piece *wall; /* edges of features that hold others; see keep.c */
+    sunder_i_index tree;            /* as they stood at the start */
+    const sunder_i_index *standing; /* as they stand now: the scene's; lent */
+    sunder_i_piece *wall;           /* edges of features that hold others; see keep.c */
     size_t walls;
     sunder_i_couple *kept;  /* pairs that may overlap, because one lies in the other; sorted */
     bool *a_in_b;           /* [kept_n] which of the two lies in the other */

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Standing ------------------------------------------------------------------------------------------------- */
+/* ---- Standing ---------------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *scene, sunder_error *err)
 {
@@ -91,7 +91,7 @@ sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, u
     return SUNDER_OK;
 }
 
-/* ---- Near pairs --------------------------------------------------------------------------------------------- */
+/* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
 typedef struct pair_search {
     const sunder_i_town *town;

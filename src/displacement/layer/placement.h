@@ -29,10 +29,13 @@ void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene);
 sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
                                     const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err);
 
-/* Called for the relations of one body's members to those of others, as they stand, until *on is false; near: scratch. */
-typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on, sunder_error *err);
+/* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:
+ * scratch. */
+typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on,
+                                                 sunder_error *err);
 
 sunder_status sunder_i_scene_about(const sunder_i_town *town, const sunder_i_scene *scene, uint32_t body,
-                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context, sunder_error *err);
+                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context,
+                                   sunder_error *err);
 
 #endif

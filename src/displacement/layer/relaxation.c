@@ -90,7 +90,8 @@ bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
 }
 
 /* Where the n items of one size have, or would have, the key. */
-static size_t place_of(const void *key, const void *item, size_t n, size_t size, int (*order)(const void *, const void *))
+static size_t place_of(const void *key, const void *item, size_t n, size_t size,
+                       int (*order)(const void *, const void *))
 {
     size_t low = 0, high = n;
     while (low < high) {
@@ -133,8 +134,7 @@ void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, 
         memmove(truces->torn + of, truces->torn + of + 1, (--truces->torn_n - of) * sizeof torn);
 }
 
-/* ---- Those that were ended -----------------------------------------------------------------------------------------
- */
+/* ---- Those that were ended --------------------------------------------------------------------------------------- */
 
 int sunder_i_by_ended(const void *x, const void *y)
 {
@@ -164,8 +164,7 @@ void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, con
     truces->n = out;
 }
 
-/* ---- What is demanded ----------------------------------------------------------------------------------------------
- */
+/* ---- What is demanded -------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t g, sunder_i_truce *out,
                                 sunder_error *err)

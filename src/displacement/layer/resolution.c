@@ -10,8 +10,7 @@
 
 #include <math.h>
 
-/* ---- By boxes ------------------------------------------------------------------------------------------------------
- */
+/* ---- By boxes ---------------------------------------------------------------------------------------------------- */
 
 /* No move shorter than this takes a set with the box `inner` into one with the box `outer`; INFINITY: none does. The
  * slack covers the rounding of a tolerance's corners, of boxes and of what is computed here. */
@@ -34,8 +33,7 @@ bool sunder_i_may_get_inside(const sunder_i_rules *rules, const double a[4], con
            (least_by_boxes(a, b, rules->tolerance) <= reach || least_by_boxes(b, a, rules->tolerance) <= reach);
 }
 
-/* ---- By erosion ----------------------------------------------------------------------------------------------------
- */
+/* ---- By erosion -------------------------------------------------------------------------------------------------- */
 
 /* The place of an erosion that is nearest to the origin, so far. */
 typedef struct nearest {
@@ -44,10 +42,10 @@ typedef struct nearest {
     double place[2];
 } nearest;
 
-/* The foot p + s e of the perpendicular from the origin, e = q - p, s cut to 0 .. 1. With u = 2^-53 and ends of no more
- * than M each way: the ends are off by u M (they are nearest doubles); e is a rounded difference, off by u |e|, so
- * s |e| is off by 6 u M at most, and the place by 3 u M more. Together less than 16 u M; the distance is off by no more,
- * as a wrong foot can only be farther. */
+/* The foot p + s e of the perpendicular from the origin, e = q - p, s cut to 0 .. 1. With u = 2^-53 and ends of no
+ * more than M each way: the ends are off by u M (they are nearest doubles); e is a rounded difference, off by u |e|,
+ * so s |e| is off by 6 u M at most, and the place by 3 u M more. Together less than 16 u M; the distance is off by
+ * no more, as a wrong foot can only be farther. */
 static void take_segment(nearest *n, const double p[2], const double q[2])
 {
     const double e[2] = {q[0] - p[0], q[1] - p[1]}, square = e[0] * e[0] + e[1] * e[1];
@@ -127,8 +125,7 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
     return status;
 }
 
-/* ---- Any way -------------------------------------------------------------------------------------------------------
- */
+/* ---- Any way ----------------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_make_peace(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b,
                                   double upper, sunder_i_peace *out, sunder_error *err)

@@ -30,7 +30,7 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
     memset(obstacles, 0, sizeof *obstacles);
 }
 
-/* ---- Building ------------------------------------------------------------------------------------------------- */
+/* ---- Building ---------------------------------------------------------------------------------------------------- */
 
 /* A wall with normal n through the corner c, ends to be filled in. */
 static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)

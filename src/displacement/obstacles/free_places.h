@@ -31,8 +31,8 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
 /* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,
- * none beyond limit, no two nearer than `spread`. Returns how many; *steps grows by the work done, in constraints looked
- * at; *failed is set if memory is out. */
+ * none beyond limit, no two nearer than `spread`. Returns how many; *steps grows by the work done, in constraints
+ * looked at; *failed is set if memory is out. */
 size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed);
 

@@ -1,5 +1,5 @@
-/* Obstacles kept at hand. Bodies do not turn, so the obstacle that two pieces are to each other is the same wherever they
- * stand, and a descent asks for it in every round. */
+/* Obstacles kept at hand. Bodies do not turn, so the obstacle that two pieces are to each other is the same wherever
+ * they stand, and a descent asks for it in every round. */
 #include "displacement/obstacles/obstacle_cache.h"
 
 #include "base/memory.h"

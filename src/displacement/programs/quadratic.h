@@ -21,9 +21,9 @@ typedef struct sunder_i_quadratic {
     const double *mass; /* [bodies] inverse: 1 / (2 w); 0 for what is fixed */
     sunder_i_constraint *constraint;
     size_t n, capacity;
-    double *t;                   /* [2 * bodies] out */
-    uint64_t work;               /* done so far, roughly in constraints looked at */
-    uint64_t most_work;          /* 0, or how much may be: then what is done by then is the solution, such as it is */
+    double *t;          /* [2 * bodies] out */
+    uint64_t work;      /* done so far, roughly in constraints looked at */
+    uint64_t most_work; /* 0, or how much may be: then what is done by then is the solution, such as it is */
 } sunder_i_quadratic;
 
 /* n.(t_j - t_i) */

@@ -26,7 +26,7 @@ void sunder_i_sparse_free(sunder_i_sparse *m)
     memset(m, 0, sizeof *m);
 }
 
-/* ---- The order -------------------------------------------------------------------------------------------------- */
+/* ---- The order --------------------------------------------------------------------------------------------------- */
 
 /* The graph as it is eliminated: sorted lists of neighbours that are still there, and nodes by their degrees in
  * doubly linked lists. */
@@ -177,7 +177,7 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_couple *c
     return ok;
 }
 
-/* ---- Entries ---------------------------------------------------------------------------------------------------- */
+/* ---- Entries ----------------------------------------------------------------------------------------------------- */
 
 void sunder_i_sparse_clear(sunder_i_sparse *m)
 {
@@ -196,8 +196,7 @@ double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *
     return m->block + 4 * (size_t)(found - m->row);
 }
 
-/* ---- The factor ---------------------------------------------------------------------------------------------------
- */
+/* ---- The factor -------------------------------------------------------------------------------------------------- */
 
 /* c -= a b' */
 static inline void subtract_product(double *c, const double *a, const double *b)

@@ -14,8 +14,7 @@
 #define DEEP 0.5
 #define TURN 6.28318530717958647692
 
-/* ---- Which pair next -----------------------------------------------------------------------------------------------
- */
+/* ---- Which pair next --------------------------------------------------------------------------------------------- */
 
 /* A convex polygon, counter-clockwise. */
 enum { CORNERS = 96, DISC_SIDES = 16 };
@@ -92,8 +91,7 @@ static size_t choose(sunder_i_inquiry *c, const sunder_i_meeting *deepest, size_
     return best;
 }
 
-/* ---- The tree ------------------------------------------------------------------------------------------------------
- */
+/* ---- The tree ---------------------------------------------------------------------------------------------------- */
 
 static void add_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] |= UINT64_C(1) << level % 64; }
 static void drop_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] &= ~(UINT64_C(1) << level % 64); }
@@ -147,13 +145,13 @@ static bool push(sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t node, size_
     const sunder_i_way *w = &c->way[way];
     const double sign = behind ? -1 : 1;
     c->step[c->steps++] = (sunder_i_claim){.i = i,
-                                          .j = j,
-                                          .n = {sign * w->n[0], sign * w->n[1]},
-                                          .d = sign * w->d,
-                                          .node = node,
-                                          .way = way,
-                                          .behind = behind,
-                                          .level = level};
+                                           .j = j,
+                                           .n = {sign * w->n[0], sign * w->n[1]},
+                                           .d = sign * w->d,
+                                           .node = node,
+                                           .way = way,
+                                           .behind = behind,
+                                           .level = level};
     return true;
 }
 

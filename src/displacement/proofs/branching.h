@@ -1,5 +1,5 @@
-/* The state of a branch and bound over a few bodies (feasibility.c), and its parts: one node's program, what its candidate
- * violates, the branches, the record of the proof. */
+/* The state of a branch and bound over a few bodies (feasibility.c), and its parts: one node's program, what its
+ * candidate violates, the branches, the record of the proof. */
 #ifndef SUNDER_I_BRANCHING_H
 #define SUNDER_I_BRANCHING_H
 

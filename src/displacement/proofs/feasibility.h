@@ -23,7 +23,7 @@ typedef struct sunder_i_question {
     size_t bodies;
     const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
     size_t reserves;
-    double farthest; /* their longest limit that is finite */
+    double farthest;           /* their longest limit that is finite */
     uint32_t a, b;             /* features, a < b, that owe the gap, held or not; or SUNDER_I_NOBODY */
     const sunder_i_held *held; /* sorted */
     size_t held_n;

@@ -22,8 +22,7 @@
 #define SOFTNESS 1e-6
 #define ROUNDS 24
 
-/* ---- The sum -------------------------------------------------------------------------------------------------------
- */
+/* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
 /* Rounding, with e = 2^-53 and N steps, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
  * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
@@ -61,8 +60,7 @@ bool sunder_i_inquiry_is_dead(sunder_i_inquiry *c)
     return is_contradiction(c);
 }
 
-/* ---- The program ---------------------------------------------------------------------------------------------------
- */
+/* ---- The program ------------------------------------------------------------------------------------------------- */
 
 static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
 

@@ -84,11 +84,14 @@ sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *c, size_t root)
     count(c, root, &size);
     sunder_proof *proof = sunder_i_calloc(1, sizeof *proof);
     if (!proof) return NULL;
-    copying g = {c, proof,
+    copying g = {c,
+                 proof,
                  sunder_i_alloc(size.nodes, sizeof *g.node),
                  sunder_i_alloc(size.ways, sizeof *g.way),
                  sunder_i_alloc(size.forces, sizeof *g.force),
-                 sunder_i_alloc(2 * size.corners, sizeof *g.corner), {0}, {0}};
+                 sunder_i_alloc(2 * size.corners, sizeof *g.corner),
+                 {0},
+                 {0}};
     proof->node = g.node;
     proof->way = g.way;
     proof->force = g.force;

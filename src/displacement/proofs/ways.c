@@ -1,12 +1,12 @@
 /* Half-planes of which one holds whatever parts A from B + u, proved in doubles.
  *
- * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a clearance
- * g exactly when u is not in that of K grown by the disc of radius g; call it O. Take any half-planes n.u >= d such
- * that each point of the boundary of O lies in one, and let T be what lies in none of them. T is convex, so connected,
- * and misses that boundary; so if one point of T is in O, all of T is, and whoever is outside O is in one of the
- * half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ, as long as d is
- * no more than n.P and n.Q, and even the order in which edges of A and B are merged may err where they are parallel but
- * for rounding: the boundary is then another closed curve in K around the same point.
+ * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a
+ * clearance g exactly when u is not in that of K grown by the disc of radius g; call it O. Take any half-planes n.u
+ * >= d such that each point of the boundary of O lies in one, and let T be what lies in none of them. T is convex,
+ * so connected, and misses that boundary; so if one point of T is in O, all of T is, and whoever is outside O is in
+ * one of the half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ,
+ * as long as d is no more than n.P and n.Q, and even the order in which edges of A and B are merged may err where
+ * they are parallel but for rounding: the boundary is then another closed curve in K around the same point.
  *
  *              n2    n'
  *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1 and n2 of two
@@ -14,14 +14,14 @@
  *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
  *              |
  *
- * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a clearance,
- * has all of u + v in it, then u is not such; so the half-planes move inward by s.
+ * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a
+ * clearance, has all of u + v in it, then u is not such; so the half-planes move inward by s.
  *
- * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less their
- * origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
- * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
- * length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's offset
- * up to a share of its square, an arc's up to its own size. */
+ * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less
+ * their origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
+ * coordinates; n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge
+ * of length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's
+ * offset up to a share of its square, an arc's up to its own size. */
 #include "displacement/proofs/ways.h"
 
 #include <math.h>

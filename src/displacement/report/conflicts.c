@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Which pairs, and of what kind -------------------------------------------------------------------------- */
+/* ---- Which pairs, and of what kind ------------------------------------------------------------------------------- */
 
 static bool is_inside(const sunder_i_town *town, const sunder_i_relation *r)
 {
@@ -22,7 +22,9 @@ static sunder_conflict_kind kind_of(const sunder_i_town *town, const sunder_i_re
     if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
     /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
     if (is_inside(town, r)) return SUNDER_CONFLICT_OVERLAP;
-    return r->duplicate ? SUNDER_CONFLICT_DUPLICATE : r->contained ? SUNDER_CONFLICT_CONTAINED : SUNDER_CONFLICT_OVERLAP;
+    return r->duplicate   ? SUNDER_CONFLICT_DUPLICATE
+           : r->contained ? SUNDER_CONFLICT_CONTAINED
+                          : SUNDER_CONFLICT_OVERLAP;
 }
 
 /* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
@@ -43,8 +45,7 @@ void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relation
     }
 }
 
-/* ---- How bad ------------------------------------------------------------------------------------------------------
- */
+/* ---- How bad ----------------------------------------------------------------------------------------------------- */
 
 /* The shapes as they stand, as shapes. */
 static sunder_status settle(const sunder_i_stand *stand, sunder_shape **out, sunder_error *err)
@@ -164,8 +165,7 @@ static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool 
     return status;
 }
 
-/* ---- Why
- * -------------------------------------------------------------------------------------------------------------- */
+/* ---- Why --------------------------------------------------------------------------------------------------------- */
 
 static double limit_of(const sunder_i_town *town, size_t f)
 {
@@ -192,8 +192,7 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
     return status;
 }
 
-/* ---- The list
- * ------------------------------------------------------------------------------------------------------------ */
+/* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 typedef struct describing {
     const sunder_i_town *town;

@@ -18,8 +18,8 @@
  * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
 #define EFFORT 20000000u
 #define EFFORT_EACH 10000u
-/* One inquiry is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No more
- * bodies than these take part in one: all proofs that were ever found had fewer. */
+/* One inquiry is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No
+ * more bodies than these take part in one: all proofs that were ever found had fewer. */
 #define FIRST 10000u
 #define GROWTH 8
 #define MOST 8000000u
@@ -28,8 +28,7 @@
 #define REDUCING 4
 #define LITTLE 1000000u
 
-/* ---- What listed pairs are held to ---------------------------------------------------------------------------------
- */
+/* ---- What listed pairs are held to ------------------------------------------------------------------------------- */
 
 typedef struct holding {
     const sunder_i_job *job;
@@ -38,8 +37,8 @@ typedef struct holding {
     sunder_i_held *held;
 } holding;
 
-/* A length just below the distance of two that stand disjoint. What is known of it in doubles is near, and may be above:
- * it is asked exactly, and lengths farther below where need be. */
+/* A length just below the distance of two that stand disjoint. What is known of it in doubles is near, and may be
+ * above: it is asked exactly, and lengths farther below where need be. */
 static sunder_status below_distance(const sunder_feature *a, const sunder_feature *b, double near, double *below,
                                     sunder_error *err)
 {
@@ -74,8 +73,8 @@ static sunder_status hold(const sunder_i_job *w, const sunder_conflict *c, doubl
     const double none[2] = {0, 0};
     sunder_separation least;
     bool beyond;
-    const sunder_status status = sunder_i_separate(feature[c->a].shape, none, feature[c->b].shape, none, 0, INFINITY,
-                                                   &least, &beyond, err);
+    const sunder_status status =
+        sunder_i_separate(feature[c->a].shape, none, feature[c->b].shape, none, 0, INFINITY, &least, &beyond, err);
     if (status) return status;
     *clearance = -nextafter(least.distance, INFINITY);
     sunder_separation_clear(&least);
@@ -94,8 +93,7 @@ static sunder_status hold_some(void *context, size_t begin, size_t end, sunder_e
     return SUNDER_OK;
 }
 
-/* ---- A proof that needs all it says --------------------------------------------------------------------------------
- */
+/* ---- A proof that needs all it says ------------------------------------------------------------------------------ */
 
 /* The features of a proof, ascending: into set, which has room for two a node. */
 static size_t features_of(const sunder_proof *proof, uint32_t *set)
@@ -155,8 +153,7 @@ static sunder_status reduce(const sunder_i_question *question, sunder_proof **pr
     return status;
 }
 
-/* ---- The conflicts of a cluster ------------------------------------------------------------------------------------
- */
+/* ---- The conflicts of a cluster ---------------------------------------------------------------------------------- */
 
 /* A conflict of the report, and the cluster that it belongs to. */
 typedef struct matter {
@@ -235,11 +232,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     return status;
 }
 
-/* ---- All of them ---------------------------------------------------------------------------------------------------
- */
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
 
 /* The conflicts to be asked about, by clusters; first: where each begins, and the end. Returns how many clusters. */
-static size_t group(const sunder_i_job *w, const sunder_report *report, const uint32_t *listed, size_t n, matter *list, size_t *first)
+static size_t group(const sunder_i_job *w, const sunder_report *report, const uint32_t *listed, size_t n, matter *list,
+                    size_t *first)
 {
     const sunder_i_town *town = &w->town;
     size_t open = 0, groups = 0;

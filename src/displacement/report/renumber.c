@@ -23,8 +23,8 @@ static int by_number(const void *x, const void *y)
     return a < b ? -1 : a > b;
 }
 
-/* The pair with the lesser first. The link of two that are apart runs from the one to the other; where they overlap it is
- * a translation of the second, of which the opposite does for the first. */
+/* The pair with the lesser first. The link of two that are apart runs from the one to the other; where they overlap
+ * it is a translation of the second, of which the opposite does for the first. */
 static void turn(sunder_conflict *c)
 {
     const size_t a = c->a;

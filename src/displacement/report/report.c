@@ -31,7 +31,9 @@ sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out
         const sunder_feature *feature = &town->layer->feature[f];
         if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
         const bool fixed = town->body[town->body_of[f]].fixed;
-        r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED : fixed ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
+        r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED
+                       : fixed          ? SUNDER_FEATURE_FIXED
+                                        : SUNDER_FEATURE_UNMOVED;
         if (feature->ignored) r->summary.skipped++;
     }
     *out = r;

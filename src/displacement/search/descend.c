@@ -25,8 +25,7 @@
 #define HOPEFUL 4
 #define MOST_ADDITIONS 24 /* times that constraints are added to one program */
 
-/* ---- Constraints
- * ----------------------------------------------------------------------------------------------------- */
+/* ---- Constraints ------------------------------------------------------------------------------------------------- */
 
 static int by_key(const void *a, const void *b)
 {
@@ -180,8 +179,7 @@ static bool constrain_limits(sunder_i_search *s)
     return any;
 }
 
-/* ---- Solving one program
- * --------------------------------------------------------------------------------------------------- */
+/* ---- Solving one program ----------------------------------------------------------------------------------------- */
 
 static double longest_step(const sunder_i_search *s)
 {
@@ -310,8 +308,7 @@ static void stop_short(sunder_i_search *s)
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + 0.999 * share * (s->next[k] - s->t[k]);
 }
 
-/* ---- The sequence
- * --------------------------------------------------------------------------------------------------------------- */
+/* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
 bool sunder_i_search_descend(sunder_i_search *s)
 {

@@ -13,8 +13,7 @@
 /* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
 #define MANY_AROUND 5000
 
-/* ---- Where there is room -------------------------------------------------------------------------------------------
- */
+/* ---- Where there is room ----------------------------------------------------------------------------------------- */
 
 /* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
 static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }

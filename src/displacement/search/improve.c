@@ -49,7 +49,8 @@ bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
     return false;
 }
 
-/* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with them. */
+/* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with
+ * them. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     if (!s->vicinity) return sunder_i_search_attempt(s, best, cost);

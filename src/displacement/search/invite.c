@@ -1,8 +1,8 @@
 /* Who is in the way, and not in conflict.
  *
- * What stands about a cluster and is not of it stands still while better sides are looked for, and a body may have been sent
- * far because a neighbour, who could have moved a little, stood where it would have gone. So the nearest place of each body is
- * looked for once as if they were not there; whoever clashes with it there joins the cluster. */
+ * What stands about a cluster and is not of it stands still while better sides are looked for, and a body may have
+ * been sent far because a neighbour, who could have moved a little, stood where it would have gone. So the nearest
+ * place of each body is looked for once as if they were not there; whoever clashes with it there joins the cluster. */
 #include "displacement/search/stages.h"
 
 #include <math.h>

@@ -21,7 +21,8 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool o
         const sunder_i_body *b = &s->town->body[s->body[k]];
         const bool home = or_home && s->mass[k] > 0;
         for (int c = 0; c < 4; c++) {
-            const double at = t[2 * k + (size_t)(c & 1)], least = home ? fmin(at, 0) : at, most = home ? fmax(at, 0) : at;
+            const double at = t[2 * k + (size_t)(c & 1)], least = home ? fmin(at, 0) : at,
+                         most = home ? fmax(at, 0) : at;
             s->box[4 * k + (size_t)c] =
                 b->box[c] + (b->origin[c & 1] - o[c & 1]) + (c < 2 ? least - reach / 2 : most + reach / 2);
         }

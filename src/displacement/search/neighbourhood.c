@@ -1,8 +1,8 @@
 /* A few bodies of a cluster by themselves: they move, those about them stand, nobody else is looked at.
  *
- * Where one pair is tried anew in a cluster of hundreds, most of it has no say. So the pair is tried with the bodies that
- * it could run into, and those that they could, until there are as many as the caller allows. Whoever stands farther off is
- * not known to that search; so what moved is looked at among all before it is believed. */
+ * Where one pair is tried anew in a cluster of hundreds, most of it has no say. So the pair is tried with the bodies
+ * that it could run into, and those that they could, until there are as many as the caller allows. Whoever stands
+ * farther off is not known to that search; so what moved is looked at among all before it is believed. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 
@@ -19,8 +19,8 @@ static void box_at(const sunder_i_search *s, uint32_t i, double grown, double bo
 {
     const sunder_i_body *b = &s->town->body[s->body[i]], *first = &s->town->body[s->body[0]];
     for (uint32_t c = 0; c < 4; c++)
-        box[c] = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] +
-                 (c < 2 ? -grown : grown);
+        box[c] =
+            b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] + (c < 2 ? -grown : grown);
 }
 
 bool sunder_i_vicinity_init(sunder_i_vicinity *v, sunder_i_search *s)
@@ -199,8 +199,8 @@ bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size
     return done && !v->all->failed;
 }
 
-/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for each of
- * all. */
+/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
+ * each of all. */
 static double costs_more(const sunder_i_vicinity *v, const double *t, const double *best)
 {
     double sum = 0;

@@ -19,11 +19,11 @@ typedef struct sunder_i_vicinity {
 /* Of a search that stands without clashes. False if memory is out; is to be freed then, too. */
 bool sunder_i_vicinity_init(sunder_i_vicinity *vicinity, sunder_i_search *all);
 void sunder_i_vicinity_free(sunder_i_vicinity *vicinity);
-/* Is there a place without clashes for bodies i and j and those about them, `most` in all, everybody else standing? They
- * are put there. reach: how far off somebody may be run into. */
+/* Is there a place without clashes for bodies i and j and those about them, `most` in all, everybody else standing?
+ * They are put there. reach: how far off somebody may be run into. */
 bool sunder_i_vicinity_settle(sunder_i_vicinity *vicinity, uint32_t i, uint32_t j, size_t most, double reach);
-/* From a solution, `best`, which all stand at but for i and j, down with those about these, everybody else standing. What
- * is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
+/* From a solution, `best`, which all stand at but for i and j, down with those about these, everybody else standing.
+ * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
 double sunder_i_vicinity_descend(sunder_i_vicinity *vicinity, uint32_t i, uint32_t j, size_t most, double reach,
                                  const double *best, double least);
 

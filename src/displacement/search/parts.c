@@ -19,8 +19,8 @@ static bool still_counts(const sunder_i_search *s, const sunder_i_truce *truce)
 static bool all_ended(const sunder_i_search *s, const sunder_i_torn *torn)
 {
     const sunder_i_ended first = {{torn->i, torn->j}, {0, 0}}, last = {{torn->i, torn->j}, {UINT32_MAX, UINT32_MAX}};
-    return s->ended_n && sunder_i_ended_at(s->ended, s->ended_n, &last) -
-                                 sunder_i_ended_at(s->ended, s->ended_n, &first) == torn->n;
+    return s->ended_n &&
+           sunder_i_ended_at(s->ended, s->ended_n, &last) - sunder_i_ended_at(s->ended, s->ended_n, &first) == torn->n;
 }
 
 bool sunder_i_search_is_torn(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)

@@ -1,9 +1,10 @@
 /* Other orders of putting bodies back.
  *
- * The sides that a solution stands on are mostly a matter of who came first. So a few bodies that stand about one of which
- * the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it came from, in
- * another order; all go down from there, and what is cheaper is kept. In doubt are those that overlapped another by much,
- * for which another side is not much farther, and those that went much farther than any pair was in conflict by. */
+ * The sides that a solution stands on are mostly a matter of who came first. So a few bodies that stand about one of
+ * which the sides are in doubt are taken out and put back one by one, each at the free place nearest to where it
+ * came from, in another order; all go down from there, and what is cheaper is kept. In doubt are those that
+ * overlapped another by much, for which another side is not much farther, and those that went much farther than any
+ * pair was in conflict by. */
 #include "displacement/search/stages.h"
 
 #include "base/random.h"
@@ -16,9 +17,9 @@
 #define DEEP 0.125
 /* ... and a move is long from so many times the worst conflict on. */
 #define LONG 1.5
-/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was tried
- * before counts as so many; of clusters in which no more than so many may move; and for no more than this part of the work
- * that was done before. */
+/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was
+ * tried before counts as so many; of clusters in which no more than so many may move; and for no more than this part
+ * of the work that was done before. */
 #define MOST_ORDERS 64
 #define MOST_USELESS 32
 #define KNOWN 4
@@ -30,8 +31,8 @@
 #define SURE_MOVING 16
 /* From 2 to so many are taken out. */
 #define MOST_OUT 6
-/* Those who stand in the way may share what the place costs, so it may be so many times as far as the limit, or as a move
- * that costs as much as all do now. */
+/* Those who stand in the way may share what the place costs, so it may be so many times as far as the limit, or as a
+ * move that costs as much as all do now. */
 #define BEYOND_LIMIT 2
 #define BEYOND_COST 1.5
 
@@ -52,14 +53,13 @@ typedef struct reordering {
     sunder_i_search *search;
     ranked *doubtful, *near; /* [doubtfuls], the costliest first; [moving] */
     size_t doubtfuls, moving;
-    uint32_t *out; /* those that are taken out */
+    uint32_t *out;             /* those that are taken out */
     double tried[MOST_ORDERS]; /* costs of what was begun with: the same again would end where it did */
     size_t tries;
     double *best, cost;
 } reordering;
 
-/* ---- Whose sides are in doubt --------------------------------------------------------------------------------------
- */
+/* ---- Whose sides are in doubt ------------------------------------------------------------------------------------ */
 
 static double extent(const sunder_i_search *s, uint32_t i)
 {
@@ -93,8 +93,7 @@ static bool find_doubtful(reordering *r)
     return ok;
 }
 
-/* ---- Out, and in again ---------------------------------------------------------------------------------------------
- */
+/* ---- Out, and in again ------------------------------------------------------------------------------------------- */
 
 /* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
 static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
@@ -138,8 +137,8 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
-/* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at home, for
- * all of them to make room. Returns how much of no use that was. */
+/* The n bodies in r->out are taken out and put back in this order, and all go down. Who finds no place stays at
+ * home, for all of them to make room. Returns how much of no use that was. */
 static size_t put_back(reordering *r, size_t n)
 {
     sunder_i_search *s = r->search;
@@ -152,8 +151,7 @@ static size_t put_back(reordering *r, size_t n)
         const double farthest =
             fmin(BEYOND_LIMIT * sunder_i_search_limit(s, i), BEYOND_COST * sqrt(2 * s->mass[i] * r->cost));
         double place[2];
-        if (sunder_i_search_free_body(s, i, farthest, place))
-            memcpy(s->t + 2 * i, place, sizeof place);
+        if (sunder_i_search_free_body(s, i, farthest, place)) memcpy(s->t + 2 * i, place, sizeof place);
         s->away[i] = false;
     }
     const double start = sunder_i_search_cost(s, s->t), before = r->cost;

@@ -1,12 +1,12 @@
 /* Pairs that were given up are asked for peace again.
  *
- * Pairs that were put under a truce together (yield.c) may be more than need be. So once nothing joins clusters any more
- * each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several members are
- * in conflict for all of these, and then for each, since one may have no solution where others do. At first nobody but the
- * pair moves, then more and more of those about it (vicinity.c), at last the whole cluster. What overlaps and finds no
- * peace is asked not to overlap, at least, before any pair that is only too near is asked for anything. All are asked at
- * one stage before any is at the next, so that where the effort ends the small questions have been put; it grows with the
- * number of bodies and of pairs, and with nothing else. */
+ * Pairs that were put under a truce together (yield.c) may be more than need be. So once nothing joins clusters any
+ * more each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several
+ * members are in conflict for all of these, and then for each, since one may have no solution where others do. At
+ * first nobody but the pair moves, then more and more of those about it (vicinity.c), at last the whole cluster.
+ * What overlaps and finds no peace is asked not to overlap, at least, before any pair that is only too near is asked
+ * for anything. All are asked at one stage before any is at the next, so that where the effort ends the small
+ * questions have been put; it grows with the number of bodies and of pairs, and with nothing else. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 
@@ -35,11 +35,11 @@ typedef struct petition {
     sunder_i_search *search;
     const sunder_i_suit *suit;
     size_t n, moving;
-    bool *settled;     /* [n] nothing is left to be asked */
-    bool *in_vain;     /* [n] with more bodies the question would be the same */
-    double *stand;     /* [2 bodies] */
-    uint64_t effort;   /* till when */
-    bool any;          /* somebody found peace */
+    bool *settled;   /* [n] nothing is left to be asked */
+    bool *in_vain;   /* [n] with more bodies the question would be the same */
+    double *stand;   /* [2 bodies] */
+    uint64_t effort; /* till when */
+    bool any;        /* somebody found peace */
     sunder_i_vicinity vicinity;
 } petition;
 
@@ -52,8 +52,7 @@ bool sunder_i_suit_parts(const sunder_i_town *town, const sunder_i_truce *t)
     return depth > 0 && town->rules.gap > 0 && depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
 
-/* ---- What is asked -------------------------------------------------------------------------------------------------
- */
+/* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
 static const sunder_i_truce *truce_of(const sunder_i_search *s, const sunder_i_suit *x, size_t k)
 {
@@ -121,8 +120,7 @@ static void resume_overlap(sunder_i_search *s, const sunder_i_suit *x)
             sunder_i_truces_remove(&s->truces, s->town, truce_of(s, x, k));
 }
 
-/* ---- At one stage --------------------------------------------------------------------------------------------------
- */
+/* ---- At one stage ------------------------------------------------------------------------------------------------ */
 
 /* With all that the cluster has. */
 static bool settle_all(petition *p)
@@ -186,8 +184,8 @@ typedef struct request {
     bool overlap, peace, part;
 } request;
 
-static const request requests[] = {{true, true, false},  {true, true, true},   {true, false, false},
-                                   {true, false, true},  {false, true, false}, {false, true, true}};
+static const request requests[] = {{true, true, false}, {true, true, true},   {true, false, false},
+                                   {true, false, true}, {false, true, false}, {false, true, true}};
 #define REQUESTS (sizeof requests / sizeof *requests)
 
 /* Was it granted with others, or is it not what this request is for? */
@@ -219,18 +217,18 @@ static void ask_all(petition *p, const request *r)
     }
 }
 
-/* ---- Pairs for an overlap ------------------------------------------------------------------------------------------
- */
+/* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
 
-/* Lets the pairs that were in conflict at the start, and are at peace, be as they were then, but that none overlaps: their
- * truces are in `list`. */
+/* Lets the pairs that were in conflict at the start, and are at peace, be as they were then, but that none overlaps:
+ * their truces are in `list`. */
 static void sacrifice(sunder_i_search *s, sunder_i_truces *list)
 {
     size_t n = 0, out = 0;
     sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
     if (!clash) s->failed = true;
     for (size_t k = 0; k < n && !s->failed; k++)
-        if (sunder_i_truces_make(s->town, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance, list, NULL))
+        if (sunder_i_truces_make(s->town, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance, list,
+                                 NULL))
             s->failed = true;
     sunder_i_free(clash);
     for (size_t k = 0; k < list->n && !s->failed; k++) {
@@ -279,8 +277,8 @@ static bool grant_from_home(petition *p, size_t k)
     return granted;
 }
 
-/* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap counts
- * for more than any number of pairs. */
+/* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap
+ * counts for more than any number of pairs. */
 static void trade(petition *p)
 {
     sunder_i_search *s = p->search;
@@ -293,7 +291,8 @@ static void trade(petition *p)
         p->settled[k] = list.n && !s->failed && (grant(p, k, STAGES, false) || grant_from_home(p, k));
         p->any = p->any || p->settled[k];
         if (p->settled[k]) redeem(p, &list);
-        for (size_t t = 0; t < list.n && !p->settled[k]; t++) sunder_i_truces_remove(&s->truces, s->town, &list.item[t]);
+        for (size_t t = 0; t < list.n && !p->settled[k]; t++)
+            sunder_i_truces_remove(&s->truces, s->town, &list.item[t]);
         sunder_i_truces_free(&list);
     }
 }

@@ -33,10 +33,10 @@ typedef struct sunder_i_search {
     sunder_i_truces truces; /* of pairs that this search has given up; they come before those of the town */
     sunder_i_ended *ended;  /* those of the town that do not count; sorted */
     size_t ended_n, ended_capacity;
-    double cap;             /* no body is sent farther than this, whatever its limit; INFINITY unless set */
+    double cap;                         /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     struct sunder_i_vicinity *vicinity; /* lent: changes are tried in it; NULL: with all */
     sunder_i_scratch scratch;
-    sunder_i_shelf shelf;  /* obstacles of pairs of pieces */
+    sunder_i_shelf shelf;   /* obstacles of pairs of pieces */
     sunder_i_edge *shifted; /* one that is not kept there */
     size_t shifted_capacity;
     double extent;          /* the mean size of the bodies */
@@ -58,8 +58,8 @@ double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
 /* ---- surroundings.c ---------------------------------------------------------------------------------------------- */
 
-/* The bodies of a cluster, which stand at `own`, and then those about it: *n bodies and where they stand. False if memory is
- * out; what there is by then is the caller's, too. */
+/* The bodies of a cluster, which stand at `own`, and then those about it: *n bodies and where they stand. False if
+ * memory is out; what there is by then is the caller's, too. */
 bool sunder_i_cluster_about(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
                             uint32_t **body, double **move, size_t *n);
 

@@ -19,9 +19,9 @@ static double mean_move(const sunder_i_town *town, const sunder_i_cluster *clust
     return n ? sum / (double)n : 0;
 }
 
-/* Bodies within reach of the cluster that are not of it, ascending. Each member looks about itself as far as it may be
- * sent by its own move, or by those of the others as they mostly are: one that had to go far does not make all the others
- * look that far. */
+/* Bodies within reach of the cluster that are not of it, ascending. Each member looks about itself as far as it may
+ * be sent by its own move, or by those of the others as they mostly are: one that had to go far does not make all
+ * the others look that far. */
 static bool find_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
                            sunder_i_list *hits)
 {
