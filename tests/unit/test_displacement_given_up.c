@@ -23,71 +23,71 @@
 
 enum { FEATURES = 24, BODIES = 12 };
 
-/* The same truces; p, of which some were taken out one by one, may say of bodies that they reach farther. */
-static void expect_same(const sunder_i_truces *p, const sunder_i_truces *q)
+/* The same relaxations; p, of which some were taken out one by one, may say of bodies that they reach farther. */
+static void expect_same(const sunder_i_relaxations *p, const sunder_i_relaxations *q)
 {
     assert_int_equal(p->n, q->n);
-    assert_int_equal(p->torn_n, q->torn_n);
+    assert_int_equal(p->relaxed_n, q->relaxed_n);
     for (size_t k = 0; k < p->n; k++) {
         assert_int_equal(p->item[k].a, q->item[k].a);
         assert_int_equal(p->item[k].b, q->item[k].b);
     }
-    for (size_t k = 0; k < p->torn_n; k++) {
-        assert_int_equal(p->torn[k].i, q->torn[k].i);
-        assert_int_equal(p->torn[k].j, q->torn[k].j);
-        assert_int_equal(p->torn[k].n, q->torn[k].n);
-        assert_true(p->torn[k].reach >= q->torn[k].reach);
+    for (size_t k = 0; k < p->relaxed_n; k++) {
+        assert_int_equal(p->relaxed[k].i, q->relaxed[k].i);
+        assert_int_equal(p->relaxed[k].j, q->relaxed[k].j);
+        assert_int_equal(p->relaxed[k].n, q->relaxed[k].n);
+        assert_true(p->relaxed[k].reach >= q->relaxed[k].reach);
     }
 }
 
-/* All truces, or those that are not among `without`. */
-static void index_all(const sunder_i_town *town, const sunder_i_truce *truce, size_t n, const sunder_i_ended *without,
-                      size_t without_n, sunder_i_truces *out)
+/* All relaxations, or those that are not among `without`. */
+static void index_all(const sunder_i_model *model, const sunder_i_relaxation *relaxation, size_t n, const sunder_i_restored *without,
+                      size_t without_n, sunder_i_relaxations *out)
 {
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_ended key = sunder_i_ended_of(town, &truce[k]);
-        if (!without_n || !bsearch(&key, without, without_n, sizeof key, sunder_i_by_ended))
-            assert_true(sunder_i_truces_add(out, &truce[k]));
+        const sunder_i_restored key = sunder_i_restored_of(model, &relaxation[k]);
+        if (!without_n || !bsearch(&key, without, without_n, sizeof key, sunder_i_by_restored))
+            assert_true(sunder_i_relaxations_add(out, &relaxation[k]));
     }
-    assert_true(sunder_i_truces_index(out, town));
+    assert_true(sunder_i_relaxations_index(out, model));
 }
 
 static void check_list(void **state)
 {
     (void)state;
     uint32_t body_of[FEATURES];
-    sunder_i_town town = {.body_of = body_of, .features = FEATURES};
+    sunder_i_model model = {.body_of = body_of, .features = FEATURES};
     printf("seed %llu\n", (unsigned long long)test_seed());
     for (uint32_t f = 0; f < FEATURES; f++) body_of[f] = (7 * f + 3) % BODIES;
     for (uint64_t round = 0; round < test_count(200); round++) {
         rng r = rng_start(test_seed(), round);
-        sunder_i_truce truce[40];
-        sunder_i_ended half[40];
+        sunder_i_relaxation relaxation[40];
+        sunder_i_restored half[40];
         size_t n = 0, h = 0;
-        sunder_i_truces one = {0}, all = {0}, rest = {0};
+        sunder_i_relaxations one = {0}, all = {0}, rest = {0};
         for (uint32_t k = 0; k < 40; k++) {
             const uint32_t a = (uint32_t)rng_int(&r, 0, FEATURES - 2);
             const uint32_t b = (uint32_t)rng_int(&r, a + 1, FEATURES - 1);
-            const sunder_i_truce t = {.a = a, .b = b, .shift = {(double)rng_int(&r, 0, 2), 0}};
-            if (body_of[a] == body_of[b] || sunder_i_truces_find(&one, a, b)) continue;
-            assert_true(sunder_i_truces_insert(&one, &town, &t));
-            truce[n++] = t;
+            const sunder_i_relaxation t = {.a = a, .b = b, .shift = {(double)rng_int(&r, 0, 2), 0}};
+            if (body_of[a] == body_of[b] || sunder_i_relaxations_find(&one, a, b)) continue;
+            assert_true(sunder_i_relaxations_insert(&one, &model, &t));
+            relaxation[n++] = t;
         }
-        index_all(&town, truce, n, NULL, 0, &all);
+        index_all(&model, relaxation, n, NULL, 0, &all);
         expect_same(&one, &all);
         for (size_t k = 0; k < n; k += 2) {
-            half[h++] = sunder_i_ended_of(&town, &truce[k]);
-            sunder_i_truces_remove(&one, &town, &truce[k]);
+            half[h++] = sunder_i_restored_of(&model, &relaxation[k]);
+            sunder_i_relaxations_remove(&one, &model, &relaxation[k]);
         }
-        qsort(half, h, sizeof *half, sunder_i_by_ended);
-        sunder_i_truces_end(&all, &town, half, h);
-        assert_true(sunder_i_truces_index(&all, &town));
-        index_all(&town, truce, n, half, h, &rest);
+        qsort(half, h, sizeof *half, sunder_i_by_restored);
+        sunder_i_relaxations_restore(&all, &model, half, h);
+        assert_true(sunder_i_relaxations_index(&all, &model));
+        index_all(&model, relaxation, n, half, h, &rest);
         expect_same(&one, &rest);
         expect_same(&all, &rest);
-        sunder_i_truces_free(&one);
-        sunder_i_truces_free(&all);
-        sunder_i_truces_free(&rest);
+        sunder_i_relaxations_free(&one);
+        sunder_i_relaxations_free(&all);
+        sunder_i_relaxations_free(&rest);
     }
 }
 

@@ -1,64 +1,65 @@
-/* What clusters gave up, and what they found a solution for after all: their truces become the town's. */
+/* What clusters gave up, and what they found a solution for after all: their relaxations become the model's. */
 #include "displacement/clusters/stages.h"
 
 #include <stdlib.h>
 
-/* Pairs that are at peace again: they are under no truce, and bodies between which none is left are not given up. */
-static bool end_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
+/* Pairs that are resolved again: they are under no relaxation, and bodies between which none is left are not given
+ * up. */
+static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     size_t n = 0, out = 0;
-    for (size_t k = 0; k < clusters; k++) n += cluster[k].ended_n;
+    for (size_t k = 0; k < clusters; k++) n += cluster[k].restored_n;
     if (n == 0) return true;
-    sunder_i_ended *ended = sunder_i_alloc(n, sizeof *ended);
-    if (!ended) return false;
+    sunder_i_restored *restored = sunder_i_alloc(n, sizeof *restored);
+    if (!restored) return false;
     n = 0;
     for (size_t k = 0; k < clusters; k++)
-        for (size_t e = 0; e < cluster[k].ended_n; e++) ended[n++] = cluster[k].ended[e];
-    qsort(ended, n, sizeof *ended, sunder_i_by_ended);
-    sunder_i_truces_end(&town->truces, town, ended, n);
-    sunder_i_free(ended);
-    if (!sunder_i_truces_index(&town->truces, town)) return false;
-    for (size_t k = 0; k < town->given_n; k++)
-        if (sunder_i_truces_between(&town->truces, town->given[k].a, town->given[k].b))
-            town->given[out++] = town->given[k];
-    town->given_n = out;
+        for (size_t e = 0; e < cluster[k].restored_n; e++) restored[n++] = cluster[k].restored[e];
+    qsort(restored, n, sizeof *restored, sunder_i_by_restored);
+    sunder_i_relaxations_restore(&model->relaxations, model, restored, n);
+    sunder_i_free(restored);
+    if (!sunder_i_relaxations_index(&model->relaxations, model)) return false;
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (sunder_i_relaxations_between(&model->relaxations, model->given_up[k].a, model->given_up[k].b))
+            model->given_up[out++] = model->given_up[k];
+    model->given_up_n = out;
     return true;
 }
 
-/* The clusters' truces, in place of what the town had for the same features; those that are not hopeless are given
- * up. */
-static bool take_truces(sunder_i_town *town, const sunder_i_cluster *cluster, size_t clusters)
+/* The clusters' relaxations, in place of what the model had for the same features; those that are not infeasible are
+ * given up. */
+static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
-    sunder_i_truces *all = &town->truces;
+    sunder_i_relaxations *all = &model->relaxations;
     const size_t before = all->n;
     size_t n = 0, out = 0;
-    for (size_t k = 0; k < clusters; k++) n += cluster[k].truces.n;
+    for (size_t k = 0; k < clusters; k++) n += cluster[k].relaxations.n;
     if (n == 0) return true;
-    sunder_i_couple *given = sunder_i_realloc(town->given, town->given_n + n, sizeof *given);
-    if (!given) return false;
-    town->given = given;
+    sunder_i_couple *given_up = sunder_i_realloc(model->given_up, model->given_up_n + n, sizeof *given_up);
+    if (!given_up) return false;
+    model->given_up = given_up;
     for (size_t k = 0; k < clusters; k++)
-        for (size_t t = 0; t < cluster[k].truces.n; t++) {
-            sunder_i_truce truce = cluster[k].truces.item[t];
-            const sunder_i_truces known = {.item = all->item, .n = before};
-            const sunder_i_truce *old = sunder_i_truces_find(&known, truce.a, truce.b);
-            const uint32_t i = town->body_of[truce.a], j = town->body_of[truce.b];
-            if (!truce.hopeless) given[town->given_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
-            truce.hopeless = old ? old->hopeless : truce.hopeless;
+        for (size_t t = 0; t < cluster[k].relaxations.n; t++) {
+            sunder_i_relaxation relaxation = cluster[k].relaxations.item[t];
+            const sunder_i_relaxations known = {.item = all->item, .n = before};
+            const sunder_i_relaxation *old = sunder_i_relaxations_find(&known, relaxation.a, relaxation.b);
+            const uint32_t i = model->body_of[relaxation.a], j = model->body_of[relaxation.b];
+            if (!relaxation.infeasible) given_up[model->given_up_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
+            relaxation.infeasible = old ? old->infeasible : relaxation.infeasible;
             if (old)
-                all->item[old - all->item] = truce;
-            else if (!sunder_i_truces_add(all, &truce))
+                all->item[old - all->item] = relaxation;
+            else if (!sunder_i_relaxations_add(all, &relaxation))
                 return false;
         }
-    qsort(given, town->given_n, sizeof *given, sunder_i_by_couple);
-    for (size_t k = 0; k < town->given_n; k++)
-        if (k == 0 || sunder_i_by_couple(&given[out - 1], &given[k])) given[out++] = given[k];
-    town->given_n = out;
-    return sunder_i_truces_index(all, town);
+    qsort(given_up, model->given_up_n, sizeof *given_up, sunder_i_by_couple);
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (k == 0 || sunder_i_by_couple(&given_up[out - 1], &given_up[k])) given_up[out++] = given_up[k];
+    model->given_up_n = out;
+    return sunder_i_relaxations_index(all, model);
 }
 
-sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_solver_take_over(sunder_i_solver *s, sunder_error *err)
 {
-    const bool ok = end_truces(&w->town, w->cluster, w->clusters) && take_truces(&w->town, w->cluster, w->clusters);
+    const bool ok = restore(&s->model, s->cluster, s->clusters) && take_relaxations(&s->model, s->cluster, s->clusters);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -1,38 +1,36 @@
-/* What limits and fixed bodies leave no solution for: pairs that no admissible moves bring to peace, found exactly
+/* What limits and fixed bodies leave no solution for: pairs that no admissible moves resolve, found exactly
  * before anything moves; pairs that a cluster gave up. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
-#include "displacement/layer/inclusion.h"
 #include "displacement/layer/resolution.h"
 
 #include "base/parallel.h"
 
 #include <math.h>
 
-static bool is_settled(const sunder_i_job *w, const sunder_i_relation *r)
+static bool is_settled(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    return w->improved[w->town.body_of[r->a]] || w->improved[w->town.body_of[r->b]];
+    return s->improved[s->model.body_of[r->a]] || s->improved[s->model.body_of[r->b]];
 }
 
-sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_solver_choose_holders(sunder_i_solver *s, sunder_error *err)
 {
-    if (w->town.kept_n == 0) return SUNDER_OK;
-    bool *conflict = sunder_i_calloc(w->start.n, sizeof *conflict);
+    if (s->model.inclusions == 0) return SUNDER_OK;
+    bool *conflict = sunder_i_calloc(s->start.n, sizeof *conflict);
     if (!conflict) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < w->start.n; k++)
-        conflict[k] = !is_settled(w, &w->start.pair[k]) && sunder_i_job_is_between(&w->town, &w->start.pair[k]);
-    const sunder_status status = sunder_i_keep_choose(&w->town, &w->start, conflict, err);
+    for (size_t k = 0; k < s->start.n; k++)
+        conflict[k] = !is_settled(s, &s->start.pair[k]) && sunder_i_is_open_conflict(&s->model, &s->start.pair[k]);
+    const sunder_status status = sunder_i_inclusions_choose(&s->model, &s->start, conflict, err);
     sunder_i_free(conflict);
     return status;
 }
 
-/* ---- Hopeless by itself ------------------------------------------------------------------------------------------ */
+/* ---- Infeasible by itself ---------------------------------------------------------------------------------------- */
 
 typedef struct judging {
-    const sunder_i_town *town;
+    const sunder_i_model *model;
     const sunder_i_relations *start;
-    sunder_i_truce *truce; /* [start->n] hopeless ones are filled */
-    sunder_i_peace *peace; /* [start->n] */
+    sunder_i_relaxation *relaxation; /* [start->n] infeasible ones are filled */
+    sunder_i_resolution *resolution; /* [start->n] */
 } judging;
 
 /* Is there surely a move of no more than `reach` that takes b's box the gap off a's? It spares the exact question. */
@@ -45,49 +43,54 @@ static bool boxes_can_part(const double *a, const double *b, double gap, double 
 static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
-    const sunder_i_town *town = g->town;
+    const sunder_i_model *model = g->model;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
-        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
-        const double reach = sunder_i_limit_of(&town->body[i]) + sunder_i_limit_of(&town->body[j]);
-        if (!sunder_i_job_is_between(town, r) || reach == INFINITY ||
-            boxes_can_part(town->box + 4 * (size_t)r->a, town->box + 4 * (size_t)r->b, town->rules.gap, reach))
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        const double reach = sunder_i_limit_of(&model->body[i]) + sunder_i_limit_of(&model->body[j]);
+        if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY ||
+            boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach))
             continue;
-        status = sunder_i_make_peace(&town->rules, town->layer->feature[r->a].shape, town->layer->feature[r->b].shape,
-                                     nextafter(reach, INFINITY), &g->peace[k], err);
-        if (status || !g->peace[k].beyond) continue;
-        status = sunder_i_truce_of(town, r->a, r->b, &g->truce[k], err);
-        g->truce[k].hopeless = true;
+        status = sunder_i_resolve(&model->rules, model->layer->feature[r->a].shape, model->layer->feature[r->b].shape,
+                                  nextafter(reach, INFINITY), &g->resolution[k], err);
+        if (status || !g->resolution[k].beyond) continue;
+        status = sunder_i_relaxation_of(model, r->a, r->b, &g->relaxation[k], err);
+        g->relaxation[k].infeasible = true;
     }
     return status;
 }
 
 /* Takes over what was found of pair r. */
-static sunder_status note(sunder_i_job *w, const sunder_i_relation *r, const sunder_i_truce *truce,
-                          const sunder_i_peace *peace, sunder_error *err)
+static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_relaxation *relaxation,
+                          const sunder_i_resolution *resolution, sunder_error *err)
 {
-    sunder_i_town *town = &w->town;
-    if (truce->hopeless) return sunder_i_truces_add(&town->truces, truce) ? SUNDER_OK : sunder_i_no_memory(err);
-    const sunder_i_body *p = &town->body[town->body_of[r->a]], *q = &town->body[town->body_of[r->b]];
+    sunder_i_model *model = &s->model;
+    if (relaxation->infeasible)
+        return sunder_i_relaxations_add(&model->relaxations, relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+    const sunder_i_body *p = &model->body[model->body_of[r->a]], *q = &model->body[model->body_of[r->b]];
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q);
-    if (!peace->apart_beyond || !peace->inside || hypot(peace->place[0], peace->place[1]) > reach) return SUNDER_OK;
-    if (!sunder_i_reserve(&w->entry, &w->entry_capacity, w->entries + 1, sizeof *w->entry))
+    if (!resolution->apart_beyond || !resolution->inside || hypot(resolution->place[0], resolution->place[1]) > reach)
+        return SUNDER_OK;
+    if (!sunder_i_reserve(&s->entry, &s->entry_capacity, s->entries + 1, sizeof *s->entry))
         return sunder_i_no_memory(err);
-    w->entry[w->entries++] = (sunder_i_entry){r->a, r->b, peace->a_inside, {peace->place[0], peace->place[1]}};
-    return sunder_i_keep_add(town, r->a, r->b, peace->a_inside, err);
+    s->entry[s->entries++] =
+        (sunder_i_entry){r->a, r->b, resolution->a_inside, {resolution->place[0], resolution->place[1]}};
+    return sunder_i_inclusions_add(model, r->a, r->b, resolution->a_inside, err);
 }
 
-sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, sunder_error *err)
 {
-    const size_t n = w->start.n;
-    judging g = {&w->town, &w->start, sunder_i_calloc(n, sizeof *g.truce), sunder_i_calloc(n, sizeof *g.peace)};
-    sunder_status status = g.truce && g.peace ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = sunder_i_keep_note(&w->town, &w->start, err);
-    if (!status) status = sunder_i_parallel(w->town.rules.threads, n, 8, judge, &g, err);
-    for (size_t k = 0; !status && k < n; k++) status = note(w, &w->start.pair[k], &g.truce[k], &g.peace[k], err);
-    if (!status && !sunder_i_truces_index(&w->town.truces, &w->town)) status = sunder_i_no_memory(err);
-    sunder_i_free(g.truce);
-    sunder_i_free(g.peace);
+    const size_t n = s->start.n;
+    judging g = {&s->model, &s->start, sunder_i_calloc(n, sizeof *g.relaxation),
+                 sunder_i_calloc(n, sizeof *g.resolution)};
+    sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
+    if (!status) status = sunder_i_parallel(s->model.rules.threads, n, 8, judge, &g, err);
+    for (size_t k = 0; !status && k < n; k++)
+        status = note(s, &s->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
+    if (!status && !sunder_i_relaxations_index(&s->model.relaxations, &s->model)) status = sunder_i_no_memory(err);
+    sunder_i_free(g.relaxation);
+    sunder_i_free(g.resolution);
     return status;
 }

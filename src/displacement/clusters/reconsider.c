@@ -1,7 +1,7 @@
-/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of the
- * layer's conflicts (certify.c): either it is proved that limits and fixed features leave no room for all of them, or
- * there is a solution to go on from, or the question stays open. What is said of those that remain is for
- * verdicts.c. */
+/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of
+ * the layer's conflicts (proofs/feasibility.c): either it is proved that limits and fixed features leave no room for
+ * all of them, or there is a solution to go on from, or the question stays open. What is said of those that remain
+ * is for verdicts.c. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/rounding.h"
@@ -50,23 +50,23 @@ static int by_root(const void *a, const void *b)
     return p->pair.b < q->pair.b ? -1 : p->pair.b > q->pair.b;
 }
 
-static size_t list_pairs(const sunder_i_job *w, uint32_t *parent, rooted *list)
+static size_t list_pairs(const sunder_i_solver *s, uint32_t *parent, rooted *list)
 {
-    const sunder_i_town *town = &w->town;
+    const sunder_i_model *model = &s->model;
     size_t n = 0;
-    sunder_i_union_init(parent, town->bodies);
-    for (size_t k = 0; k < w->start.n; k++) {
-        const sunder_i_relation *r = &w->start.pair[k];
-        if (!sunder_i_job_is_conflict(town, r)) continue;
-        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
-        if (town->body[i].fixed && town->body[j].fixed) continue;
+    sunder_i_union_init(parent, model->bodies);
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (model->body[i].fixed && model->body[j].fixed) continue;
         list[n++].pair = i < j ? (sunder_i_couple){i, j} : (sunder_i_couple){j, i};
-        if (town->body[i].fixed || town->body[j].fixed) continue;
+        if (model->body[i].fixed || model->body[j].fixed) continue;
         sunder_i_union_join(parent, i, j);
     }
     for (size_t k = 0; k < n; k++) {
         const sunder_i_couple c = list[k].pair;
-        list[k].root = sunder_i_union_find(parent, town->body[c.a].fixed ? c.b : c.a);
+        list[k].root = sunder_i_union_find(parent, model->body[c.a].fixed ? c.b : c.a);
     }
     if (n) qsort(list, n, sizeof *list, by_root);
     size_t out = 0;
@@ -83,10 +83,10 @@ static void free_components(components *c)
     sunder_i_free(c->body);
 }
 
-static sunder_status find_components(const sunder_i_job *w, components *out, sunder_error *err)
+static sunder_status find_components(const sunder_i_solver *s, components *out, sunder_error *err)
 {
-    const size_t most = w->start.n;
-    *out = (components){.parent = sunder_i_alloc(w->town.bodies, sizeof *out->parent),
+    const size_t most = s->start.n;
+    *out = (components){.parent = sunder_i_alloc(s->model.bodies, sizeof *out->parent),
                         .component = sunder_i_alloc(most, sizeof *out->component),
                         .pair = sunder_i_alloc(most, sizeof *out->pair),
                         .body = sunder_i_alloc(2 * most, sizeof *out->body)};
@@ -95,7 +95,7 @@ static sunder_status find_components(const sunder_i_job *w, components *out, sun
         sunder_i_free(list);
         return sunder_i_no_memory(err);
     }
-    const size_t n = list_pairs(w, out->parent, list);
+    const size_t n = list_pairs(s, out->parent, list);
     for (size_t first = 0, end; first < n; first = end) {
         uint32_t *body = out->body + 2 * first;
         for (end = first; end < n && list[end].root == list[first].root; end++) {
@@ -112,20 +112,20 @@ static sunder_status find_components(const sunder_i_job *w, components *out, sun
 /* ---- Looking again ----------------------------------------------------------------------------------------------- */
 
 typedef struct asking {
-    const sunder_i_job *job;
+    const sunder_i_solver *solver;
     const component *component;
     const bool *asked; /* [components] */
-    const sunder_i_held *held;
-    size_t held_n;
-    sunder_i_answer *answer;
+    const sunder_i_requirement *required;
+    size_t required_n;
+    sunder_i_decision *decision;
 } asking;
 
 /* The component's bodies and those that the search found it to hang together with, ascending. */
-static sunder_status gather_bodies(const sunder_i_job *w, const component *c, uint32_t **body, size_t *n,
+static sunder_status gather_bodies(const sunder_i_solver *s, const component *c, uint32_t **body, size_t *n,
                                    sunder_error *err)
 {
     size_t more;
-    const uint32_t *member = sunder_i_job_members(w, sunder_i_union_find(w->parent, c->root), &more);
+    const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, c->root), &more);
     *body = sunder_i_alloc(c->bodies + more, sizeof **body);
     if (!*body) return sunder_i_no_memory(err);
     memcpy(*body, c->body, c->bodies * sizeof **body);
@@ -134,7 +134,7 @@ static sunder_status gather_bodies(const sunder_i_job *w, const component *c, ui
     return SUNDER_OK;
 }
 
-static sunder_status certify_some(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status decide_some(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
     sunder_status status = SUNDER_OK;
@@ -143,119 +143,119 @@ static sunder_status certify_some(void *context, size_t begin, size_t end, sunde
         uint32_t *body = NULL;
         size_t n = 0;
         if (!g->asked[k]) continue;
-        status = gather_bodies(g->job, c, &body, &n, err);
-        const sunder_i_question question = {.town = &g->job->town,
-                                            .body = body,
-                                            .bodies = n,
-                                            .a = SUNDER_I_NOBODY,
-                                            .b = SUNDER_I_NOBODY,
-                                            .held = g->held,
-                                            .held_n = g->held_n,
-                                            .effort = EFFORT * (uint64_t)n,
-                                            .most = MOST_BODIES};
-        if (!status) status = sunder_i_certify(&question, &g->answer[k], err);
+        status = gather_bodies(g->solver, c, &body, &n, err);
+        const sunder_i_subproblem subproblem = {.model = &g->solver->model,
+                                                .body = body,
+                                                .bodies = n,
+                                                .a = SUNDER_I_NOBODY,
+                                                .b = SUNDER_I_NOBODY,
+                                                .required = g->required,
+                                                .required_n = g->required_n,
+                                                .effort = EFFORT * (uint64_t)n,
+                                                .most = MOST_BODIES};
+        if (!status) status = sunder_i_decide(&subproblem, &g->decision[k], err);
         sunder_i_free(body);
     }
     return status;
 }
 
-static void mark(const components *all, const sunder_i_town *town, uint32_t body, bool *by_root_of)
+static void mark(const components *all, const sunder_i_model *model, uint32_t body, bool *by_root_of)
 {
-    if (!town->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
+    if (!model->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
 }
 
-/* What is hopeless is held to the clearance of its truce; ascending, as truces are. */
-static size_t list_held(const sunder_i_town *town, sunder_i_held *held)
+/* What is infeasible is required to the clearance of its relaxation; ascending, as relaxations are. */
+static size_t list_held(const sunder_i_model *model, sunder_i_requirement *required)
 {
     size_t n = 0;
-    for (size_t k = 0; k < town->truces.n; k++) {
-        const sunder_i_truce *t = &town->truces.item[k];
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
         const double shift = hypot(t->shift[0], t->shift[1]);
-        if (!t->hopeless) continue;
-        held[n++] = (sunder_i_held){t->a, t->b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
+        if (!t->infeasible) continue;
+        required[n++] = (sunder_i_requirement){t->a, t->b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
     }
     return n;
 }
 
 /* Components in which a pair was given up. */
-static sunder_status ask(const sunder_i_job *w, const components *all, bool *asked, sunder_error *err)
+static sunder_status ask(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
-    bool *root = sunder_i_calloc(town->bodies, sizeof *root);
+    const sunder_i_model *model = &s->model;
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root);
     if (!root) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < town->given_n; k++) {
-        mark(all, town, town->given[k].a, root);
-        mark(all, town, town->given[k].b, root);
+    for (size_t k = 0; k < model->given_up_n; k++) {
+        mark(all, model, model->given_up[k].a, root);
+        mark(all, model, model->given_up[k].b, root);
     }
     for (size_t k = 0; k < all->n; k++)
-        asked[k] = root[all->component[k].root] && w->standing[all->component[k].root] == SUNDER_I_UNASKED;
+        asked[k] = root[all->component[k].root] && s->standing[all->component[k].root] == SUNDER_I_UNASKED;
     sunder_i_free(root);
     return SUNDER_OK;
 }
 
 /* Lets no pair of these bodies be given up any longer. */
-static bool take_back(sunder_i_town *town, const sunder_i_solution *s)
+static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
 {
     size_t out = 0;
-    for (size_t k = 0; k < town->given_n; k++)
-        if (!sunder_i_set_has(s->body, s->bodies, town->given[k].a) &&
-            !sunder_i_set_has(s->body, s->bodies, town->given[k].b))
-            town->given[out++] = town->given[k];
-    town->given_n = out;
+    for (size_t k = 0; k < model->given_up_n; k++)
+        if (!sunder_i_set_has(solution->body, solution->bodies, model->given_up[k].a) &&
+            !sunder_i_set_has(solution->body, solution->bodies, model->given_up[k].b))
+            model->given_up[out++] = model->given_up[k];
+    model->given_up_n = out;
     out = 0;
-    for (size_t k = 0; k < town->truces.n; k++) {
-        const sunder_i_truce *t = &town->truces.item[k];
-        if (t->hopeless || (!sunder_i_set_has(s->body, s->bodies, town->body_of[t->a]) &&
-                            !sunder_i_set_has(s->body, s->bodies, town->body_of[t->b])))
-            town->truces.item[out++] = *t;
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        if (t->infeasible || (!sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->a]) &&
+                              !sunder_i_set_has(solution->body, solution->bodies, model->body_of[t->b])))
+            model->relaxations.item[out++] = *t;
     }
-    town->truces.n = out;
-    return sunder_i_truces_index(&town->truces, town);
+    model->relaxations.n = out;
+    return sunder_i_relaxations_index(&model->relaxations, model);
 }
 
 /* Puts the bodies where the solution has them; what it moved becomes one cluster. */
-static bool go_on_from(sunder_i_job *w, const component *c, const sunder_i_solution *s)
+static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
 {
-    bool ok = take_back(&w->town, s);
-    for (size_t k = 0; k < s->bodies; k++) {
-        const uint32_t b = s->body[k];
+    bool ok = take_back(&s->model, solution);
+    for (size_t k = 0; k < solution->bodies; k++) {
+        const uint32_t b = solution->body[k];
         double move[2];
-        if (w->town.body[b].fixed) continue;
-        sunder_i_round_move(&w->town, b, s->move + 2 * k, move, NULL);
-        sunder_i_job_place(w, b, move);
-        if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_job_add_edge(w, c->root, b);
+        if (s->model.body[b].fixed) continue;
+        sunder_i_round_move(&s->model, b, solution->move + 2 * k, move, NULL);
+        sunder_i_solver_place(s, b, move);
+        if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_solver_add_edge(s, c->root, b);
     }
     return ok;
 }
 
-sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_error *err)
+sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     *changed = false;
-    if (w->town.given_n == 0) return SUNDER_OK;
+    if (s->model.given_up_n == 0) return SUNDER_OK;
     components all;
-    sunder_status status = find_components(w, &all, err);
-    if (!status) status = sunder_i_job_gather(w, err);
+    sunder_status status = find_components(s, &all, err);
+    if (!status) status = sunder_i_solver_gather(s, err);
     bool *asked = sunder_i_calloc(all.n, sizeof *asked);
-    sunder_i_answer *answer = sunder_i_calloc(all.n, sizeof *answer);
-    sunder_i_held *held = sunder_i_alloc(w->town.truces.n, sizeof *held);
-    if (!status && (!asked || !answer || !held)) status = sunder_i_no_memory(err);
-    if (!status) status = ask(w, &all, asked, err);
+    sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
+    sunder_i_requirement *required = sunder_i_alloc(s->model.relaxations.n, sizeof *required);
+    if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
+    if (!status) status = ask(s, &all, asked, err);
     if (!status) {
-        asking g = {w, all.component, asked, held, list_held(&w->town, held), answer};
-        status = sunder_i_parallel(w->town.rules.threads, all.n, 1, certify_some, &g, err);
+        asking g = {s, all.component, asked, required, list_held(&s->model, required), decision};
+        status = sunder_i_parallel(s->model.rules.threads, all.n, 1, decide_some, &g, err);
     }
-    if (!status) memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    if (!status) memset(s->changed, 0, s->model.features * sizeof *s->changed);
     for (size_t k = 0; k < all.n && !status; k++) {
-        unsigned char *standing = &w->standing[all.component[k].root];
-        if (asked[k] && answer[k].verdict != SUNDER_I_SOLVED) *standing = SUNDER_I_LEFT;
-        if (answer[k].verdict != SUNDER_I_SOLVED) continue;
+        unsigned char *standing = &s->standing[all.component[k].root];
+        if (asked[k] && decision[k].verdict != SUNDER_I_FEASIBLE) *standing = SUNDER_I_LEFT;
+        if (decision[k].verdict != SUNDER_I_FEASIBLE) continue;
         *changed = true;
-        if (!go_on_from(w, &all.component[k], &answer[k].solution)) status = sunder_i_no_memory(err);
+        if (!go_on_from(s, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
     }
-    for (size_t k = 0; k < all.n && answer; k++) sunder_i_answer_clear(&answer[k]);
+    for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(asked);
-    sunder_i_free(answer);
-    sunder_i_free(held);
+    sunder_i_free(decision);
+    sunder_i_free(required);
     free_components(&all);
-    return !status && *changed ? sunder_i_job_check(w, err) : status;
+    return !status && *changed ? sunder_i_solver_check(s, err) : status;
 }

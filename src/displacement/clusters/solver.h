@@ -5,9 +5,9 @@
 #include "displacement/layer/placement.h"
 #include "displacement/search/cluster.h"
 
-typedef struct sunder_i_member {
+typedef struct sunder_i_cluster_member {
     uint32_t root, body;
-} sunder_i_member;
+} sunder_i_cluster_member;
 
 /* What is known of a component of the layer's conflicts. */
 typedef enum sunder_i_standing {
@@ -22,47 +22,47 @@ typedef struct sunder_i_entry {
     double place[2];
 } sunder_i_entry;
 
-typedef struct sunder_i_job {
+typedef struct sunder_i_solver {
     sunder_layer layer; /* in the order of work; its own copy of the features */
     size_t *number;     /* [features] what they were; NULL: nothing was put in order */
-    sunder_i_town town;
-    sunder_i_scene scene;
+    sunder_i_model model;
+    sunder_i_placement placement;
     sunder_i_relations start, now;
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;
     sunder_i_couple *edge;
     size_t edges, edge_capacity;
-    uint32_t *parent;        /* [bodies] union-find over edges */
-    bool *dirty;             /* [bodies] to be solved (again) */
-    unsigned char *widened;  /* [bodies] how often the margin grew */
-    bool *changed;           /* [features] moved in this round */
-    unsigned char *standing; /* [bodies] a sunder_i_standing, by the least of a component of conflicts */
-    bool *improved;          /* [bodies] better sides were looked for since the body's cluster was solved */
-    double *limit;           /* [bodies] the limits, while they are lifted */
-    bool *aside;             /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    sunder_i_truces waiting; /* of what was set aside */
-    uint32_t *carrier;       /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
-    sunder_i_member *member; /* cluster after cluster, bodies ascending */
+    uint32_t *parent;                /* [bodies] union-find over edges */
+    bool *dirty;                     /* [bodies] to be solved (again) */
+    unsigned char *widened;          /* [bodies] how often the margin grew */
+    bool *changed;                   /* [features] moved in this round */
+    unsigned char *standing;         /* [bodies] a sunder_i_standing, by the least of a component of conflicts */
+    bool *improved;                  /* [bodies] better sides were looked for since the body's cluster was solved */
+    double *limit;                   /* [bodies] the limits, while they are lifted */
+    bool *aside;                     /* [bodies] left as they are while limits are lifted; NULL: they never were */
+    sunder_i_relaxations waiting;    /* of what was set aside */
+    uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
+    sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */
     size_t members;
     uint32_t *body; /* the bodies of member[] */
     double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
     size_t clusters;
-} sunder_i_job;
+} sunder_i_solver;
 
-/* From w->town, which has its bodies. Failure leaves what sunder_i_job_free() takes. */
-sunder_status sunder_i_job_init(sunder_i_job *w, sunder_error *err);
-void sunder_i_job_free(sunder_i_job *w);
+/* From w->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
+sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
+void sunder_i_solver_free(sunder_i_solver *solver);
 
 /* ---- Edges and clusters ------------------------------------------------------------------------------------------ */
 
 /* An edge between bodies, which makes them dirty. False if memory is out. */
-bool sunder_i_job_add_edge(sunder_i_job *w, uint32_t i, uint32_t j);
+bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
-bool sunder_i_job_has_member(const sunder_i_job *w, uint32_t root, uint32_t body);
+bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
 /* The members of the cluster of that root, ascending; none if it is no cluster's. */
-const uint32_t *sunder_i_job_members(const sunder_i_job *w, uint32_t root, size_t *n);
+const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
 /* Clusters from the edges, afresh. */
-sunder_status sunder_i_job_gather(sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
 
 #endif

@@ -7,45 +7,46 @@
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
 /* What lies in two that are in conflict is kept in one of them. */
-sunder_status sunder_i_job_choose_holders(sunder_i_job *w, sunder_error *err);
-/* Finds, exactly, the pairs that cannot be brought to peace within their limits, and puts them under a truce; and those
- * that cannot be parted, but may go inside, which are kept there from then on. Before the town is cut. */
-sunder_status sunder_i_job_judge(sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
+/* Finds, exactly, the pairs that cannot be resolved within their limits, and puts them relaxed; and those
+ * that cannot be parted, but may go inside, which are kept there from then on. Before the model is cut. */
+sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
 /* Sends those there that cannot be parted, but go inside. */
-sunder_status sunder_i_job_enter(sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- limits.c ---------------------------------------------------------------------------------------------------- */
 
 /* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */
-sunder_status sunder_i_job_lift_limits(sunder_i_job *w, bool *lifted, sunder_error *err);
+sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
 /* What went too far goes back where it came from, to be solved within its limits: *any, if there is such. */
-sunder_status sunder_i_job_restore_limits(sunder_i_job *w, bool *any, sunder_error *err);
+sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, bool *any, sunder_error *err);
 
 /* ---- given_up.c -------------------------------------------------------------------------------------------------- */
 
-/* Takes over the truces that clusters made, and ended. */
-sunder_status sunder_i_job_note_truces(sunder_i_job *w, sunder_error *err);
+/* Takes over the relaxations that clusters made, and restored. */
+sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- retries.c --------------------------------------------------------------------------------------------------- */
 
 /* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
-sunder_status sunder_i_job_retry(sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
 
 /* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
-sunder_status sunder_i_job_reconsider(sunder_i_job *w, bool *changed, sunder_error *err);
+sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 
 /* Does the pair, which is in conflict, stand worse than it stood? Exact. */
-sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relation *r, bool *worse, sunder_error *err);
+sunder_status sunder_i_solver_is_worse(const sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
+                                       sunder_error *err);
 /* Takes back what rounding made worse, pair by pair. */
-sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err);
 /* Does no pair in conflict stand worse than it stood? */
-sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder_error *err);
+sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *solver, bool *upheld, sunder_error *err);
 
 #endif

@@ -1,7 +1,8 @@
 /* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
  *
- * The search heeds truces (truce.c) up to its own rounding, and moves are rounded to what doubles hold; so a pair
- * may stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its solution:
+ * The search heeds relaxations (relaxation.c) up to its own rounding, and moves are rounded to what doubles hold; so
+ * a pair may stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its
+ * solution:
  *
  * - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take
  * one
@@ -31,43 +32,44 @@
 /* ---- The rule ---------------------------------------------------------------------------------------------------- */
 
 /* Do the two stand to each other as they did, exactly? */
-static bool stand_as_they_did(const sunder_i_job *w, const sunder_i_relation *r)
+static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    const sunder_i_stand *a = &w->scene.stand[r->a], *b = &w->scene.stand[r->b];
-    return !w->scene.rounded[r->a] && !w->scene.rounded[r->b] && a->t[0] == b->t[0] && a->t[1] == b->t[1];
+    const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
+    return !s->placement.rounded[r->a] && !s->placement.rounded[r->b] && a->t[0] == b->t[0] && a->t[1] == b->t[1];
 }
 
-sunder_status sunder_i_job_is_worse(const sunder_i_job *w, const sunder_i_relation *r, bool *worse, sunder_error *err)
+sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
+                                       sunder_error *err)
 {
-    const sunder_i_relation *was = sunder_i_relations_find(&w->start, r->a, r->b);
-    *worse = !was || sunder_i_is_at_peace(was);
-    if (*worse || stand_as_they_did(w, r) || (was->contained && r->contained)) return SUNDER_OK;
-    const sunder_feature *feature = w->town.layer->feature;
-    const sunder_i_stand *a = &w->scene.stand[r->a], *b = &w->scene.stand[r->b];
+    const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
+    *worse = !was || !sunder_i_is_conflict(was);
+    if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
+    const sunder_feature *feature = s->model.layer->feature;
+    const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];
     const sunder_i_pair before = {feature[r->a].shape, feature[r->b].shape, NULL, NULL},
                         now = {a->shape, b->shape, a->t, b->t};
     return sunder_i_pair_worsened(&before, &now, worse, err);
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
-static bool is_listed(const sunder_i_job *w, const sunder_i_relation *r)
+static bool is_listed(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    return !sunder_i_is_at_peace(r) && (w->town.body_of[r->a] != w->town.body_of[r->b] || (r->overlap && !r->touch));
+    return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
 }
 
-static sunder_status breaks_rule(const sunder_i_job *w, const sunder_i_relation *r, bool *breaks, sunder_error *err)
+static sunder_status breaks_rule(const sunder_i_solver *s, const sunder_i_relation *r, bool *breaks, sunder_error *err)
 {
     *breaks = false;
-    return is_listed(w, r) ? sunder_i_job_is_worse(w, r, breaks, err) : SUNDER_OK;
+    return is_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder_error *err)
+sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     *upheld = true;
-    for (size_t k = 0; k < w->now.n && *upheld && !status; k++) {
+    for (size_t k = 0; k < s->now.n && *upheld && !status; k++) {
         bool breaks;
-        status = breaks_rule(w, &w->now.pair[k], &breaks, err);
+        status = breaks_rule(s, &s->now.pair[k], &breaks, err);
         *upheld = !status && !breaks;
     }
     return status;
@@ -77,7 +79,7 @@ sunder_status sunder_i_job_is_upheld(const sunder_i_job *w, bool *upheld, sunder
 
 /* Bodies that are to have one move, or one coordinate of it, and where they stood. */
 typedef struct trial {
-    sunder_i_job *job;
+    sunder_i_solver *solver;
     uint32_t *body;
     double *stood; /* [2 n] */
     size_t n, body_capacity, stood_capacity;
@@ -94,11 +96,14 @@ static void goal_of(const trial *t, size_t k, const double to[2], double goal[2]
     for (unsigned c = 0; c < 2; c++) goal[c] = t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
 }
 
-static bool can_move(const sunder_i_job *w, uint32_t b) { return !w->town.body[b].fixed && !w->town.body[b].pinned; }
+static bool can_move(const sunder_i_solver *s, uint32_t b)
+{
+    return !s->model.body[b].fixed && !s->model.body[b].pinned;
+}
 
 static bool take(trial *t, uint32_t b)
 {
-    const double *move = t->job->town.move + 2 * (size_t)b;
+    const double *move = t->solver->model.move + 2 * (size_t)b;
     if (!sunder_i_reserve(&t->body, &t->body_capacity, t->n + 1, sizeof *t->body) ||
         !sunder_i_reserve(&t->stood, &t->stood_capacity, 2 * (t->n + 1), sizeof *t->stood))
         return false;
@@ -107,14 +112,15 @@ static bool take(trial *t, uint32_t b)
     return true;
 }
 
-/* Is the pair in no conflict but one that it was in, in no overlap that was ended, and no worse than at the start? */
+/* Is the pair in no conflict but one that it was in, in no overlap that was restored, and no worse than at the
+ * start? */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     trial *t = context;
-    if (!is_listed(t->job, r)) return SUNDER_OK;
-    const sunder_i_relation *old = sunder_i_relations_find(&t->job->now, r->a, r->b);
-    bool breaks = !old || sunder_i_is_at_peace(old) || (r->overlap && !old->overlap);
-    const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->job, r, &breaks, err);
+    if (!is_listed(t->solver, r)) return SUNDER_OK;
+    const sunder_i_relation *old = sunder_i_relations_find(&t->solver->now, r->a, r->b);
+    bool breaks = !old || !sunder_i_is_conflict(old) || (r->overlap && !old->overlap);
+    const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->solver, r, &breaks, err);
     t->well = *on = !breaks;
     return status;
 }
@@ -127,8 +133,8 @@ static bool can_go(const trial *t, const double to[2])
         double exact[2], goal[2];
         goal_of(t, k, to, goal);
         any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
-        if (!sunder_i_within(goal, t->job->town.body[t->body[k]].limit) ||
-            !sunder_i_round_move(&t->job->town, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
+        if (!sunder_i_within(goal, t->solver->model.body[t->body[k]].limit) ||
+            !sunder_i_round_move(&t->solver->model, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
             exact[1] != goal[1])
             return false;
     }
@@ -138,14 +144,14 @@ static bool can_go(const trial *t, const double to[2])
 /* Puts the bodies of a trial there, or back where they stood (to: NULL). */
 static sunder_status put(trial *t, const double *to, sunder_error *err)
 {
-    sunder_i_job *w = t->job;
+    sunder_i_solver *s = t->solver;
     sunder_status status = SUNDER_OK;
-    memset(w->changed, 0, w->town.features * sizeof *w->changed);
+    memset(s->changed, 0, s->model.features * sizeof *s->changed);
     for (size_t k = 0; k < t->n && !status; k++) {
         double goal[2] = {t->stood[2 * k], t->stood[2 * k + 1]};
         if (to) goal_of(t, k, to, goal);
-        sunder_i_job_place(w, t->body[k], goal);
-        status = sunder_i_scene_place(&w->town, &w->scene, t->body[k], err);
+        sunder_i_solver_place(s, t->body[k], goal);
+        status = sunder_i_placement_move_body(&s->model, &s->placement, t->body[k], err);
     }
     return status;
 }
@@ -153,27 +159,27 @@ static sunder_status put(trial *t, const double *to, sunder_error *err)
 /* Tries one place for them all: they stay there if all is well, else go back. */
 static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
 {
-    sunder_i_job *w = t->job;
+    sunder_i_solver *s = t->solver;
     t->well = false;
     if (!can_go(t, to)) return SUNDER_OK;
     t->well = true;
     sunder_status status = put(t, to, err);
     for (size_t k = 0; k < t->n && t->well && !status; k++)
-        status = sunder_i_scene_about(&w->town, &w->scene, t->body[k], &t->near, look_at_pair, t, err);
+        status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
     if (status) return status;
-    return t->well ? sunder_i_job_check(w, err) : put(t, NULL, err);
+    return t->well ? sunder_i_solver_check(s, err) : put(t, NULL, err);
 }
 
 /* The units of what the body may be moved by from where it stands. */
-static void units_of(const sunder_i_job *w, uint32_t b, double unit[2])
+static void units_of(const sunder_i_solver *s, uint32_t b, double unit[2])
 {
-    const double *stood = w->town.move + 2 * (size_t)b;
+    const double *stood = s->model.move + 2 * (size_t)b;
     double same[2];
     for (int c = 0; c < 2; c++) {
         /* A move of nothing has no unit. */
         double along[2] = {0, 0};
         along[c] = stood[c] != 0 ? stood[c] : DBL_MIN;
-        sunder_i_round_move(&w->town, b, along, same, &unit[c]);
+        sunder_i_round_move(&s->model, b, along, same, &unit[c]);
     }
 }
 
@@ -183,7 +189,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
     const double stood[2] = {t->stood[0], t->stood[1]};
     double unit[2];
     sunder_status status = SUNDER_OK;
-    units_of(t->job, t->body[0], unit);
+    units_of(t->solver, t->body[0], unit);
     t->well = false;
     for (int step = 1; step <= HAIR && !t->well && !status; step *= 4)
         for (int k = 0; k < 9 && !t->well && !status; k++) {
@@ -198,7 +204,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
 /* Do the two move alike, as far as the trial asks, up to a few units? */
 static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
 {
-    const double *p = t->job->town.move + 2 * (size_t)b, *q = t->job->town.move + 2 * (size_t)other;
+    const double *p = t->solver->model.move + 2 * (size_t)b, *q = t->solver->model.move + 2 * (size_t)other;
     for (unsigned c = 0; c < 2; c++)
         if ((t->along >> c & 1) && !(fabs(p[c] - q[c]) <= hair)) return false;
     return true;
@@ -207,18 +213,18 @@ static bool is_alike(const trial *t, uint32_t b, uint32_t other, double hair)
 /* Those about body b who moved as it did. */
 static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error *err)
 {
-    const sunder_i_town *town = &t->job->town;
-    const sunder_i_body *p = &town->body[b];
+    const sunder_i_model *model = &t->solver->model;
+    const sunder_i_body *p = &model->body[b];
     for (uint32_t m = 0; m < p->members; m++) {
-        const uint32_t f = town->member[p->member + m];
+        const uint32_t f = model->member[p->member + m];
         double box[4];
-        if (!town->present[f]) continue;
-        sunder_i_box_grow(t->job->scene.box + 4 * (size_t)f, town->rules.gap, box);
+        if (!model->present[f]) continue;
+        sunder_i_box_grow(t->solver->placement.box + 4 * (size_t)f, model->rules.gap, box);
         t->near.n = 0;
-        if (!sunder_i_index_query(&t->job->scene.tree, box, &t->near)) return sunder_i_no_memory(err);
+        if (!sunder_i_index_query(&t->solver->placement.tree, box, &t->near)) return sunder_i_no_memory(err);
         for (size_t k = 0; k < t->near.n; k++) {
-            const uint32_t other = town->body_of[t->near.item[k]];
-            if (t->taken[other] || !can_move(t->job, other) || !is_alike(t, b, other, hair)) continue;
+            const uint32_t other = model->body_of[t->near.item[k]];
+            if (t->taken[other] || !can_move(t->solver, other) || !is_alike(t, b, other, hair)) continue;
             if (!take(t, other)) return sunder_i_no_memory(err);
             t->taken[other] = true;
         }
@@ -232,12 +238,12 @@ static sunder_status try_together(trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
     sunder_status status = SUNDER_OK;
-    if (!t->taken) t->taken = sunder_i_calloc(t->job->town.bodies, sizeof *t->taken);
+    if (!t->taken) t->taken = sunder_i_calloc(t->solver->model.bodies, sizeof *t->taken);
     if (!t->taken) return sunder_i_no_memory(err);
     t->taken[t->body[0]] = true;
     for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
         double unit[2];
-        units_of(t->job, t->body[k], unit);
+        units_of(t->solver, t->body[k], unit);
         const double coarse = fmax(unit[0], unit[1]);
         if (coarse > coarsest) {
             coarsest = coarse;
@@ -259,17 +265,17 @@ static const struct {
     unsigned along;
 } ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
 
-static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, size_t *budget, bool *well, sunder_error *err)
+static sunder_status mend(sunder_i_solver *s, uint32_t i, uint32_t j, size_t *budget, bool *well, sunder_error *err)
 {
     const uint32_t pair[2] = {i, j};
-    trial t = {.job = w, .budget = budget};
+    trial t = {.solver = s, .budget = budget};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
-            const double *other = w->town.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
+            const double *other = s->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
             t.n = 0;
             t.along = ways[k].along;
-            if (!can_move(w, pair[e])) continue;
+            if (!can_move(s, pair[e])) continue;
             if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
             if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
             if (!status && ways[k].way == PARTNER) status = try_place(&t, to, err);
@@ -285,45 +291,45 @@ static sunder_status mend(sunder_i_job *w, uint32_t i, uint32_t j, size_t *budge
 
 /* ---- Staying ----------------------------------------------------------------------------------------------------- */
 
-static double cost_of(const sunder_i_job *w, uint32_t b)
+static double cost_of(const sunder_i_solver *s, uint32_t b)
 {
-    const double *t = w->town.move + 2 * (size_t)b;
-    return w->town.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+    const double *t = s->model.move + 2 * (size_t)b;
+    return s->model.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
 }
 
 /* Pins the one whose move is cheaper, of those that may move and did; either if none did, which cannot be. */
-static sunder_status pin(sunder_i_job *w, uint32_t i, uint32_t j, sunder_error *err)
+static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const double home[2] = {0, 0};
-    uint32_t b = can_move(w, i) ? i : j;
-    if (can_move(w, i) && can_move(w, j) && cost_of(w, j) < cost_of(w, i)) b = j;
-    if (can_move(w, i) && can_move(w, j) && cost_of(w, b) == 0) b = b == i ? j : i;
-    memset(w->changed, 0, w->town.features * sizeof *w->changed);
-    sunder_i_job_place(w, b, home);
-    const sunder_status status = sunder_i_job_check(w, err);
-    w->town.body[b].pinned = true;
+    uint32_t b = can_move(s, i) ? i : j;
+    if (can_move(s, i) && can_move(s, j) && cost_of(s, j) < cost_of(s, i)) b = j;
+    if (can_move(s, i) && can_move(s, j) && cost_of(s, b) == 0) b = b == i ? j : i;
+    memset(s->changed, 0, s->model.features * sizeof *s->changed);
+    sunder_i_solver_place(s, b, home);
+    const sunder_status status = sunder_i_solver_check(s, err);
+    s->model.body[b].pinned = true;
     return status;
 }
 
-sunder_status sunder_i_job_uphold(sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     size_t budget = IN_VAIN;
-    for (bool any = w->now.n > 0, pinned; any && !status;) {
+    for (bool any = s->now.n > 0, pinned; any && !status;) {
         any = pinned = false;
-        for (size_t k = 0; k < w->now.n && !status; k++) {
-            const sunder_i_relation r = w->now.pair[k];
-            const uint32_t i = w->town.body_of[r.a], j = w->town.body_of[r.b];
+        for (size_t k = 0; k < s->now.n && !status; k++) {
+            const sunder_i_relation r = s->now.pair[k];
+            const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
             bool breaks, well = false;
-            status = breaks_rule(w, &r, &breaks, err);
-            if (status || !breaks || (!can_move(w, i) && !can_move(w, j))) continue;
+            status = breaks_rule(s, &r, &breaks, err);
+            if (status || !breaks || (!can_move(s, i) && !can_move(s, j))) continue;
             any = true;
-            status = mend(w, i, j, &budget, &well, err);
+            status = mend(s, i, j, &budget, &well, err);
             if (status || well) continue;
             pinned = true;
-            status = pin(w, i, j, err);
+            status = pin(s, i, j, err);
         }
-        if (pinned && !status) status = sunder_i_job_settle(w, 0.8, 0.8, err);
+        if (pinned && !status) status = sunder_i_solver_settle(s, 0.8, 0.8, err);
     }
     return status;
 }

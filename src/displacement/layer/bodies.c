@@ -1,6 +1,6 @@
 /* Bodies as the search sees them: convex pieces in doubles, a convex outline of each feature, and whole blocks as
  * shapes. */
-#include "displacement/layer/inclusion.h"
+#include "displacement/layer/model.h"
 
 #include "base/parallel.h"
 #include "shape/shape.h"
@@ -9,19 +9,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void cut_feature(sunder_i_town *town, sunder_i_body *body, uint32_t f, size_t *corner)
+static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, size_t *corner)
 {
-    const sunder_shape *shape = town->layer->feature[f].shape;
+    const sunder_shape *shape = model->layer->feature[f].shape;
     uint32_t from = 0;
     for (uint32_t p = 0; p < shape->pieces; p++) {
-        sunder_i_piece *piece = &town->piece[town->pieces++];
+        sunder_i_body_piece *piece = &model->piece[model->pieces++];
         piece->feature = f;
         piece->corner = (uint32_t)*corner;
         piece->corners = shape->piece_end[p] - from;
         piece->box[0] = piece->box[1] = INFINITY;
         piece->box[2] = piece->box[3] = -INFINITY;
         for (; from < shape->piece_end[p]; from++, ++*corner) {
-            double *c = town->corner + 2 * *corner;
+            double *c = model->corner + 2 * *corner;
             for (int k = 0; k < 2; k++) {
                 c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
                 piece->box[k] = fmin(piece->box[k], c[k]);
@@ -65,83 +65,83 @@ static size_t hull(double *p, size_t n, double *out)
     return m;
 }
 
-/* The outline of a feature, from its corners in doubles; behind all others in town->corner. */
-static sunder_status outline_feature(sunder_i_town *town, const sunder_i_body *body, uint32_t f, size_t *corner,
+/* The outline of a feature, from its corners in doubles; behind all others in model->corner. */
+static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body *body, uint32_t f, size_t *corner,
                                      sunder_error *err)
 {
-    const sunder_shape *shape = town->layer->feature[f].shape;
+    const sunder_shape *shape = model->layer->feature[f].shape;
     double *p = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *p);
     if (!p) return sunder_i_no_memory(err);
     for (uint32_t v = 0; v < 2 * shape->vertices; v++) p[v] = shape->xy[v] - body->origin[v & 1];
-    sunder_i_piece *piece = &town->outline[f];
+    sunder_i_body_piece *piece = &model->outline[f];
     piece->feature = f;
     piece->corner = (uint32_t)*corner;
-    piece->corners = (uint32_t)hull(p, shape->vertices, town->corner + 2 * *corner);
+    piece->corners = (uint32_t)hull(p, shape->vertices, model->corner + 2 * *corner);
     sunder_i_free(p);
     piece->box[0] = piece->box[1] = INFINITY;
     piece->box[2] = piece->box[3] = -INFINITY;
     for (uint32_t k = 0; k < piece->corners; k++, ++*corner)
         for (int c = 0; c < 2; c++) {
-            piece->box[c] = fmin(piece->box[c], town->corner[2 * *corner + (size_t)c]);
-            piece->box[c + 2] = fmax(piece->box[c + 2], town->corner[2 * *corner + (size_t)c]);
+            piece->box[c] = fmin(piece->box[c], model->corner[2 * *corner + (size_t)c]);
+            piece->box[c + 2] = fmax(piece->box[c + 2], model->corner[2 * *corner + (size_t)c]);
         }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err)
+sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
 {
     size_t pieces = 0, corners = 0;
-    for (size_t f = 0; f < town->features; f++)
-        if (town->present[f]) {
-            const sunder_shape *shape = town->layer->feature[f].shape;
+    for (size_t f = 0; f < model->features; f++)
+        if (model->present[f]) {
+            const sunder_shape *shape = model->layer->feature[f].shape;
             pieces += shape->pieces;
             if (shape->pieces) corners += shape->piece_end[shape->pieces - 1];
             corners += shape->vertices + 1;
         }
     if (pieces >= UINT32_MAX || corners >= UINT32_MAX)
         return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
-    town->piece = sunder_i_alloc(pieces, sizeof *town->piece);
-    town->corner = sunder_i_alloc(2 * corners, sizeof *town->corner);
-    town->outline = sunder_i_calloc(town->features, sizeof *town->outline);
-    town->whole = sunder_i_calloc(town->bodies, sizeof *town->whole);
-    if (!town->piece || !town->corner || !town->outline || !town->whole) return sunder_i_no_memory(err);
-    for (size_t b = 0; b < town->bodies; b++) {
-        sunder_i_body *body = &town->body[b];
-        body->piece = (uint32_t)town->pieces;
+    model->piece = sunder_i_alloc(pieces, sizeof *model->piece);
+    model->corner = sunder_i_alloc(2 * corners, sizeof *model->corner);
+    model->outline = sunder_i_calloc(model->features, sizeof *model->outline);
+    model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
+    if (!model->piece || !model->corner || !model->outline || !model->whole) return sunder_i_no_memory(err);
+    for (size_t b = 0; b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        body->piece = (uint32_t)model->pieces;
         body->box[0] = body->box[1] = INFINITY;
         body->box[2] = body->box[3] = -INFINITY;
-        const uint32_t first = town->member[body->member];
-        body->origin[0] = town->box[4 * first];
-        body->origin[1] = town->box[4 * first + 1];
+        const uint32_t first = model->member[body->member];
+        body->origin[0] = model->box[4 * first];
+        body->origin[1] = model->box[4 * first + 1];
         for (uint32_t k = 0; k < body->members; k++) {
-            const uint32_t f = town->member[body->member + k];
-            if (!town->present[f]) continue;
-            cut_feature(town, body, f, &town->corners);
-            const sunder_status status = outline_feature(town, body, f, &town->corners, err);
+            const uint32_t f = model->member[body->member + k];
+            if (!model->present[f]) continue;
+            cut_feature(model, body, f, &model->corners);
+            const sunder_status status = outline_feature(model, body, f, &model->corners, err);
             if (status) return status;
         }
     }
-    return sunder_i_keep_walls(town, err);
+    return sunder_i_inclusion_walls(model, err);
 }
 
 /* ---- Whole blocks ------------------------------------------------------------------------------------------------ */
 
-const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body)
+const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body)
 {
-    const sunder_i_body *b = &town->body[body];
-    if (b->members > 1) return town->whole[body];
-    return town->present[town->member[b->member]] ? town->layer->feature[town->member[b->member]].shape : NULL;
+    const sunder_i_body *b = &model->body[body];
+    if (b->members > 1) return model->whole[body];
+    return model->present[model->member[b->member]] ? model->layer->feature[model->member[b->member]].shape : NULL;
 }
 
 /* The members' rings as given, one after the other: a polygonal set may have members that touch and overlap. */
-static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
+static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
 {
-    const sunder_i_body *body = &town->body[b];
+    const sunder_i_body *body = &model->body[b];
     size_t polygons = 0, rings = 0, corners = 0;
     for (uint32_t m = 0; m < body->members; m++) {
-        const uint32_t f = town->member[body->member + m];
-        if (!town->present[f]) continue;
-        const sunder_shape *s = town->layer->feature[f].shape;
+        const uint32_t f = model->member[body->member + m];
+        if (!model->present[f]) continue;
+        const sunder_shape *s = model->layer->feature[f].shape;
         const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
         polygons += s->raw_polygons;
         rings += r;
@@ -152,9 +152,9 @@ static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
     sunder_status status = xy && ring_end && poly_end ? SUNDER_OK : sunder_i_no_memory(err);
     polygons = rings = corners = 0;
     for (uint32_t m = 0; !status && m < body->members; m++) {
-        const uint32_t f = town->member[body->member + m];
-        if (!town->present[f]) continue;
-        const sunder_shape *s = town->layer->feature[f].shape;
+        const uint32_t f = model->member[body->member + m];
+        if (!model->present[f]) continue;
+        const sunder_shape *s = model->layer->feature[f].shape;
         const size_t r = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0, n = r ? s->raw_ring_end[r - 1] : 0;
         for (size_t k = 0; k < s->raw_polygons; k++) poly_end[polygons++] = rings + s->raw_poly_end[k];
         for (size_t k = 0; k < r; k++) ring_end[rings + k] = corners + s->raw_ring_end[k];
@@ -164,7 +164,7 @@ static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
     }
     if (!status)
         status =
-            sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_VALIDITY_EVEN_ODD, &town->whole[b], err);
+            sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_VALIDITY_EVEN_ODD, &model->whole[b], err);
     sunder_i_free(xy);
     sunder_i_free(ring_end);
     sunder_i_free(poly_end);
@@ -172,7 +172,7 @@ static sunder_status unite(sunder_i_town *town, uint32_t b, sunder_error *err)
 }
 
 typedef struct uniting {
-    sunder_i_town *town;
+    sunder_i_model *model;
     const uint32_t *body;
 } uniting;
 
@@ -181,15 +181,15 @@ static sunder_status unite_some(void *context, size_t begin, size_t end, sunder_
     const uniting *u = context;
     for (size_t k = begin; k < end; k++) {
         const uint32_t b = u->body[k];
-        if (u->town->body[b].members < 2 || u->town->whole[b]) continue;
-        const sunder_status status = unite(u->town, b, err);
+        if (u->model->body[b].members < 2 || u->model->whole[b]) continue;
+        const sunder_status status = unite(u->model, b, err);
         if (status) return status;
     }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, size_t n, sunder_error *err)
+sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
 {
-    uniting u = {town, body};
-    return sunder_i_parallel(town->rules.threads, n, 4, unite_some, &u, err);
+    uniting u = {model, body};
+    return sunder_i_parallel(model->rules.threads, n, 4, unite_some, &u, err);
 }

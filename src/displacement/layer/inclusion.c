@@ -7,122 +7,107 @@
  *
  * Many inner features touch their holder's edge, and with a tolerance they may overstep it: what a wall asks of a pair
  * is never more than it had at the start. */
-#include "displacement/layer/inclusion.h"
+#include "displacement/layer/model.h"
 
 #include "shape/shape.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-size_t sunder_i_kept_at(const sunder_i_town *town, uint32_t f, uint32_t g)
+static int by_features(const void *x, const void *y)
 {
-    return sunder_i_couple_at(town->kept, town->kept_n, f, g);
+    const sunder_i_inclusion *p = x, *q = y;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    return p->b < q->b ? -1 : p->b > q->b;
 }
 
-bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g)
+static sunder_i_inclusion *find(sunder_i_inclusion *list, size_t n, uint32_t f, uint32_t g)
 {
-    const size_t at = sunder_i_kept_at(town, f, g);
-    return at < town->kept_n && town->keeping[at] != SUNDER_I_LAPSED;
+    const sunder_i_inclusion key = {.a = f < g ? f : g, .b = f < g ? g : f};
+    return n ? bsearch(&key, list, n, sizeof key, by_features) : NULL;
 }
 
-bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder)
+sunder_i_inclusion *sunder_i_inclusion_find(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const size_t at = sunder_i_kept_at(town, holder, inner);
-    if (at < town->kept_n) return town->a_in_b[at] == (inner < holder);
-    const size_t lying = sunder_i_couple_at(town->lying, town->lying_n, holder, inner);
-    return lying < town->lying_n && town->lying_a[lying] == (inner < holder);
+    return find(model->inclusion, model->inclusions, f, g);
 }
 
-bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping)
+bool sunder_i_is_included(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const size_t at = sunder_i_kept_at(town, holder, inner);
-    if (at == town->kept_n || town->keeping[at] == SUNDER_I_LAPSED || !sunder_i_is_inner(town, inner, holder))
-        return false;
-    *keeping = (sunder_i_keeping)town->keeping[at];
+    const sunder_i_inclusion *pair = sunder_i_inclusion_find(model, f, g);
+    return pair && pair->state != SUNDER_I_LAPSED;
+}
+
+bool sunder_i_is_inner(const sunder_i_model *model, uint32_t inner, uint32_t holder)
+{
+    const sunder_i_inclusion *pair = sunder_i_inclusion_find(model, holder, inner);
+    if (!pair) pair = find(model->nested, model->nested_n, holder, inner);
+    return pair && pair->a_inside == (inner < holder);
+}
+
+bool sunder_i_keeps_inside(const sunder_i_model *model, uint32_t holder, uint32_t inner,
+                           sunder_i_inclusion_state *state)
+{
+    const sunder_i_inclusion *pair = sunder_i_inclusion_find(model, holder, inner);
+    if (!pair || pair->state == SUNDER_I_LAPSED || pair->a_inside != (inner < holder)) return false;
+    *state = pair->state;
     return true;
 }
 
-sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err)
+sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err)
 {
-    size_t kept = 0;
-    for (size_t k = 0; k < relations->n; k++) kept += relations->pair[k].kept;
-    town->kept = sunder_i_alloc(kept, sizeof *town->kept);
-    town->a_in_b = sunder_i_alloc(kept, sizeof *town->a_in_b);
-    town->enters = sunder_i_calloc(kept, sizeof *town->enters);
-    town->keeping = sunder_i_calloc(kept, sizeof *town->keeping);
-    if (!town->kept || !town->a_in_b || !town->enters || !town->keeping) return sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t k = 0; k < relations->n; k++) n += relations->pair[k].kept;
+    model->inclusion = sunder_i_alloc(n, sizeof *model->inclusion);
+    if (!model->inclusion) return sunder_i_no_memory(err);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (!r->kept) continue;
-        town->kept[town->kept_n] = (sunder_i_couple){r->a, r->b};
-        town->a_in_b[town->kept_n++] = r->a_in_b;
+        if (r->kept) model->inclusion[model->inclusions++] = (sunder_i_inclusion){r->a, r->b, .a_inside = r->a_in_b};
     }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_keep_note(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err)
+sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunder_i_relations *relations,
+                                              sunder_error *err)
 {
     size_t n = 0;
     for (size_t k = 0; k < relations->n; k++) n += relations->pair[k].contained;
-    town->lying = sunder_i_alloc(n, sizeof *town->lying);
-    town->lying_a = sunder_i_alloc(n, sizeof *town->lying_a);
-    if (!town->lying || !town->lying_a) return sunder_i_no_memory(err);
+    model->nested = sunder_i_alloc(n, sizeof *model->nested);
+    if (!model->nested) return sunder_i_no_memory(err);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        const uint32_t i = town->body_of[r->a], j = town->body_of[r->b];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (!r->contained || r->duplicate || r->kept || i == j) continue;
-        if (!isfinite(sunder_i_limit_of(&town->body[i]) + sunder_i_limit_of(&town->body[j]))) continue;
-        town->lying[town->lying_n] = (sunder_i_couple){r->a, r->b};
-        town->lying_a[town->lying_n++] = r->a_in_b;
+        if (!isfinite(sunder_i_limit_of(&model->body[i]) + sunder_i_limit_of(&model->body[j]))) continue;
+        model->nested[model->nested_n++] = (sunder_i_inclusion){r->a, r->b, .a_inside = r->a_in_b};
     }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, bool a_in_b, sunder_error *err)
+sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_t b, bool a_inside, sunder_error *err)
 {
-    const size_t n = town->kept_n, more = n + 1;
-    sunder_i_couple *kept = sunder_i_realloc(town->kept, more, sizeof *kept);
-    if (kept) town->kept = kept;
-    bool *which = sunder_i_realloc(town->a_in_b, more, sizeof *which);
-    if (which) town->a_in_b = which;
-    bool *enters = sunder_i_realloc(town->enters, more, sizeof *enters);
-    if (enters) town->enters = enters;
-    unsigned char *keeping = sunder_i_realloc(town->keeping, more, sizeof *keeping);
-    if (keeping) town->keeping = keeping;
-    if (!kept || !which || !enters || !keeping) return sunder_i_no_memory(err);
-    const sunder_i_couple pair = {a, b};
-    size_t at = n;
-    for (; at > 0 && sunder_i_by_couple(&kept[at - 1], &pair) > 0; at--) {
-        kept[at] = kept[at - 1];
-        which[at] = which[at - 1];
-        enters[at] = enters[at - 1];
-        keeping[at] = keeping[at - 1];
-    }
-    kept[at] = pair;
-    which[at] = a_in_b;
-    enters[at] = true;
-    keeping[at] = SUNDER_I_STRICT;
-    town->kept_n = more;
+    const sunder_i_inclusion pair = {a, b, a_inside, true, SUNDER_I_STRICT};
+    size_t at = model->inclusions;
+    sunder_i_inclusion *list = sunder_i_realloc(model->inclusion, at + 1, sizeof *list);
+    if (!list) return sunder_i_no_memory(err);
+    for (; at > 0 && by_features(&list[at - 1], &pair) > 0; at--) list[at] = list[at - 1];
+    list[at] = pair;
+    model->inclusion = list;
+    model->inclusions++;
     return SUNDER_OK;
 }
 
 /* ---- Which holder ------------------------------------------------------------------------------------------------ */
 
-static uint32_t holder_of(const sunder_i_town *town, size_t k)
-{
-    return town->a_in_b[k] ? town->kept[k].b : town->kept[k].a;
-}
+static uint32_t holder_of(const sunder_i_inclusion *pair) { return pair->a_inside ? pair->b : pair->a; }
 
-static uint32_t inner_of(const sunder_i_town *town, size_t k)
-{
-    return town->a_in_b[k] ? town->kept[k].a : town->kept[k].b;
-}
+static uint32_t inner_of(const sunder_i_inclusion *pair) { return pair->a_inside ? pair->a : pair->b; }
 
 /* The squared distance of the middle of feature f's box from the nearest edge of a feature that it lies in. */
-static double depth_in(const sunder_i_town *town, uint32_t f, uint32_t holder)
+static double depth_in(const sunder_i_model *model, uint32_t f, uint32_t holder)
 {
-    const sunder_shape *shape = town->layer->feature[holder].shape;
-    const double *box = town->box + 4 * (size_t)f, x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2;
+    const sunder_shape *shape = model->layer->feature[holder].shape;
+    const double *box = model->box + 4 * (size_t)f, x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2;
     double least = INFINITY;
     for (uint32_t v = 0; v < shape->vertices; v++) {
         const double *p = shape->xy + 2 * (size_t)v, *q = shape->xy + 2 * (size_t)shape->next[v];
@@ -134,23 +119,23 @@ static double depth_in(const sunder_i_town *town, uint32_t f, uint32_t holder)
     return least;
 }
 
-sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations *relations, const bool *conflict,
-                                   sunder_error *err)
+sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_relations *relations,
+                                         const bool *conflict, sunder_error *err)
 {
+    const size_t n = model->inclusions;
     /* Inner feature and number of the pair, sorted: what one feature lies in stands together. */
-    sunder_i_couple *by_inner = sunder_i_alloc(town->kept_n, sizeof *by_inner);
+    sunder_i_couple *by_inner = sunder_i_alloc(n, sizeof *by_inner);
     if (!by_inner) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < town->kept_n; k++) by_inner[k] = (sunder_i_couple){inner_of(town, k), (uint32_t)k};
-    if (town->kept_n) qsort(by_inner, town->kept_n, sizeof *by_inner, sunder_i_by_couple);
-    for (size_t k = 0; k < town->kept_n; k++)
-        for (size_t m = k + 1; m < town->kept_n && by_inner[m].a == by_inner[k].a; m++) {
-            const uint32_t f = by_inner[k].a, p = holder_of(town, by_inner[k].b), q = holder_of(town, by_inner[m].b);
+    for (uint32_t k = 0; k < n; k++) by_inner[k] = (sunder_i_couple){inner_of(&model->inclusion[k]), k};
+    if (n) qsort(by_inner, n, sizeof *by_inner, sunder_i_by_couple);
+    for (size_t k = 0; k < n; k++)
+        for (size_t m = k + 1; m < n && by_inner[m].a == by_inner[k].a; m++) {
+            sunder_i_inclusion *one = &model->inclusion[by_inner[k].b], *other = &model->inclusion[by_inner[m].b];
+            const uint32_t f = by_inner[k].a, p = holder_of(one), q = holder_of(other);
             const sunder_i_relation *r = sunder_i_relations_find(relations, p < q ? p : q, p < q ? q : p);
             if (!r || !conflict[r - relations->pair]) continue;
-            if (town->keeping[by_inner[k].b] == SUNDER_I_LAPSED || town->keeping[by_inner[m].b] == SUNDER_I_LAPSED)
-                continue;
-            const size_t loose = depth_in(town, f, p) <= depth_in(town, f, q) ? k : m;
-            town->keeping[by_inner[loose].b] = SUNDER_I_LAPSED;
+            if (one->state == SUNDER_I_LAPSED || other->state == SUNDER_I_LAPSED) continue;
+            (depth_in(model, f, p) <= depth_in(model, f, q) ? one : other)->state = SUNDER_I_LAPSED;
         }
     sunder_i_free(by_inner);
     return SUNDER_OK;
@@ -158,11 +143,11 @@ sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations
 
 /* ---- Walls ------------------------------------------------------------------------------------------------------- */
 
-static void add_walls(sunder_i_town *town, sunder_i_body *body, uint32_t f, double *corner, size_t *corners)
+static void add_walls(sunder_i_model *model, sunder_i_body *body, uint32_t f, double *corner, size_t *corners)
 {
-    const sunder_shape *shape = town->layer->feature[f].shape;
+    const sunder_shape *shape = model->layer->feature[f].shape;
     for (uint32_t v = 0; v < shape->vertices; v++) {
-        sunder_i_piece *wall = &town->wall[town->walls++];
+        sunder_i_body_piece *wall = &model->wall[model->walls++];
         wall->feature = f;
         wall->corner = (uint32_t)*corners;
         wall->corners = 2;
@@ -178,33 +163,33 @@ static void add_walls(sunder_i_town *town, sunder_i_body *body, uint32_t f, doub
     }
 }
 
-sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err)
+sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
 {
-    if (town->kept_n + town->lying_n == 0) return SUNDER_OK;
-    bool *holds = sunder_i_calloc(town->features, sizeof *holds);
+    if (model->inclusions + model->nested_n == 0) return SUNDER_OK;
+    bool *holds = sunder_i_calloc(model->features, sizeof *holds);
     if (!holds) return sunder_i_no_memory(err);
     size_t edges = 0;
-    for (size_t k = 0; k < town->kept_n; k++) holds[holder_of(town, k)] = true;
-    for (size_t k = 0; k < town->lying_n; k++) holds[town->lying_a[k] ? town->lying[k].b : town->lying[k].a] = true;
-    for (size_t f = 0; f < town->features; f++)
-        if (holds[f]) edges += town->layer->feature[f].shape->vertices;
+    for (size_t k = 0; k < model->inclusions; k++) holds[holder_of(&model->inclusion[k])] = true;
+    for (size_t k = 0; k < model->nested_n; k++) holds[holder_of(&model->nested[k])] = true;
+    for (size_t f = 0; f < model->features; f++)
+        if (holds[f]) edges += model->layer->feature[f].shape->vertices;
     sunder_status status = SUNDER_OK;
     double *corner = NULL;
     /* Corners are numbered in 32 bits, and walls are told apart in the keys of constraints by 30. */
-    if (!status && (town->corners + 2 * edges >= UINT32_MAX || edges >= UINT32_C(1) << 30))
-        status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", town->corners + 2 * edges);
+    if (!status && (model->corners + 2 * edges >= UINT32_MAX || edges >= UINT32_C(1) << 30))
+        status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", model->corners + 2 * edges);
     if (!status) {
-        corner = sunder_i_realloc(town->corner, 2 * (town->corners + 2 * edges), sizeof *corner);
-        if (corner) town->corner = corner;
-        town->wall = sunder_i_alloc(edges, sizeof *town->wall);
-        if (!corner || !town->wall) status = sunder_i_no_memory(err);
+        corner = sunder_i_realloc(model->corner, 2 * (model->corners + 2 * edges), sizeof *corner);
+        if (corner) model->corner = corner;
+        model->wall = sunder_i_alloc(edges, sizeof *model->wall);
+        if (!corner || !model->wall) status = sunder_i_no_memory(err);
     }
-    for (size_t b = 0; !status && b < town->bodies; b++) {
-        sunder_i_body *body = &town->body[b];
-        body->wall = (uint32_t)town->walls;
+    for (size_t b = 0; !status && b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        body->wall = (uint32_t)model->walls;
         for (uint32_t m = 0; m < body->members; m++)
-            if (holds[town->member[body->member + m]])
-                add_walls(town, body, town->member[body->member + m], town->corner, &town->corners);
+            if (holds[model->member[body->member + m]])
+                add_walls(model, body, model->member[body->member + m], model->corner, &model->corners);
     }
     sunder_i_free(holds);
     return status;

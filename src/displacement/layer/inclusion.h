@@ -2,33 +2,45 @@
 #ifndef SUNDER_I_INCLUSION_H
 #define SUNDER_I_INCLUSION_H
 
-#include "displacement/layer/model.h"
+#include "displacement/layer/relate.h"
 
-/* A pair of which one lies in the other, where the rules let that overlap: how the search treats it. */
-typedef enum sunder_i_keeping {
+typedef struct sunder_i_model sunder_i_model;
+
+/* How the search treats a pair of which one lies in the other, where the rules let that overlap; in this order. */
+typedef enum sunder_i_inclusion_state {
     SUNDER_I_LENIENT, /* the one stays inside; it may touch or overstep walls as far as it did at the start */
     SUNDER_I_STRICT,  /* it stays clear of the walls: rounding ate up what leniency left */
     SUNDER_I_LAPSED   /* there is no keeping it inside: the two have to part like any others */
-} sunder_i_keeping;
+} sunder_i_inclusion_state;
 
-sunder_status sunder_i_keep_init(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
+typedef struct sunder_i_inclusion {
+    uint32_t a, b; /* features, a < b */
+    bool a_inside; /* a lies in b; else b in a */
+    bool enters;   /* it did not at the start, but is to get there (clusters/move_inside.c) */
+    sunder_i_inclusion_state state;
+} sunder_i_inclusion;
+
+/* The pairs of which the relations say so. */
+sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 /* One more: a, or else b, is to get inside the other. Before the walls are made. */
-sunder_status sunder_i_keep_add(sunder_i_town *town, uint32_t a, uint32_t b, bool a_in_b, sunder_error *err);
+sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_t b, bool a_inside, sunder_error *err);
 /* Notes the pairs in conflict of which the one lies in the other, and that limits may leave so. */
-sunder_status sunder_i_keep_note(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
+sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunder_i_relations *relations,
+                                              sunder_error *err);
 /* The walls, for the search; after the pieces are cut. */
-sunder_status sunder_i_keep_walls(sunder_i_town *town, sunder_error *err);
-/* Where the pair is in town->kept; kept_n if it never was. */
-size_t sunder_i_kept_at(const sunder_i_town *town, uint32_t f, uint32_t g);
-/* Is it, and has it not lapsed? */
-bool sunder_i_is_kept(const sunder_i_town *town, uint32_t f, uint32_t g);
-/* Does `inner` lie in `holder`, by town->kept or town->lying? */
-bool sunder_i_is_inner(const sunder_i_town *town, uint32_t inner, uint32_t holder);
-/* Does `holder` keep `inner` inside? Then *keeping tells how. */
-bool sunder_i_holds(const sunder_i_town *town, uint32_t holder, uint32_t inner, sunder_i_keeping *keeping);
+sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err);
+/* The pair; NULL if it never was one. */
+sunder_i_inclusion *sunder_i_inclusion_find(const sunder_i_model *model, uint32_t f, uint32_t g);
+/* Is it one, and has it not lapsed? */
+bool sunder_i_is_included(const sunder_i_model *model, uint32_t f, uint32_t g);
+/* Does `inner` lie in `holder`, be it with leave to overlap it or in conflict? */
+bool sunder_i_is_inner(const sunder_i_model *model, uint32_t inner, uint32_t holder);
+/* Does `holder` keep `inner` inside? Then *state tells how. */
+bool sunder_i_keeps_inside(const sunder_i_model *model, uint32_t holder, uint32_t inner,
+                           sunder_i_inclusion_state *state);
 /* What lies in two that have to part cannot stay in both: lets it go from the one whose edge is nearer. conflict[k]:
  * the relation of pair k keeps two bodies from standing as they do. */
-sunder_status sunder_i_keep_choose(sunder_i_town *town, const sunder_i_relations *relations, const bool *conflict,
-                                   sunder_error *err);
+sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_relations *relations,
+                                         const bool *conflict, sunder_error *err);
 
 #endif

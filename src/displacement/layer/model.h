@@ -4,15 +4,15 @@
 #ifndef SUNDER_I_MODEL_H
 #define SUNDER_I_MODEL_H
 
-#include "displacement/layer/relate.h"
+#include "displacement/layer/inclusion.h"
 #include "displacement/layer/relaxation.h"
 #include "spatial/rtree.h"
 
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
 typedef struct sunder_i_body {
-    uint32_t member, members; /* its features: members of them in sunder_i_town.member from there */
-    uint32_t piece, pieces;   /* its convex pieces in sunder_i_town.piece */
-    uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_town.wall */
+    uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
+    uint32_t piece, pieces;   /* its convex pieces in sunder_i_model.piece */
+    uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
@@ -22,67 +22,64 @@ typedef struct sunder_i_body {
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
-typedef struct sunder_i_piece {
-    uint32_t corner, corners; /* in sunder_i_town.corner */
+typedef struct sunder_i_body_piece {
+    uint32_t corner, corners; /* in sunder_i_model.corner */
     uint32_t feature;
     double box[4]; /* relative to the body's origin */
-} sunder_i_piece;
+} sunder_i_body_piece;
 
 /* How far the body may go. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 
 /* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
-struct sunder_i_town {
+struct sunder_i_model {
     const sunder_layer *layer;
     sunder_i_rules rules;
     size_t bodies, features, pieces;
     uint32_t *body_of; /* [features] */
     uint32_t *member;  /* [features] features by body */
     sunder_i_body *body;
-    sunder_i_piece *piece;
-    sunder_i_piece *outline; /* [features] the convex hull of each: stands in for its pieces where they are too many */
-    double *corner;          /* [2 * corners] relative to the body's origin */
+    sunder_i_body_piece *piece;
+    sunder_i_body_piece
+        *outline;   /* [features] the convex hull of each: stands in for its pieces where they are too many */
+    double *corner; /* [2 * corners] relative to the body's origin */
     size_t corners;
     sunder_shape *
         *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;   /* [4 * features] as they stood at the start */
     bool *present; /* [features] */
     sunder_i_index tree;            /* as they stood at the start */
-    const sunder_i_index *standing; /* as they stand now: the scene's; lent */
-    sunder_i_piece *wall;           /* edges of features that hold others; see keep.c */
+    const sunder_i_index *standing; /* as they stand now: the placement's; lent */
+    sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     size_t walls;
-    sunder_i_couple *kept;  /* pairs that may overlap, because one lies in the other; sorted */
-    bool *a_in_b;           /* [kept_n] which of the two lies in the other */
-    bool *enters;           /* [kept_n] it did not at the start, but is to get there (enter.c) */
-    unsigned char *keeping; /* [kept_n] a sunder_i_keeping */
-    size_t kept_n;
-    sunder_i_couple *lying; /* features in conflict of which the one lies in the other at the start; sorted */
-    bool *lying_a;          /* [lying_n] it is the first */
-    size_t lying_n;
-    sunder_i_truces truces;
-    sunder_i_couple *given; /* bodies given up: no solution was found in which this pair, too, is at peace; sorted */
-    size_t given_n;
+    sunder_i_inclusion *inclusion; /* pairs that may overlap, because one lies in the other; sorted */
+    size_t inclusions;
+    sunder_i_inclusion *nested; /* pairs in conflict of which the one lies in the other at the start; sorted */
+    size_t nested_n;
+    sunder_i_relaxations relaxations;
+    sunder_i_couple *given_up; /* bodies given up: no solution was found in which this pair, too, is resolved; sorted */
+    size_t given_up_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     bool *inexact; /* [features] the translate was rounded */
 };
 
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */
 
-/* The features' boxes and the tree over them as they were. On failure the town can be given to sunder_i_town_free() all
- * the same. */
-sunder_status sunder_i_town_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_town *town,
-                                 sunder_error *err);
+/* The features' boxes and the tree over them as they were. On failure the model can be given to
+ * sunder_i_model_free() all the same. */
+sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_model *model,
+                                  sunder_error *err);
 /* Joins what the rules join. */
-sunder_status sunder_i_town_join(sunder_i_town *town, const sunder_i_relations *relations, sunder_error *err);
-void sunder_i_town_free(sunder_i_town *town);
+sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
+void sunder_i_model_free(sunder_i_model *model);
 
 /* ---- bodies.c ---------------------------------------------------------------------------------------------------- */
 
 /* The convex pieces, for the search. */
-sunder_status sunder_i_town_cut(sunder_i_town *town, sunder_error *err);
+sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
 /* Unites the members of these bodies, those that are blocks and have not been. */
-sunder_status sunder_i_town_unite(sunder_i_town *town, const uint32_t *body, size_t n, sunder_error *err);
+sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
-const sunder_shape *sunder_i_town_shape(const sunder_i_town *town, uint32_t body);
+const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
 
 #endif

@@ -1,5 +1,5 @@
-/* A scene: how the features stand at one moment, and which pairs of them are near. What is found here is exact and is
- * what the report stands on. */
+/* A placement: how the features stand at one moment, and which pairs of them are near. What is found here is exact
+ * and is what the report stands on. */
 #include "displacement/layer/placement.h"
 
 #include "base/parallel.h"
@@ -11,82 +11,85 @@
 
 /* ---- Standing ---------------------------------------------------------------------------------------------------- */
 
-sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *scene, sunder_error *err)
+sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err)
 {
-    const size_t n = town->features;
-    memset(scene, 0, sizeof *scene);
-    scene->stand = sunder_i_calloc(n, sizeof *scene->stand);
-    scene->rounded = sunder_i_calloc(n, sizeof *scene->rounded);
-    scene->was_rounded = sunder_i_calloc(n, sizeof *scene->was_rounded);
-    scene->box = sunder_i_alloc(4 * n, sizeof *scene->box);
-    if (!scene->stand || !scene->rounded || !scene->was_rounded || !scene->box) return sunder_i_no_memory(err);
-    memcpy(scene->box, town->box, 4 * n * sizeof *scene->box);
-    for (size_t f = 0; f < n; f++) scene->stand[f].shape = town->layer->feature[f].shape;
-    return sunder_i_index_build(scene->box, town->present, n, &scene->tree, err);
+    const size_t n = model->features;
+    memset(placement, 0, sizeof *placement);
+    placement->translate = sunder_i_calloc(n, sizeof *placement->translate);
+    placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
+    placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
+    placement->box = sunder_i_alloc(4 * n, sizeof *placement->box);
+    if (!placement->translate || !placement->rounded || !placement->was_rounded || !placement->box)
+        return sunder_i_no_memory(err);
+    memcpy(placement->box, model->box, 4 * n * sizeof *placement->box);
+    for (size_t f = 0; f < n; f++) placement->translate[f].shape = model->layer->feature[f].shape;
+    return sunder_i_index_build(placement->box, model->present, n, &placement->tree, err);
 }
 
-void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene)
+void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
 {
-    for (size_t f = 0; scene->rounded && f < town->features; f++) sunder_shape_free(scene->rounded[f]);
-    sunder_i_free(scene->rounded);
-    sunder_i_free(scene->was_rounded);
-    sunder_i_free(scene->stand);
-    sunder_i_free(scene->box);
-    sunder_i_index_free(&scene->tree);
-    memset(scene, 0, sizeof *scene);
+    for (size_t f = 0; placement->rounded && f < model->features; f++) sunder_shape_free(placement->rounded[f]);
+    sunder_i_free(placement->rounded);
+    sunder_i_free(placement->was_rounded);
+    sunder_i_free(placement->translate);
+    sunder_i_free(placement->box);
+    sunder_i_index_free(&placement->tree);
+    memset(placement, 0, sizeof *placement);
 }
 
-static sunder_status stand_feature(sunder_i_town *town, sunder_i_scene *scene, size_t f, sunder_error *err)
+static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *placement, size_t f, sunder_error *err)
 {
-    const double *t = town->move + 2 * (size_t)town->body_of[f];
-    const sunder_shape *shape = town->layer->feature[f].shape;
-    sunder_i_stand *stand = &scene->stand[f];
-    sunder_shape_free(scene->rounded[f]);
-    scene->rounded[f] = NULL;
+    const double *t = model->move + 2 * (size_t)model->body_of[f];
+    const sunder_shape *shape = model->layer->feature[f].shape;
+    sunder_i_translate *stand = &placement->translate[f];
+    sunder_shape_free(placement->rounded[f]);
+    placement->rounded[f] = NULL;
     stand->shape = shape;
     stand->t[0] = t[0];
     stand->t[1] = t[1];
-    if (town->inexact[f]) {
+    if (model->inexact[f]) {
         /* It stands as it will be written. */
         bool exact;
-        scene->was_rounded[f] = true;
-        const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &scene->rounded[f], &exact, err);
+        placement->was_rounded[f] = true;
+        const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
         if (status) return status;
-        stand->shape = scene->rounded[f];
+        stand->shape = placement->rounded[f];
         stand->t[0] = stand->t[1] = 0;
-        sunder_shape_box(stand->shape, scene->box + 4 * f);
+        sunder_shape_box(stand->shape, placement->box + 4 * f);
         return SUNDER_OK;
     }
     for (int c = 0; c < 4; c++) {
-        const double v = town->box[4 * f + (size_t)c] + t[c & 1];
+        const double v = model->box[4 * f + (size_t)c] + t[c & 1];
         /* Corners plus t are exact, but the box of a repaired shape is not made of corners. */
-        scene->box[4 * f + (size_t)c] = shape->rational ? nextafter(v, c < 2 ? -INFINITY : INFINITY) : v;
+        placement->box[4 * f + (size_t)c] = shape->rational ? nextafter(v, c < 2 ? -INFINITY : INFINITY) : v;
     }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, const bool *changed, sunder_error *err)
+sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement, const bool *changed,
+                                      sunder_error *err)
 {
-    for (size_t f = 0; f < town->features; f++) {
-        if (!changed[f] || !town->present[f]) continue;
-        const sunder_status status = stand_feature(town, scene, f, err);
+    for (size_t f = 0; f < model->features; f++) {
+        if (!changed[f] || !model->present[f]) continue;
+        const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_index_move(&scene->tree, (uint32_t)f, scene->box + 4 * f);
+        sunder_i_index_move(&placement->tree, (uint32_t)f, placement->box + 4 * f);
     }
-    if (!sunder_i_index_is_worn(&scene->tree)) return SUNDER_OK;
-    sunder_i_index_free(&scene->tree);
-    return sunder_i_index_build(scene->box, town->present, town->features, &scene->tree, err);
+    if (!sunder_i_index_is_worn(&placement->tree)) return SUNDER_OK;
+    sunder_i_index_free(&placement->tree);
+    return sunder_i_index_build(placement->box, model->present, model->features, &placement->tree, err);
 }
 
-sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, uint32_t body, sunder_error *err)
+sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
+                                           sunder_error *err)
 {
-    const sunder_i_body *b = &town->body[body];
+    const sunder_i_body *b = &model->body[body];
     for (uint32_t m = 0; m < b->members; m++) {
-        const uint32_t f = town->member[b->member + m];
-        if (!town->present[f]) continue;
-        const sunder_status status = stand_feature(town, scene, f, err);
+        const uint32_t f = model->member[b->member + m];
+        if (!model->present[f]) continue;
+        const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_index_move(&scene->tree, f, scene->box + 4 * (size_t)f);
+        sunder_i_index_move(&placement->tree, f, placement->box + 4 * (size_t)f);
     }
     return SUNDER_OK;
 }
@@ -94,8 +97,8 @@ sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, u
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
 typedef struct pair_search {
-    const sunder_i_town *town;
-    const sunder_i_scene *scene;
+    const sunder_i_model *model;
+    const sunder_i_placement *placement;
     const bool *changed;   /* NULL: all did */
     const uint32_t *asked; /* features that changed */
     sunder_i_list *found;  /* [asked] partners of each; of two that changed the greater is the lesser's partner */
@@ -104,16 +107,16 @@ typedef struct pair_search {
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
-    const double reach = fmax(s->town->rules.gap, s->town->rules.tolerance);
+    const double reach = fmax(s->model->rules.gap, s->model->rules.tolerance);
     for (size_t a = begin; a < end; a++) {
         const uint32_t f = s->asked[a];
         double box[4];
         if (reach > 0)
-            sunder_i_box_grow(s->scene->box + 4 * (size_t)f, reach, box);
+            sunder_i_box_grow(s->placement->box + 4 * (size_t)f, reach, box);
         else
-            memcpy(box, s->scene->box + 4 * (size_t)f, sizeof box);
+            memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
         sunder_i_list *list = &s->found[a];
-        if (!sunder_i_index_query(&s->scene->tree, box, list)) return sunder_i_no_memory(err);
+        if (!sunder_i_index_query(&s->placement->tree, box, list)) return sunder_i_no_memory(err);
         size_t kept = 0;
         for (size_t k = 0; k < list->n; k++) {
             const uint32_t g = list->item[k];
@@ -126,8 +129,8 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
 }
 
 typedef struct classification {
-    const sunder_i_town *town;
-    const sunder_i_scene *scene;
+    const sunder_i_model *model;
+    const sunder_i_placement *placement;
     const bool *changed;
     const sunder_i_relations *before;
     sunder_i_relation *pair;
@@ -137,8 +140,8 @@ typedef struct classification {
  * Members of a body move together; unless one is ever rounded nothing changes between them. */
 static bool is_as_before(const classification *c, const sunder_i_relation *r)
 {
-    return c->before && c->town->body_of[r->a] == c->town->body_of[r->b] && !c->scene->was_rounded[r->a] &&
-           !c->scene->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
+    return c->before && c->model->body_of[r->a] == c->model->body_of[r->b] && !c->placement->was_rounded[r->a] &&
+           !c->placement->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
 }
 
 static sunder_status classify(void *context, size_t begin, size_t end, sunder_error *err)
@@ -152,32 +155,33 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
             continue;
         }
         const sunder_status status =
-            sunder_i_relate(&c->town->rules, &c->scene->stand[r->a], &c->scene->stand[r->b], r, err);
+            sunder_i_relate(&c->model->rules, &c->placement->translate[r->a], &c->placement->translate[r->b], r, err);
         if (status) return status;
     }
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_scene_about(const sunder_i_town *town, const sunder_i_scene *scene, uint32_t body,
-                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context, sunder_error *err)
+sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t body,
+                                       sunder_i_list *near, sunder_i_visit_relation visit, void *context,
+                                       sunder_error *err)
 {
-    const sunder_i_body *b = &town->body[body];
-    const double reach = fmax(town->rules.gap, town->rules.tolerance);
+    const sunder_i_body *b = &model->body[body];
+    const double reach = fmax(model->rules.gap, model->rules.tolerance);
     sunder_status status = SUNDER_OK;
     bool on = true;
     for (uint32_t m = 0; m < b->members && on && !status; m++) {
-        const uint32_t f = town->member[b->member + m];
+        const uint32_t f = model->member[b->member + m];
         double box[4];
-        if (!town->present[f]) continue;
-        sunder_i_box_grow(scene->box + 4 * (size_t)f, reach, box);
+        if (!model->present[f]) continue;
+        sunder_i_box_grow(placement->box + 4 * (size_t)f, reach, box);
         near->n = 0;
-        if (!sunder_i_index_query(&scene->tree, box, near)) return sunder_i_no_memory(err);
+        if (!sunder_i_index_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
         if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
         for (size_t k = 0; k < near->n && on && !status; k++) {
             const uint32_t g = near->item[k];
             sunder_i_relation r = {.a = f < g ? f : g, .b = f < g ? g : f};
-            if (town->body_of[g] == body) continue;
-            status = sunder_i_relate(&town->rules, &scene->stand[r.a], &scene->stand[r.b], &r, err);
+            if (model->body_of[g] == body) continue;
+            status = sunder_i_relate(&model->rules, &placement->translate[r.a], &placement->translate[r.b], &r, err);
             if (!status && (r.near || r.touch || r.kept)) status = visit(context, &r, &on, err);
         }
     }
@@ -211,17 +215,17 @@ static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pa
 }
 
 /* Every pair of boxes within reach of each other of which one feature changed, as the features stand. */
-static sunder_status find_pairs(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
+static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_placement *placement, const bool *changed,
                                 sunder_i_relation **pair, size_t *pairs, sunder_error *err)
 {
-    uint32_t *asked = sunder_i_alloc(town->features, sizeof *asked);
+    uint32_t *asked = sunder_i_alloc(model->features, sizeof *asked);
     if (!asked) return sunder_i_no_memory(err);
     size_t n = 0;
-    for (uint32_t f = 0; f < town->features; f++)
-        if (town->present[f] && (!changed || changed[f])) asked[n++] = f;
-    const pair_search search = {town, scene, changed, asked, sunder_i_calloc(n, sizeof *search.found)};
+    for (uint32_t f = 0; f < model->features; f++)
+        if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
+    const pair_search search = {model, placement, changed, asked, sunder_i_calloc(n, sizeof *search.found)};
     sunder_status status = search.found ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = sunder_i_parallel(town->rules.threads, n, 256, find_partners, (void *)&search, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, 256, find_partners, (void *)&search, err);
     if (search.found) {
         *pair = collect(&search, n, pairs);
         if (!status && !*pair) status = sunder_i_no_memory(err);
@@ -251,13 +255,14 @@ static sunder_status merge(const classification *c, size_t pairs, sunder_i_relat
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
-                                    const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err)
+sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
+                                        const bool *changed, const sunder_i_relations *before,
+                                        sunder_i_relations *relations, sunder_error *err)
 {
-    classification c = {town, scene, changed, before, NULL};
+    classification c = {model, placement, changed, before, NULL};
     size_t pairs = 0;
-    sunder_status status = find_pairs(town, scene, changed, &c.pair, &pairs, err);
-    if (!status) status = sunder_i_parallel(town->rules.threads, pairs, 32, classify, &c, err);
+    sunder_status status = find_pairs(model, placement, changed, &c.pair, &pairs, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, 32, classify, &c, err);
     if (!status) status = merge(&c, pairs, relations, err);
     if (status) sunder_i_free(c.pair);
     return status;

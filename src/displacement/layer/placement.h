@@ -5,37 +5,40 @@
 #include "displacement/layer/model.h"
 
 /* How the features stand at one moment. */
-typedef struct sunder_i_scene {
-    sunder_i_stand *stand;  /* [features] */
-    sunder_shape **rounded; /* [features] owned shapes of those whose translate was rounded; else NULL */
-    bool *was_rounded;      /* [features] at any time */
-    double *box;            /* [4 * features] */
+typedef struct sunder_i_placement {
+    sunder_i_translate *translate; /* [features] */
+    sunder_shape **rounded;        /* [features] owned shapes of those whose translate was rounded; else NULL */
+    bool *was_rounded;             /* [features] at any time */
+    double *box;                   /* [4 * features] */
     sunder_i_index tree;
-} sunder_i_scene;
+} sunder_i_placement;
 
-/* The scene at the start, and after bodies moved: every feature f with changed[f] is placed anew by town->move. Failure
- * leaves a scene that can be freed. */
-sunder_status sunder_i_scene_init(const sunder_i_town *town, sunder_i_scene *scene, sunder_error *err);
-sunder_status sunder_i_scene_move(sunder_i_town *town, sunder_i_scene *scene, const bool *changed, sunder_error *err);
+/* The placement at the start, and after bodies moved: every feature f with changed[f] is placed anew by model->move.
+ * Failure leaves a placement that can be freed. */
+sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err);
+sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement, const bool *changed,
+                                      sunder_error *err);
 /* The same for one body. */
-sunder_status sunder_i_scene_place(sunder_i_town *town, sunder_i_scene *scene, uint32_t body, sunder_error *err);
-void sunder_i_scene_free(const sunder_i_town *town, sunder_i_scene *scene);
+sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
+                                           sunder_error *err);
+void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement);
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
 /* All pairs that are near, touch or are kept, as the features stand; exact. before and changed, or both NULL: the
  * relations when all but the features with changed[] stood as now; what cannot have changed is taken from there, and
  * costs nothing but the copy. */
-sunder_status sunder_i_scene_relate(const sunder_i_town *town, const sunder_i_scene *scene, const bool *changed,
-                                    const sunder_i_relations *before, sunder_i_relations *relations, sunder_error *err);
+sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
+                                        const bool *changed, const sunder_i_relations *before,
+                                        sunder_i_relations *relations, sunder_error *err);
 
 /* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:
  * scratch. */
 typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on,
                                                  sunder_error *err);
 
-sunder_status sunder_i_scene_about(const sunder_i_town *town, const sunder_i_scene *scene, uint32_t body,
-                                   sunder_i_list *near, sunder_i_visit_relation visit, void *context,
-                                   sunder_error *err);
+sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t body,
+                                       sunder_i_list *near, sunder_i_visit_relation visit, void *context,
+                                       sunder_error *err);
 
 #endif

@@ -18,7 +18,7 @@
 
 /* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place
  * cover the four roundings on each side. */
-static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, double reach)
+static bool box_may_lie_in(const sunder_i_translate *p, const sunder_i_translate *q, double reach)
 {
     double a[4], b[4];
     sunder_shape_box(p->shape, a);
@@ -33,7 +33,7 @@ static bool box_may_lie_in(const sunder_i_stand *p, const sunder_i_stand *q, dou
 }
 
 /* Does P lie in Q up to the tolerance? exact_in: it does with none. */
-static sunder_status lies_in(const sunder_i_stand *p, const sunder_i_stand *q, double tolerance, bool *exact_in,
+static sunder_status lies_in(const sunder_i_translate *p, const sunder_i_translate *q, double tolerance, bool *exact_in,
                              bool *in, sunder_error *err)
 {
     *exact_in = *in = false;
@@ -49,8 +49,8 @@ static sunder_status lies_in(const sunder_i_stand *p, const sunder_i_stand *q, d
     return status;
 }
 
-static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
-                                        sunder_i_relation *r, sunder_error *err)
+static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunder_i_translate *a,
+                                        const sunder_i_translate *b, sunder_i_relation *r, sunder_error *err)
 {
     bool a_in, a_exact, b_in, b_exact;
     sunder_status status = lies_in(a, b, rules->tolerance, &a_exact, &a_in, err);
@@ -72,7 +72,7 @@ static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunde
 }
 
 /* The distance of two disjoint sets that may stand translated. */
-static sunder_status distance_between(const sunder_i_stand *a, const sunder_i_stand *b, double *distance,
+static sunder_status distance_between(const sunder_i_translate *a, const sunder_i_translate *b, double *distance,
                                       sunder_error *err)
 {
     double on_a[2], on_b[2];
@@ -88,7 +88,7 @@ static sunder_status distance_between(const sunder_i_stand *a, const sunder_i_st
     return status;
 }
 
-sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
+sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
                               sunder_i_relation *r, sunder_error *err)
 {
     r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;

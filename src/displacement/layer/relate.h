@@ -6,10 +6,10 @@
 
 /* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the
  * shape that is written, with no translation. */
-typedef struct sunder_i_stand {
+typedef struct sunder_i_translate {
     const sunder_shape *shape;
     double t[2];
-} sunder_i_stand;
+} sunder_i_translate;
 
 typedef struct sunder_i_relation {
     uint32_t a, b;  /* features, a < b */
@@ -23,7 +23,7 @@ typedef struct sunder_i_relation {
 } sunder_i_relation;
 
 /* All questions about one pair, exact. */
-sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_stand *a, const sunder_i_stand *b,
+sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
                               sunder_i_relation *relation, sunder_error *err);
 
 typedef struct sunder_i_relations {

@@ -1,16 +1,19 @@
-/* Pairs that are left in conflict, and what is demanded of them instead of peace: to stand no worse than they stood.
+/* Pairs that are left in conflict, and what is demanded of them instead of the gap: to stand no worse than they
+ * stood.
  *
- * The search knows one kind of demand, to keep a distance from a convex obstacle, and a truce is made of the same:
+ * The search knows one kind of demand, to keep a distance from a convex obstacle, and a relaxation is made of the
+ * same:
  *
  *   disjoint at the start   the pair keeps the distance that it had, which is less than the gap
  *   in each other           with v the least translation of b that parted them: b + v stays off a. Then v, or less,
  *                           still parts them, so they are no deeper in each other than they were.
- *   one inside the other    where that is peace: it stays inside
+ *   one inside the other    where it may: it stays inside
  *
- * At the start every truce holds, so to leave everything where it was is always a way. (The second demands more than
- * need be: another translation of the same length might part them. The exact check, uphold.c, demands just what is
- * needed.) */
-#include "displacement/layer/inclusion.h"
+ * At the start every relaxation holds, so to leave everything where it was is always a way. (The second demands more
+ * than need be: another translation of the same length might part them. The exact check, uphold.c, demands just what
+ * is needed.) */
+#include "displacement/layer/model.h"
+#include "displacement/layer/resolution.h"
 
 #include "separation/separation.h"
 
@@ -18,73 +21,80 @@
 #include <stdlib.h>
 #include <string.h>
 
-void sunder_i_truces_free(sunder_i_truces *truces)
+void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
 {
-    sunder_i_free(truces->item);
-    sunder_i_free(truces->torn);
-    memset(truces, 0, sizeof *truces);
+    sunder_i_free(relaxations->item);
+    sunder_i_free(relaxations->relaxed);
+    memset(relaxations, 0, sizeof *relaxations);
 }
 
 static int by_features(const void *x, const void *y)
 {
-    const sunder_i_truce *p = x, *q = y;
+    const sunder_i_relaxation *p = x, *q = y;
     if (p->a != q->a) return p->a < q->a ? -1 : 1;
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
 static int by_bodies(const void *x, const void *y)
 {
-    const sunder_i_torn *p = x, *q = y;
+    const sunder_i_relaxed_bodies *p = x, *q = y;
     if (p->i != q->i) return p->i < q->i ? -1 : 1;
     return p->j < q->j ? -1 : p->j > q->j;
 }
 
-const sunder_i_truce *sunder_i_truces_find(const sunder_i_truces *truces, uint32_t f, uint32_t g)
+const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations *relaxations, uint32_t f, uint32_t g)
 {
-    const sunder_i_truce key = {.a = f < g ? f : g, .b = f < g ? g : f};
-    return truces->n ? bsearch(&key, truces->item, truces->n, sizeof key, by_features) : NULL;
+    const sunder_i_relaxation key = {.a = f < g ? f : g, .b = f < g ? g : f};
+    return relaxations->n ? bsearch(&key, relaxations->item, relaxations->n, sizeof key, by_features) : NULL;
 }
 
-const sunder_i_torn *sunder_i_truces_between(const sunder_i_truces *truces, uint32_t body, uint32_t other)
+const sunder_i_relaxed_bodies *sunder_i_relaxations_between(const sunder_i_relaxations *relaxations, uint32_t body,
+                                                            uint32_t other)
 {
-    const sunder_i_torn key = {.i = body < other ? body : other, .j = body < other ? other : body};
-    return truces->torn_n ? bsearch(&key, truces->torn, truces->torn_n, sizeof key, by_bodies) : NULL;
+    const sunder_i_relaxed_bodies key = {.i = body < other ? body : other, .j = body < other ? other : body};
+    return relaxations->relaxed_n ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, by_bodies)
+                                  : NULL;
 }
 
-bool sunder_i_truces_add(sunder_i_truces *truces, const sunder_i_truce *truce)
+bool sunder_i_relaxations_add(sunder_i_relaxations *relaxations, const sunder_i_relaxation *relaxation)
 {
-    if (!sunder_i_reserve(&truces->item, &truces->capacity, truces->n + 1, sizeof *truces->item)) return false;
-    truces->item[truces->n++] = *truce;
+    if (!sunder_i_reserve(&relaxations->item, &relaxations->capacity, relaxations->n + 1, sizeof *relaxations->item))
+        return false;
+    relaxations->item[relaxations->n++] = *relaxation;
     return true;
 }
 
-static sunder_i_torn torn_of(const sunder_i_town *town, const sunder_i_truce *t)
+static sunder_i_relaxed_bodies relaxed_bodies_of(const sunder_i_model *model, const sunder_i_relaxation *t)
 {
-    const uint32_t i = town->body_of[t->a], j = town->body_of[t->b];
-    return (sunder_i_torn){i < j ? i : j, i < j ? j : i, t->inside ? 0 : hypot(t->shift[0], t->shift[1]), 1};
+    const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
+    return (sunder_i_relaxed_bodies){i < j ? i : j, i < j ? j : i, t->inside ? 0 : hypot(t->shift[0], t->shift[1]), 1};
 }
 
 /* One more between its bodies. */
-static void join_torn(sunder_i_torn *between, const sunder_i_torn *more)
+static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxed_bodies *more)
 {
     between->reach = fmax(between->reach, more->reach);
     between->n++;
 }
 
-bool sunder_i_truces_index(sunder_i_truces *truces, const sunder_i_town *town)
+bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model)
 {
-    truces->torn_n = 0;
-    if (truces->n == 0) return true;
-    if (!sunder_i_reserve(&truces->torn, &truces->torn_capacity, truces->n, sizeof *truces->torn)) return false;
-    qsort(truces->item, truces->n, sizeof *truces->item, by_features);
-    for (size_t k = 0; k < truces->n; k++) truces->torn[k] = torn_of(town, &truces->item[k]);
-    qsort(truces->torn, truces->n, sizeof *truces->torn, by_bodies);
-    for (size_t k = 0; k < truces->n; k++) {
-        sunder_i_torn *last = truces->torn_n ? &truces->torn[truces->torn_n - 1] : NULL;
-        if (last && by_bodies(last, &truces->torn[k]) == 0)
-            join_torn(last, &truces->torn[k]);
+    relaxations->relaxed_n = 0;
+    if (relaxations->n == 0) return true;
+    if (!sunder_i_reserve(&relaxations->relaxed, &relaxations->relaxed_capacity, relaxations->n,
+                          sizeof *relaxations->relaxed))
+        return false;
+    qsort(relaxations->item, relaxations->n, sizeof *relaxations->item, by_features);
+    for (size_t k = 0; k < relaxations->n; k++)
+        relaxations->relaxed[k] = relaxed_bodies_of(model, &relaxations->item[k]);
+    qsort(relaxations->relaxed, relaxations->n, sizeof *relaxations->relaxed, by_bodies);
+    for (size_t k = 0; k < relaxations->n; k++) {
+        sunder_i_relaxed_bodies *last =
+            relaxations->relaxed_n ? &relaxations->relaxed[relaxations->relaxed_n - 1] : NULL;
+        if (last && by_bodies(last, &relaxations->relaxed[k]) == 0)
+            join_relaxed(last, &relaxations->relaxed[k]);
         else
-            truces->torn[truces->torn_n++] = truces->torn[k];
+            relaxations->relaxed[relaxations->relaxed_n++] = relaxations->relaxed[k];
     }
     return true;
 }
@@ -104,78 +114,94 @@ static size_t place_of(const void *key, const void *item, size_t n, size_t size,
     return low;
 }
 
-bool sunder_i_truces_insert(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce)
+bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder_i_model *model,
+                                 const sunder_i_relaxation *relaxation)
 {
-    if (!sunder_i_reserve(&truces->item, &truces->capacity, truces->n + 1, sizeof *truces->item) ||
-        !sunder_i_reserve(&truces->torn, &truces->torn_capacity, truces->torn_n + 1, sizeof *truces->torn))
+    if (!sunder_i_reserve(&relaxations->item, &relaxations->capacity, relaxations->n + 1, sizeof *relaxations->item) ||
+        !sunder_i_reserve(&relaxations->relaxed, &relaxations->relaxed_capacity, relaxations->relaxed_n + 1,
+                          sizeof *relaxations->relaxed))
         return false;
-    const sunder_i_torn torn = torn_of(town, truce);
-    const size_t at = place_of(truce, truces->item, truces->n, sizeof *truce, by_features);
-    memmove(truces->item + at + 1, truces->item + at, (truces->n++ - at) * sizeof *truce);
-    truces->item[at] = *truce;
-    const size_t of = place_of(&torn, truces->torn, truces->torn_n, sizeof torn, by_bodies);
-    if (of < truces->torn_n && by_bodies(&truces->torn[of], &torn) == 0) {
-        join_torn(&truces->torn[of], &torn);
+    const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
+    const size_t at = place_of(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, by_features);
+    memmove(relaxations->item + at + 1, relaxations->item + at, (relaxations->n++ - at) * sizeof *relaxation);
+    relaxations->item[at] = *relaxation;
+    const size_t of = place_of(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, by_bodies);
+    if (of < relaxations->relaxed_n && by_bodies(&relaxations->relaxed[of], &relaxed) == 0) {
+        join_relaxed(&relaxations->relaxed[of], &relaxed);
         return true;
     }
-    memmove(truces->torn + of + 1, truces->torn + of, (truces->torn_n++ - of) * sizeof torn);
-    truces->torn[of] = torn;
+    memmove(relaxations->relaxed + of + 1, relaxations->relaxed + of, (relaxations->relaxed_n++ - of) * sizeof relaxed);
+    relaxations->relaxed[of] = relaxed;
     return true;
 }
 
-void sunder_i_truces_remove(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_truce *truce)
+void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder_i_model *model,
+                                 const sunder_i_relaxation *relaxation)
 {
-    const sunder_i_torn torn = torn_of(town, truce);
-    const size_t at = place_of(truce, truces->item, truces->n, sizeof *truce, by_features);
-    const size_t of = place_of(&torn, truces->torn, truces->torn_n, sizeof torn, by_bodies);
-    memmove(truces->item + at, truces->item + at + 1, (--truces->n - at) * sizeof *truce);
+    const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
+    const size_t at = place_of(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, by_features);
+    const size_t of = place_of(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, by_bodies);
+    memmove(relaxations->item + at, relaxations->item + at + 1, (--relaxations->n - at) * sizeof *relaxation);
     /* What remains between the bodies may reach less far than is said then. */
-    if (--truces->torn[of].n == 0)
-        memmove(truces->torn + of, truces->torn + of + 1, (--truces->torn_n - of) * sizeof torn);
+    if (--relaxations->relaxed[of].n == 0)
+        memmove(relaxations->relaxed + of, relaxations->relaxed + of + 1,
+                (--relaxations->relaxed_n - of) * sizeof relaxed);
 }
 
-/* ---- Those that were ended --------------------------------------------------------------------------------------- */
+/* ---- Those that were restored ------------------------------------------------------------------------------------ */
 
-int sunder_i_by_ended(const void *x, const void *y)
+int sunder_i_by_restored(const void *x, const void *y)
 {
-    const sunder_i_ended *p = x, *q = y;
+    const sunder_i_restored *p = x, *q = y;
     const int order = sunder_i_by_couple(&p->body, &q->body);
     return order ? order : sunder_i_by_couple(&p->feature, &q->feature);
 }
 
-sunder_i_ended sunder_i_ended_of(const sunder_i_town *town, const sunder_i_truce *truce)
+sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation)
 {
-    const sunder_i_torn torn = torn_of(town, truce);
-    return (sunder_i_ended){{torn.i, torn.j}, {truce->a, truce->b}};
+    const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
+    return (sunder_i_restored){{relaxed.i, relaxed.j}, {relaxation->a, relaxation->b}};
 }
 
-size_t sunder_i_ended_at(const sunder_i_ended *list, size_t n, const sunder_i_ended *wanted)
+size_t sunder_i_restored_at(const sunder_i_restored *list, size_t n, const sunder_i_restored *wanted)
 {
-    return place_of(wanted, list, n, sizeof *list, sunder_i_by_ended);
+    return place_of(wanted, list, n, sizeof *list, sunder_i_by_restored);
 }
 
-void sunder_i_truces_end(sunder_i_truces *truces, const sunder_i_town *town, const sunder_i_ended *ended, size_t n)
+void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunder_i_model *model,
+                                  const sunder_i_restored *restored, size_t n)
 {
     size_t out = 0;
-    for (size_t k = 0; k < truces->n; k++) {
-        const sunder_i_ended key = sunder_i_ended_of(town, &truces->item[k]);
-        if (!bsearch(&key, ended, n, sizeof key, sunder_i_by_ended)) truces->item[out++] = truces->item[k];
+    for (size_t k = 0; k < relaxations->n; k++) {
+        const sunder_i_restored key = sunder_i_restored_of(model, &relaxations->item[k]);
+        if (!bsearch(&key, restored, n, sizeof key, sunder_i_by_restored))
+            relaxations->item[out++] = relaxations->item[k];
     }
-    truces->n = out;
+    relaxations->n = out;
+}
+
+bool sunder_i_is_conflict_of_bodies(const sunder_i_model *model, const sunder_i_relation *r)
+{
+    return sunder_i_is_conflict(r) && model->body_of[r->a] != model->body_of[r->b];
+}
+
+bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relation *r)
+{
+    return sunder_i_is_conflict_of_bodies(model, r) && !sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
 }
 
 /* ---- What is demanded -------------------------------------------------------------------------------------------- */
 
-sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t g, sunder_i_truce *out,
-                                sunder_error *err)
+sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,
+                                     sunder_error *err)
 {
     const double none[2] = {0, 0};
-    *out = (sunder_i_truce){.a = f < g ? f : g, .b = f < g ? g : f};
-    const sunder_shape *a = town->layer->feature[out->a].shape, *b = town->layer->feature[out->b].shape;
-    const size_t kept = sunder_i_kept_at(town, f, g);
-    out->inside = kept < town->kept_n && !town->enters[kept];
+    *out = (sunder_i_relaxation){.a = f < g ? f : g, .b = f < g ? g : f};
+    const sunder_shape *a = model->layer->feature[out->a].shape, *b = model->layer->feature[out->b].shape;
+    const sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, f, g);
+    out->inside = inclusion && !inclusion->enters;
     if (out->inside) return SUNDER_OK;
-    out->inside = sunder_i_is_inner(town, f, g) || sunder_i_is_inner(town, g, f);
+    out->inside = sunder_i_is_inner(model, f, g) || sunder_i_is_inner(model, g, f);
     bool overlap;
     sunder_status status = sunder_i_overlap(a, none, b, none, &overlap, err);
     if (status) return status;
@@ -193,32 +219,33 @@ sunder_status sunder_i_truce_of(const sunder_i_town *town, uint32_t f, uint32_t 
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_truces_make(const sunder_i_town *town, uint32_t i, uint32_t j, double reach,
-                                   sunder_i_truces *out, sunder_error *err)
+sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i, uint32_t j, double reach,
+                                        sunder_i_relaxations *out, sunder_error *err)
 {
-    const sunder_i_body *p = &town->body[i], *q = &town->body[j];
+    const sunder_i_body *p = &model->body[i], *q = &model->body[j];
     sunder_status status = SUNDER_OK;
     for (uint32_t k = 0; k < p->members && !status; k++) {
-        const uint32_t f = town->member[p->member + k];
+        const uint32_t f = model->member[p->member + k];
         double box[4];
-        if (!town->present[f]) continue;
-        sunder_i_box_grow(town->box + 4 * (size_t)f, reach, box);
+        if (!model->present[f]) continue;
+        sunder_i_box_grow(model->box + 4 * (size_t)f, reach, box);
         for (uint32_t l = 0; l < q->members && !status; l++) {
-            const uint32_t g = town->member[q->member + l];
-            sunder_i_truce truce;
-            if (!town->present[g] || !sunder_i_box_meet(box, town->box + 4 * (size_t)g)) continue;
-            if (sunder_i_is_kept(town, f, g)) continue;
-            status = sunder_i_truce_of(town, f, g, &truce, err);
-            if (!status && truce.gap < reach && !sunder_i_truces_add(out, &truce)) status = sunder_i_no_memory(err);
+            const uint32_t g = model->member[q->member + l];
+            sunder_i_relaxation relaxation;
+            if (!model->present[g] || !sunder_i_box_meet(box, model->box + 4 * (size_t)g)) continue;
+            if (sunder_i_is_included(model, f, g)) continue;
+            status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
+            if (!status && relaxation.gap < reach && !sunder_i_relaxations_add(out, &relaxation))
+                status = sunder_i_no_memory(err);
         }
     }
     return status;
 }
 
-double sunder_i_truce_shift(const sunder_i_truce *truce, uint32_t of_j, double shift[2])
+double sunder_i_relaxation_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double shift[2])
 {
-    const double sign = of_j == truce->b ? 1 : -1;
-    shift[0] = sign * truce->shift[0];
-    shift[1] = sign * truce->shift[1];
-    return truce->gap;
+    const double sign = of_j == relaxation->b ? 1 : -1;
+    shift[0] = sign * relaxation->shift[0];
+    shift[1] = sign * relaxation->shift[1];
+    return relaxation->gap;
 }

@@ -1,9 +1,10 @@
-/* Which relative moves make peace.
+/* Which relative moves resolve the pair.
  *
  * The moves of Q that take it off P are the complement of an open set, and the least of them is known from the
  * separation of two shapes. The moves that take Q into P are the erosion { x : Q + x in P }, exact too; up to the
- * tolerance, into P + D (tolerance.c). Peace is in the union of the three sets (Q off P, Q in P, P in Q), so the least
- * length is the least of theirs. Boxes tell beforehand where an erosion is empty or too far away. */
+ * tolerance, into P + D (tolerance.c). What resolves the pair is in the union of the three sets (Q off P, Q in P, P
+ * in Q), so the least length is the least of theirs. Boxes tell beforehand where an erosion is empty or too far
+ * away. */
 #include "displacement/layer/resolution.h"
 
 #include "separation/separation.h"
@@ -127,11 +128,11 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
 
 /* ---- Any way ----------------------------------------------------------------------------------------------------- */
 
-sunder_status sunder_i_make_peace(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b,
-                                  double upper, sunder_i_peace *out, sunder_error *err)
+sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
+                               sunder_i_resolution *out, sunder_error *err)
 {
     const double none[2] = {0, 0};
-    *out = (sunder_i_peace){0};
+    *out = (sunder_i_resolution){0};
     sunder_separation apart;
     sunder_status status = sunder_i_separate(a, none, b, none, rules->gap, upper, &apart, &out->beyond, err);
     if (status) return status;

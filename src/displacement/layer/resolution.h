@@ -1,4 +1,4 @@
-/* The ways in which two features may be at peace: the one definition that relations, search, verdicts and bound ask.
+/* The ways in which two features may be resolved: the one definition that relations, search, verdicts and bound ask.
  *
  *   apart    their interiors are disjoint and their distance is at least the gap
  *   inside   one lies in the other, up to the tolerance, and the rules let contained features overlap
@@ -15,22 +15,22 @@ static inline bool sunder_i_may_be_inside(const sunder_i_rules *rules)
     return rules->contained == SUNDER_CONTAINMENT_IGNORE;
 }
 
-/* Do the two, as they stand, keep the peace? (Members of one block owe each other none.) */
-static inline bool sunder_i_is_at_peace(const sunder_i_relation *r) { return !r->near || r->kept; }
+/* Are the two, as they stand, in conflict? (Unless they are members of one block, which owe each other nothing.) */
+static inline bool sunder_i_is_conflict(const sunder_i_relation *r) { return r->near && !r->kept; }
 
-/* What it takes to make peace between a pair, in lengths of relative moves of b. */
-typedef struct sunder_i_peace {
+/* What it takes to resolve it between a pair, in lengths of relative moves of b. */
+typedef struct sunder_i_resolution {
     double least;      /* proved: no shorter one does it, in any way */
     bool beyond;       /* proved: none up to the length that was asked about does */
     bool apart_beyond; /* proved: none up to that length takes them apart */
     bool inside;       /* `place` is one that brings one of them inside the other, up to the rounding of doubles */
     bool a_inside;     /* ... which: a inside b */
     double place[2];
-} sunder_i_peace;
+} sunder_i_resolution;
 
 /* upper: a length past which the answer no longer matters; INFINITY for none. */
-sunder_status sunder_i_make_peace(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b,
-                                  double upper, sunder_i_peace *out, sunder_error *err);
+sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
+                               sunder_i_resolution *out, sunder_error *err);
 /* Could relative moves of no more than `reach` bring one inside the other, with leave to be there? By their boxes:
  * false only where that is certain. */
 bool sunder_i_may_get_inside(const sunder_i_rules *rules, const double a[4], const double b[4], double reach);

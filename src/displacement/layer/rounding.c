@@ -38,11 +38,11 @@ static size_t raw_vertices(const sunder_shape *shape)
 }
 
 /* The coarsest unit of one coordinate (0 or 1) of the body's corners, where they are and after t. */
-static int coarsest(const sunder_i_town *town, const sunder_i_body *body, size_t c, double t)
+static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size_t c, double t)
 {
     double largest = fabs(t);
     for (uint32_t k = 0; k < body->members; k++) {
-        const sunder_shape *shape = town->layer->feature[town->member[body->member + k]].shape;
+        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
         if (!shape) continue;
         const size_t n = raw_vertices(shape);
         for (size_t v = 0; v < n; v++) {
@@ -53,10 +53,10 @@ static int coarsest(const sunder_i_town *town, const sunder_i_body *body, size_t
     return unit_exponent(largest);
 }
 
-static bool all_exact(const sunder_i_town *town, const sunder_i_body *body, const double t[2])
+static bool all_exact(const sunder_i_model *model, const sunder_i_body *body, const double t[2])
 {
     for (uint32_t k = 0; k < body->members; k++) {
-        const sunder_shape *shape = town->layer->feature[town->member[body->member + k]].shape;
+        const sunder_shape *shape = model->layer->feature[model->member[body->member + k]].shape;
         if (!shape) continue;
         const size_t n = raw_vertices(shape);
         for (size_t v = 0; v < 2 * n; v++)
@@ -94,9 +94,9 @@ bool sunder_i_within(const double t[2], double limit)
     return within && !failed; /* without memory for the proof the longer move is refused */
 }
 
-bool sunder_i_round_move(const sunder_i_town *town, uint32_t b, const double move[2], double out[2], double *unit)
+bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)
 {
-    const sunder_i_body *body = &town->body[b];
+    const sunder_i_body *body = &model->body[b];
     double u[2];
     for (size_t c = 0; c < 2; c++) {
         u[c] = 0;
@@ -104,7 +104,7 @@ bool sunder_i_round_move(const sunder_i_town *town, uint32_t b, const double mov
         if (move[c] == 0) continue;
         /* Rounding may carry a coordinate into the next binade: then once more with the unit there. */
         for (int again = 0; again < 2; again++) {
-            u[c] = ldexp(1, coarsest(town, body, c, again ? out[c] : move[c]));
+            u[c] = ldexp(1, coarsest(model, body, c, again ? out[c] : move[c]));
             out[c] = u[c] * rint(move[c] / u[c]);
             if (!isfinite(out[c])) out[c] = move[c];
         }
@@ -122,5 +122,5 @@ bool sunder_i_round_move(const sunder_i_town *town, uint32_t b, const double mov
             if (move[c] != 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
     }
     if (!sunder_i_within(out, body->limit)) out[0] = out[1] = 0;
-    return all_exact(town, body, out);
+    return all_exact(model, body, out);
 }

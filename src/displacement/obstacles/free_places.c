@@ -39,7 +39,7 @@ static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[
         o->failed = true;
         return;
     }
-    sunder_i_wall *w = &o->wall[o->walls++];
+    sunder_i_obstacle_side *w = &o->wall[o->walls++];
     memset(w, 0, sizeof *w);
     w->n[0] = n[0];
     w->n[1] = n[1];
@@ -73,7 +73,7 @@ static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
     obstacle->box[0] = obstacle->box[1] = INFINITY;
     obstacle->box[2] = obstacle->box[3] = -INFINITY;
     for (size_t k = 0; k < n; k++) {
-        sunder_i_wall *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
+        sunder_i_obstacle_side *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
         const double s = gap / (1 + w->n[0] * before->n[0] + w->n[1] * before->n[1]);
         const double c[2] = {w->from[0] + s * (w->n[0] + before->n[0]), w->from[1] + s * (w->n[1] + before->n[1])};
         for (int i = 0; i < 2; i++) {
@@ -127,7 +127,7 @@ static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacl
     /* Places are computed on walls: within this of one counts as on it. */
     const double slack = 1e-12 * (b[2] - b[0] + b[3] - b[1]);
     for (uint32_t k = 0; k < obstacle->walls; k++) {
-        const sunder_i_wall *w = &o->wall[obstacle->wall + k];
+        const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
         if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
     }
     return true;
@@ -148,7 +148,7 @@ static bool free_at(const sunder_i_obstacles *o, const double x[2], uint32_t *or
 
 static int by_distance(const void *a, const void *b)
 {
-    const sunder_i_wall *v = a, *w = b;
+    const sunder_i_obstacle_side *v = a, *w = b;
     if (v->distance != w->distance) return v->distance < w->distance ? -1 : 1;
     if (v->obstacle != w->obstacle) return v->obstacle < w->obstacle ? -1 : 1;
     if (v->n[0] != w->n[0]) return v->n[0] < w->n[0] ? -1 : 1;
@@ -156,7 +156,7 @@ static int by_distance(const void *a, const void *b)
 }
 
 /* The point of the wall nearest to x. */
-static void nearest_on(const sunder_i_wall *w, const double x[2], double out[2])
+static void nearest_on(const sunder_i_obstacle_side *w, const double x[2], double out[2])
 {
     const double ex = w->to[0] - w->from[0], ey = w->to[1] - w->from[1], square = ex * ex + ey * ey;
     double s = square > 0 ? ((x[0] - w->from[0]) * ex + (x[1] - w->from[1]) * ey) / square : 0;
@@ -217,12 +217,12 @@ static void offer(harvest *h, const double x[2])
 static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
 
 /* Crossings of wall w with every wall before it. */
-static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
+static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size_t w)
 {
-    const sunder_i_wall *a = &wall[w];
+    const sunder_i_obstacle_side *a = &wall[w];
     h->work += w;
     for (size_t v = 0; v < w; v++) {
-        const sunder_i_wall *b = &wall[v];
+        const sunder_i_obstacle_side *b = &wall[v];
         if (a->obstacle == b->obstacle) continue;
         const double d1 = b->n[0] * a->from[0] + b->n[1] * a->from[1] - b->h,
                      d2 = b->n[0] * a->to[0] + b->n[1] * a->to[1] - b->h;
@@ -237,7 +237,7 @@ static void offer_crossings(harvest *h, const sunder_i_wall *wall, size_t w)
 }
 
 /* Does one obstacle hold the whole wall? Most walls are deep inside the union. */
-static bool is_covered(const harvest *h, const sunder_i_wall *w)
+static bool is_covered(const harvest *h, const sunder_i_obstacle_side *w)
 {
     const sunder_i_obstacles *o = h->obstacles;
     const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2};
@@ -254,7 +254,7 @@ static bool is_covered(const harvest *h, const sunder_i_wall *w)
 
 /* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle.
  */
-static void search(harvest *h, sunder_i_wall *sorted, size_t walls)
+static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
 {
     size_t bare = 0;
     for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
@@ -275,7 +275,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
     enum { MOST = 16 };
     double distance[MOST];
     uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
-    sunder_i_wall *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
+    sunder_i_obstacle_side *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
     harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance, 0};
     if (!order || !sorted || o->failed) {
         *failed = true;
@@ -285,7 +285,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
         if (h.n == 0) {
             size_t walls = 0;
             for (size_t k = 0; k < o->walls; k++) {
-                sunder_i_wall *w = &sorted[walls];
+                sunder_i_obstacle_side *w = &sorted[walls];
                 double x[2];
                 *w = o->wall[k];
                 nearest_on(w, target, x);

@@ -6,12 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct sunder_i_wall {
+typedef struct sunder_i_obstacle_side {
     double n[2], h; /* the obstacle lies in n.x <= h */
     double from[2], to[2];
     double distance; /* from the target */
     uint32_t obstacle;
-} sunder_i_wall;
+} sunder_i_obstacle_side;
 
 typedef struct sunder_i_obstacle {
     uint32_t wall, walls;
@@ -22,7 +22,7 @@ typedef struct sunder_i_obstacle {
 typedef struct sunder_i_obstacles {
     sunder_i_obstacle *obstacle;
     size_t n, obstacle_capacity;
-    sunder_i_wall *wall;
+    sunder_i_obstacle_side *wall;
     size_t walls, wall_capacity;
     bool failed;
 } sunder_i_obstacles;

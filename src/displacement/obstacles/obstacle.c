@@ -8,7 +8,6 @@
 #include "displacement/obstacles/obstacle.h"
 
 #include "base/memory.h"
-
 #include "convex/merge.h"
 
 #include <math.h>
@@ -42,7 +41,8 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
-/* Does u come before v, turning from direction 0 to 2 pi? Upper half-plane first; within a half the cross product tells. */
+/* Does u come before v, turning from direction 0 to 2 pi? Upper half-plane first; within a half the cross product
+ * tells. */
 static bool turns_first(const double u[2], const double v[2])
 {
     const bool a = u[1] > 0 || (u[1] == 0 && u[0] > 0), b = v[1] > 0 || (v[1] == 0 && v[0] > 0);
@@ -58,7 +58,8 @@ size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t n
     double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];
     i = edge_at(a, na, i, 1, u);
     j = edge_at(b, nb, j, -1, v);
-    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by turning. */
+    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by
+     * turning. */
     sunder_i_merge m = sunder_i_merge_of((uint32_t)na, (uint32_t)nb);
     while (SUNDER_I_MERGE_NEXT(&m, turns_first(u, v) ? -1 : 1)) {
         d[2 * n] = x;
@@ -73,26 +74,27 @@ size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t n
     return n;
 }
 
-size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_edge *edge)
+size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_obstacle_edge *edge)
 {
     size_t edges = 0;
     for (size_t k = 0; k < n; k++) {
         const double *p = d + 2 * k, *q = d + 2 * (k + 1 < n ? k + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], length = sqrt(ex * ex + ey * ey);
-        if (length > 0) edge[edges++] = (sunder_i_edge){{p[0], p[1]}, {ey / length, -ex / length}, length};
+        if (length > 0) edge[edges++] = (sunder_i_obstacle_edge){{p[0], p[1]}, {ey / length, -ex / length}, length};
     }
     return edges;
 }
 
-sunder_i_support sunder_i_support_at(const sunder_i_edge *edge, size_t n, const double u[2])
+sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
 {
     sunder_i_support best = {{1, 0}, 0, -INFINITY}, corner = {{1, 0}, 0, INFINITY};
     double nearest = INFINITY, perimeter = 0;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_edge *e = &edge[k];
+        const sunder_i_obstacle_edge *e = &edge[k];
         const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
         perimeter += e->length;
-        if (s > best.distance) best = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
+        if (s > best.distance)
+            best = (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], s};
         if (s < 0) continue;
         /* In front of this edge: either its inside or one of its ends is nearest. */
         const double along = wy * e->n[0] - wx * e->n[1];

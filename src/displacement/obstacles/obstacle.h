@@ -24,13 +24,13 @@ typedef struct sunder_i_support {
 } sunder_i_support;
 
 /* An edge of an obstacle: where it begins, its outer normal, its length. */
-typedef struct sunder_i_edge {
+typedef struct sunder_i_obstacle_edge {
     double from[2], n[2], length;
-} sunder_i_edge;
+} sunder_i_obstacle_edge;
 
 /* The edges of the convex polygon d of n corners, those without length left out, in edge[n]; returns how many. */
-size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_edge *edge);
+size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_obstacle_edge *edge);
 /* The support line of the convex polygon of these edges that is farthest below u. */
-sunder_i_support sunder_i_support_at(const sunder_i_edge *edge, size_t n, const double u[2]);
+sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
 
 #endif

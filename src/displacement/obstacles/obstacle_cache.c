@@ -10,61 +10,63 @@
 #define MOST_EDGES 131072u
 #define FEWEST_SLOTS 64u
 
-typedef struct sunder_i_shelved {
+typedef struct sunder_i_cached_obstacle {
     uint64_t key; /* 0: nobody's */
     uint32_t first, n;
-} shelved;
+} cached_obstacle;
 
-void sunder_i_shelf_free(sunder_i_shelf *shelf)
+void sunder_i_obstacle_cache_free(sunder_i_obstacle_cache *cache)
 {
-    sunder_i_free(shelf->slot);
-    sunder_i_free(shelf->edge);
-    memset(shelf, 0, sizeof *shelf);
+    sunder_i_free(cache->slot);
+    sunder_i_free(cache->edge);
+    memset(cache, 0, sizeof *cache);
 }
 
 /* Where that key is, or would be. */
-static size_t slot_of(const sunder_i_shelf *shelf, uint64_t key)
+static size_t slot_of(const sunder_i_obstacle_cache *cache, uint64_t key)
 {
-    size_t k = (size_t)((key * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & (shelf->slots - 1);
-    while (shelf->slot[k].key && shelf->slot[k].key != key) k = (k + 1) & (shelf->slots - 1);
+    size_t k = (size_t)((key * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & (cache->slots - 1);
+    while (cache->slot[k].key && cache->slot[k].key != key) k = (k + 1) & (cache->slots - 1);
     return k;
 }
 
-const sunder_i_edge *sunder_i_shelf_find(const sunder_i_shelf *shelf, uint64_t key, size_t *n)
+const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstacle_cache *cache, uint64_t key,
+                                                           size_t *n)
 {
-    if (shelf->slots == 0) return NULL;
-    const shelved *s = &shelf->slot[slot_of(shelf, key)];
+    if (cache->slots == 0) return NULL;
+    const cached_obstacle *s = &cache->slot[slot_of(cache, key)];
     *n = s->n;
-    return s->key ? shelf->edge + s->first : NULL;
+    return s->key ? cache->edge + s->first : NULL;
 }
 
 /* Room for one more key, no more than half of the slots in use. */
-static bool make_room(sunder_i_shelf *shelf)
+static bool make_room(sunder_i_obstacle_cache *cache)
 {
-    if (2 * (shelf->used + 1) <= shelf->slots) return true;
-    sunder_i_shelf larger = *shelf;
-    larger.slots = shelf->slots ? 2 * shelf->slots : FEWEST_SLOTS;
+    if (2 * (cache->used + 1) <= cache->slots) return true;
+    sunder_i_obstacle_cache larger = *cache;
+    larger.slots = cache->slots ? 2 * cache->slots : FEWEST_SLOTS;
     larger.slot = sunder_i_calloc(larger.slots, sizeof *larger.slot);
     if (!larger.slot) return false;
-    for (size_t k = 0; k < shelf->slots; k++)
-        if (shelf->slot[k].key) larger.slot[slot_of(&larger, shelf->slot[k].key)] = shelf->slot[k];
-    sunder_i_free(shelf->slot);
-    *shelf = larger;
+    for (size_t k = 0; k < cache->slots; k++)
+        if (cache->slot[k].key) larger.slot[slot_of(&larger, cache->slot[k].key)] = cache->slot[k];
+    sunder_i_free(cache->slot);
+    *cache = larger;
     return true;
 }
 
-const sunder_i_edge *sunder_i_shelf_add(sunder_i_shelf *shelf, uint64_t key, const double *d, size_t *n)
+const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cache *cache, uint64_t key, const double *d,
+                                                          size_t *n)
 {
-    if (shelf->edges + *n > MOST_EDGES && shelf->slots) {
-        memset(shelf->slot, 0, shelf->slots * sizeof *shelf->slot);
-        shelf->edges = shelf->used = 0;
+    if (cache->edges + *n > MOST_EDGES && cache->slots) {
+        memset(cache->slot, 0, cache->slots * sizeof *cache->slot);
+        cache->edges = cache->used = 0;
     }
-    if (!make_room(shelf) || !sunder_i_reserve(&shelf->edge, &shelf->capacity, shelf->edges + *n, sizeof *shelf->edge))
+    if (!make_room(cache) || !sunder_i_reserve(&cache->edge, &cache->capacity, cache->edges + *n, sizeof *cache->edge))
         return NULL;
-    sunder_i_edge *edge = shelf->edge + shelf->edges;
+    sunder_i_obstacle_edge *edge = cache->edge + cache->edges;
     *n = sunder_i_edges_of(d, *n, edge);
-    shelf->slot[slot_of(shelf, key)] = (shelved){key, (uint32_t)shelf->edges, (uint32_t)*n};
-    shelf->edges += *n;
-    shelf->used++;
+    cache->slot[slot_of(cache, key)] = (cached_obstacle){key, (uint32_t)cache->edges, (uint32_t)*n};
+    cache->edges += *n;
+    cache->used++;
     return edge;
 }

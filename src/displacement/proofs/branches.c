@@ -1,4 +1,4 @@
-/* The branches of an inquiry: by which way a pair parts, and which of its cases are void.
+/* The branches of a branch and bound: by which way a pair parts, and which of its cases are void.
  *
  * Depth first. A node whose program contradicts itself is a leaf. Else the candidate shows pairs of pieces that are
  * nearer than they owe; one of them is chosen, and each of its ways (ways.c) is a case: beyond this line, and behind
@@ -42,7 +42,7 @@ static void cut(area *p, const double n[2], double d)
 }
 
 /* What limits and steps leave of the relative moves of a pair, roughly. */
-static area room_of(const sunder_i_inquiry *c, uint32_t i, uint32_t j)
+static area room_of(const sunder_i_branching *c, uint32_t i, uint32_t j)
 {
     area room = {.n = DISC_SIDES};
     const double r = (c->limit[i] + c->limit[j]) / cos(TURN / (2 * DISC_SIDES));
@@ -60,7 +60,7 @@ static area room_of(const sunder_i_inquiry *c, uint32_t i, uint32_t j)
 }
 
 /* How many ways are open to a pair, roughly, at most `most`. */
-static size_t count_ways(const sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t ways, size_t most)
+static size_t count_ways(const sunder_i_branching *c, uint32_t i, uint32_t j, size_t ways, size_t most)
 {
     const area room = room_of(c, i, j);
     size_t open = 0;
@@ -74,12 +74,12 @@ static size_t count_ways(const sunder_i_inquiry *c, uint32_t i, uint32_t j, size
 }
 
 /* The one with the fewest ways open; its ways are then in c->scratch. */
-static size_t choose(sunder_i_inquiry *c, const sunder_i_meeting *deepest, size_t n, size_t *ways)
+static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *ways)
 {
     size_t best = 0, fewest = SIZE_MAX;
     for (size_t k = 0; k < n && fewest && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
-        const uint32_t i = sunder_i_inquiry_place(c, deepest[k].p), j = sunder_i_inquiry_place(c, deepest[k].q);
-        *ways = sunder_i_inquiry_ways(c, &deepest[k]);
+        const uint32_t i = sunder_i_branching_place(c, deepest[k].p), j = sunder_i_branching_place(c, deepest[k].q);
+        *ways = sunder_i_branching_ways(c, &deepest[k]);
         if (c->failed) return 0;
         const size_t open = count_ways(c, i, j, *ways, fewest);
         c->looked += *ways * 4;
@@ -87,7 +87,7 @@ static size_t choose(sunder_i_inquiry *c, const sunder_i_meeting *deepest, size_
         fewest = open;
         best = k;
     }
-    *ways = sunder_i_inquiry_ways(c, &deepest[best]);
+    *ways = sunder_i_branching_ways(c, &deepest[best]);
     return best;
 }
 
@@ -97,7 +97,7 @@ static void add_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] |
 static void drop_level(sunder_i_levels *s, unsigned level) { s->bit[level / 64] &= ~(UINT64_C(1) << level % 64); }
 static bool has_level(const sunder_i_levels *s, unsigned level) { return s->bit[level / 64] >> level % 64 & 1; }
 
-static sunder_i_node *add_node(sunder_i_inquiry *c)
+static sunder_i_node *add_node(sunder_i_branching *c)
 {
     if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
     sunder_i_node *node = &c->node[c->nodes++];
@@ -106,7 +106,7 @@ static sunder_i_node *add_node(sunder_i_inquiry *c)
 }
 
 /* A node for the contradiction that the steps' forces prove. */
-static bool add_leaf(sunder_i_inquiry *c, sunder_i_levels *levels, size_t *root)
+static bool add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
 {
     *root = c->nodes;
     memset(levels, 0, sizeof *levels);
@@ -123,7 +123,7 @@ static bool add_leaf(sunder_i_inquiry *c, sunder_i_levels *levels, size_t *root)
 }
 
 /* A node for the ways in c->scratch out of a meeting. */
-static bool add_branch(sunder_i_inquiry *c, const sunder_i_meeting *o, size_t ways, size_t *root)
+static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
 {
     *root = c->nodes;
     sunder_i_node *node = add_node(c);
@@ -139,7 +139,7 @@ static bool add_branch(sunder_i_inquiry *c, const sunder_i_meeting *o, size_t wa
     return true;
 }
 
-static bool push(sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind, unsigned level)
+static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind, unsigned level)
 {
     if (!sunder_i_reserve(&c->step, &c->step_capacity, c->steps + 1, sizeof *c->step)) return false;
     const sunder_i_way *w = &c->way[way];
@@ -156,10 +156,10 @@ static bool push(sunder_i_inquiry *c, uint32_t i, uint32_t j, size_t node, size_
 }
 
 /* The cases of a node, one after the other, from the candidate that is there. */
-static sunder_status search_cases(sunder_i_inquiry *c, const sunder_i_meeting *o, size_t node, unsigned level,
+static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
-    const uint32_t i = sunder_i_inquiry_place(c, o->p), j = sunder_i_inquiry_place(c, o->q);
+    const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
     const size_t first = c->node[node].way, end = first + c->node[node].ways, steps = c->steps, bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
     if (!t) return sunder_i_no_memory(err);
@@ -167,21 +167,21 @@ static sunder_status search_cases(sunder_i_inquiry *c, const sunder_i_meeting *o
     sunder_status status = SUNDER_OK;
     memset(levels, 0, sizeof *levels);
     *root = node;
-    *verdict = SUNDER_I_INSOLUBLE;
-    for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INSOLUBLE; way++) {
+    *verdict = SUNDER_I_INFEASIBLE;
+    for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INFEASIBLE; way++) {
         sunder_i_levels used;
         size_t below = 0;
         memset(c->t, 0, 2 * c->bodies * sizeof *c->t);
         memcpy(c->t, t, 2 * bodies * sizeof *t);
         const size_t before = c->steps;
         bool ok = push(c, i, j, node, way, false, level);
-        const bool dead = ok && sunder_i_inquiry_is_dead(c);
+        const bool dead = ok && sunder_i_branching_is_dead_end(c);
         if (dead)
             ok = add_leaf(c, &used, &below);
         else if (ok)
-            status = sunder_i_inquiry_search(c, level + 1, verdict, &used, &below, err);
+            status = sunder_i_branching_search(c, level + 1, verdict, &used, &below, err);
         if (!ok) status = sunder_i_no_memory(err);
-        if (status || *verdict != SUNDER_I_INSOLUBLE) break;
+        if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->way[way].next = below;
         if (!has_level(&used, level)) {
             *root = below;
@@ -199,23 +199,23 @@ static sunder_status search_cases(sunder_i_inquiry *c, const sunder_i_meeting *o
     return status;
 }
 
-sunder_status sunder_i_inquiry_search(sunder_i_inquiry *c, unsigned level, sunder_i_verdict *verdict,
-                                      sunder_i_levels *levels, size_t *root, sunder_error *err)
+sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
+                                        sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
-    sunder_i_outcome outcome;
+    sunder_i_node_outcome outcome;
     *verdict = SUNDER_I_UNKNOWN;
-    sunder_status status = sunder_i_inquiry_solve(c, &outcome, err);
-    if (status || outcome == SUNDER_I_UNDECIDED) return status;
-    if (outcome == SUNDER_I_VOID) {
-        *verdict = SUNDER_I_INSOLUBLE;
+    sunder_status status = sunder_i_branching_solve(c, &outcome, err);
+    if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
+    if (outcome == SUNDER_I_NODE_INFEASIBLE) {
+        *verdict = SUNDER_I_INFEASIBLE;
         return add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
-    sunder_i_meeting deepest[SUNDER_I_CHOICES];
-    size_t n = sunder_i_inquiry_meetings(c, deepest);
-    while (n == 0 && !c->failed && !sunder_i_inquiry_is_over(c) && sunder_i_inquiry_widen(c))
-        n = sunder_i_inquiry_meetings(c, deepest);
-    if (n == 0 && !c->failed) *verdict = SUNDER_I_SOLVED;
-    if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_inquiry_is_over(c))
+    sunder_i_violation deepest[SUNDER_I_CHOICES];
+    size_t n = sunder_i_branching_violations(c, deepest);
+    while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c))
+        n = sunder_i_branching_violations(c, deepest);
+    if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;
+    if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
         return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
     size_t ways, node;
     const size_t best = choose(c, deepest, n, &ways);

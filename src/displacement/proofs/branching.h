@@ -20,7 +20,7 @@ typedef struct sunder_i_levels {
 
 /* What a branch of the tree says: that a pair is beyond a line, or behind it. */
 typedef struct sunder_i_claim {
-    uint32_t i, j;  /* places in sunder_i_inquiry.body */
+    uint32_t i, j;  /* places in sunder_i_branching.body */
     double n[2], d; /* n.(t_j - t_i) >= d */
     double force;   /* in the last program */
     size_t node, way;
@@ -34,17 +34,17 @@ typedef struct sunder_i_tangent {
     double n[2], force;
 } sunder_i_tangent;
 
-/* A node of the tree, as of sunder_proof_node; its parts are pieces of the town. */
+/* A node of the tree, as of sunder_proof_node; its parts are pieces of the model. */
 typedef struct sunder_i_node {
     uint32_t a, b; /* features */
-    const sunder_i_piece *part_a, *part_b;
+    const sunder_i_body_piece *part_a, *part_b;
     double clearance;
     size_t way, ways, force, forces;
 } sunder_i_node;
 
-typedef struct sunder_i_inquiry {
-    const sunder_i_question *question;
-    const sunder_i_town *town;
+typedef struct sunder_i_branching {
+    const sunder_i_subproblem *subproblem;
+    const sunder_i_model *model;
     /* Those that take part so far, in the order in which they came in. */
     uint32_t *body;
     double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
@@ -69,60 +69,61 @@ typedef struct sunder_i_inquiry {
     size_t scratch_capacity;
     sunder_i_list near;
     bool failed; /* memory is out */
-} sunder_i_inquiry;
+} sunder_i_branching;
 
 /* Work done so far, and whether that, or who takes part, is more than was allowed. */
-static inline uint64_t sunder_i_inquiry_work(const sunder_i_inquiry *c) { return c->looked + c->program.work; }
+static inline uint64_t sunder_i_branching_work(const sunder_i_branching *c) { return c->looked + c->program.work; }
 
-static inline bool sunder_i_inquiry_is_over(const sunder_i_inquiry *c)
+static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
 {
-    return sunder_i_inquiry_work(c) > c->question->effort || c->bodies > c->question->most;
+    return sunder_i_branching_work(c) > c->subproblem->effort || c->bodies > c->subproblem->most;
 }
 
 /* ---- participants.c ---------------------------------------------------------------------------------------------- */
 
 /* The place of a body among those that take part; it is taken in if it was not there. */
-uint32_t sunder_i_inquiry_place(sunder_i_inquiry *inquiry, uint32_t body);
+uint32_t sunder_i_branching_place(sunder_i_branching *branching, uint32_t body);
 /* Takes in those of the reserve that could meet one that takes part; false if there are none. */
-bool sunder_i_inquiry_widen(sunder_i_inquiry *inquiry);
+bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What features f and g of two bodies owe each other; false if nothing. */
-bool sunder_i_inquiry_owe(const sunder_i_inquiry *inquiry, uint32_t f, uint32_t g, double *clearance);
+bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 
 /* ---- program.c --------------------------------------------------------------------------------------------------- */
 
-typedef enum sunder_i_outcome {
-    SUNDER_I_VOID,      /* what the steps say contradicts the limits, proved by their forces */
-    SUNDER_I_CANDIDATE, /* t is as the steps say, up to a hair */
-    SUNDER_I_UNDECIDED  /* too near to call */
-} sunder_i_outcome;
+typedef enum sunder_i_node_outcome {
+    SUNDER_I_NODE_INFEASIBLE, /* what the steps say contradicts the limits, proved by their forces */
+    SUNDER_I_NODE_CANDIDATE,  /* t is as the steps say, up to a hair */
+    SUNDER_I_NODE_UNDECIDED   /* too near to call */
+} sunder_i_node_outcome;
 
-sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *inquiry, sunder_i_outcome *outcome, sunder_error *err);
+sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_node_outcome *outcome,
+                                       sunder_error *err);
 /* Is the last step alone more than the limits allow? Then the forces are set to say so. */
-bool sunder_i_inquiry_is_dead(sunder_i_inquiry *inquiry);
+bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 
 /* Two convex pieces that the candidate has nearer than they owe. */
-typedef struct sunder_i_meeting {
+typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part */
-    const sunder_i_piece *a, *b;
+    const sunder_i_body_piece *a, *b;
     double clearance, depth;
-} sunder_i_meeting;
+} sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies, deepest first; returns how many. */
-size_t sunder_i_inquiry_meetings(sunder_i_inquiry *inquiry, sunder_i_meeting deepest[SUNDER_I_CHOICES]);
-/* The ways out of one, nearest to the candidate first: into inquiry->scratch. Returns how many. */
-size_t sunder_i_inquiry_ways(sunder_i_inquiry *inquiry, const sunder_i_meeting *meeting);
+size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
+/* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */
+size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *meeting);
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */
 
 /* Goes through the branches below the steps as they are. levels: of those that the proof needs; *root: its node. */
-sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, unsigned level, sunder_i_verdict *verdict,
-                                      sunder_i_levels *levels, size_t *root, sunder_error *err);
+sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned level, sunder_i_verdict *verdict,
+                                        sunder_i_levels *levels, size_t *root, sunder_error *err);
 
 /* ---- proof.c ----------------------------------------------------------------------------------------------------- */
 
 /* The part of the record below a node, by itself. NULL if memory is out. */
-sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *inquiry, size_t root);
+sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root);
 
 #endif

@@ -1,20 +1,21 @@
 /* A few bodies, their limits, and what they run into: is there no solution, or does this one do?
  *
- * The inquiry starts from the bodies as they stand. A candidate (program.c) shows what is nearer than it owes
- * (candidate.c), and for each there are ways out (ways.c), one of which any solution takes: a branch for each, and each
- * void in its turn (branches.c), or there is a candidate in which nothing meets. A body takes part once something met
- * it; who is never met stands where it was, and has no say. So an inquiry is as large as the conflict.
+ * The branch and bound starts from the bodies as they stand. A candidate (program.c) shows what is nearer than it
+ * owes (candidate.c), and for each there are ways out (ways.c), one of which any solution takes: a branch for each,
+ * and each void in its turn (branches.c), or there is a candidate in which nothing meets. A body takes part once
+ * something met it; who is never met stands where it was, and has no say. So a branch and bound is as large as the
+ * conflict.
  *
- * What is asked is never more than what a solution owes: pairs held to less, pairs that may overlap (one lies, or could
- * come to lie, in the other, and the rules allow it) and bodies without a limit are left out, gaps and limits are round
- * where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever called insoluble; and
- * every figure that a verdict stands on is rounded against it. */
+ * What is asked is never more than what a solution owes: pairs required to less, pairs that may overlap (one lies,
+ * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out, gaps and
+ * limits are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever
+ * called infeasible; and every figure that a verdict stands on is rounded against it. */
 #include "displacement/proofs/branching.h"
 
 #include <math.h>
 #include <string.h>
 
-static void clear(sunder_i_inquiry *c)
+static void clear(sunder_i_branching *c)
 {
     sunder_i_free(c->limit);
     sunder_i_free(c->mass);
@@ -31,28 +32,28 @@ static void clear(sunder_i_inquiry *c)
     sunder_i_free(c->near.item);
 }
 
-sunder_status sunder_i_certify(const sunder_i_question *question, sunder_i_answer *answer, sunder_error *err)
+sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
 {
-    *answer = (sunder_i_answer){.verdict = SUNDER_I_UNKNOWN};
-    sunder_i_inquiry c = {.question = question, .town = question->town};
-    bool limited = question->bodies <= question->most;
-    for (size_t k = 0; k < question->bodies && limited; k++) {
-        const sunder_i_body *b = &question->town->body[question->body[k]];
+    *decision = (sunder_i_decision){.verdict = SUNDER_I_UNKNOWN};
+    sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
+    bool limited = subproblem->bodies <= subproblem->most;
+    for (size_t k = 0; k < subproblem->bodies && limited; k++) {
+        const sunder_i_body *b = &subproblem->model->body[subproblem->body[k]];
         limited = limited && (b->fixed || isfinite(b->limit));
-        sunder_i_inquiry_place(&c, question->body[k]);
+        sunder_i_branching_place(&c, subproblem->body[k]);
     }
     sunder_status status = c.failed ? sunder_i_no_memory(err) : SUNDER_OK;
     sunder_i_levels levels;
     size_t root = 0;
     if (!status && limited && c.longest > 0)
-        status = sunder_i_inquiry_search(&c, 0, &answer->verdict, &levels, &root, err);
-    if (!status && answer->verdict == SUNDER_I_INSOLUBLE) {
-        answer->proof = sunder_i_proof_of(&c, root);
-        if (!answer->proof) status = sunder_i_no_memory(err);
+        status = sunder_i_branching_search(&c, 0, &decision->verdict, &levels, &root, err);
+    if (!status && decision->verdict == SUNDER_I_INFEASIBLE) {
+        decision->proof = sunder_i_proof_of(&c, root);
+        if (!decision->proof) status = sunder_i_no_memory(err);
     }
-    answer->work = sunder_i_inquiry_work(&c);
-    if (!status && answer->verdict == SUNDER_I_SOLVED) {
-        answer->solution = (sunder_i_solution){c.body, c.t, c.bodies};
+    decision->work = sunder_i_branching_work(&c);
+    if (!status && decision->verdict == SUNDER_I_FEASIBLE) {
+        decision->solution = (sunder_i_solution){c.body, c.t, c.bodies};
     } else {
         sunder_i_free(c.body);
         sunder_i_free(c.t);
@@ -61,10 +62,10 @@ sunder_status sunder_i_certify(const sunder_i_question *question, sunder_i_answe
     return status;
 }
 
-void sunder_i_answer_clear(sunder_i_answer *answer)
+void sunder_i_decision_clear(sunder_i_decision *decision)
 {
-    sunder_i_free(answer->solution.body);
-    sunder_i_free(answer->solution.move);
-    sunder_i_proof_free(answer->proof);
-    memset(answer, 0, sizeof *answer);
+    sunder_i_free(decision->solution.body);
+    sunder_i_free(decision->solution.move);
+    sunder_i_proof_free(decision->proof);
+    memset(decision, 0, sizeof *decision);
 }

@@ -5,33 +5,33 @@
 #include "displacement/layer/model.h"
 
 typedef enum sunder_i_verdict {
-    SUNDER_I_UNKNOWN,   /* the effort ran out, or a limit is infinite */
-    SUNDER_I_INSOLUBLE, /* proved: no moves within the limits give every pair what it is owed */
-    SUNDER_I_SOLVED     /* the solution does, up to a hair; what it did not meet is not heeded */
+    SUNDER_I_UNKNOWN,    /* the effort ran out, or a limit is infinite */
+    SUNDER_I_INFEASIBLE, /* proved: no moves within the limits give every pair what it is owed */
+    SUNDER_I_FEASIBLE    /* the solution does, up to a hair; what it did not meet is not heeded */
 } sunder_i_verdict;
 
-/* Two features, a < b, that need not be parted, and what they are held to: a clearance as of ways.h; -INFINITY: to
+/* Two features, a < b, that need not be parted, and what they are required to: a clearance as of ways.h; -INFINITY: to
  * nothing. */
-typedef struct sunder_i_held {
+typedef struct sunder_i_requirement {
     uint32_t a, b;
     double clearance;
-} sunder_i_held;
+} sunder_i_requirement;
 
-typedef struct sunder_i_question {
-    const sunder_i_town *town;
+typedef struct sunder_i_subproblem {
+    const sunder_i_model *model;
     const uint32_t *body; /* the bodies to begin with; those that they run into are asked about as well */
     size_t bodies;
     const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
     size_t reserves;
-    double farthest;           /* their longest limit that is finite */
-    uint32_t a, b;             /* features, a < b, that owe the gap, held or not; or SUNDER_I_NOBODY */
-    const sunder_i_held *held; /* sorted */
-    size_t held_n;
+    double farthest;                      /* their longest limit that is finite */
+    uint32_t a, b;                        /* features, a < b, that owe the gap, required or not; or SUNDER_I_NOBODY */
+    const sunder_i_requirement *required; /* sorted */
+    size_t required_n;
     const uint32_t *feature; /* NULL, or the only features to be heeded, ascending */
     size_t features;
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */
-} sunder_i_question;
+} sunder_i_subproblem;
 
 typedef struct sunder_i_solution {
     uint32_t *body; /* those asked about, and what they met */
@@ -39,16 +39,16 @@ typedef struct sunder_i_solution {
     size_t bodies;
 } sunder_i_solution;
 
-typedef struct sunder_i_answer {
+typedef struct sunder_i_decision {
     sunder_i_verdict verdict;
-    sunder_i_solution solution; /* if SUNDER_I_SOLVED */
-    sunder_proof *proof;        /* if SUNDER_I_INSOLUBLE */
+    sunder_i_solution solution; /* if SUNDER_I_FEASIBLE */
+    sunder_proof *proof;        /* if SUNDER_I_INFEASIBLE */
     uint64_t work;
-} sunder_i_answer;
+} sunder_i_decision;
 
 /* The answer is to be cleared, also on failure. */
-sunder_status sunder_i_certify(const sunder_i_question *question, sunder_i_answer *answer, sunder_error *err);
-void sunder_i_answer_clear(sunder_i_answer *answer);
+sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err);
+void sunder_i_decision_clear(sunder_i_decision *decision);
 void sunder_i_proof_free(sunder_proof *proof);
 
 #endif

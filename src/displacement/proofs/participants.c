@@ -1,22 +1,22 @@
-/* Who takes part in an inquiry, and what they owe each other. */
+/* Who takes part in a branch and bound, and what they owe each other. */
 #include "displacement/layer/resolution.h"
 #include "displacement/proofs/branching.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Limits and features, by which lengths an inquiry tells what is small: a hair is 2^-40 of the longest limit, and more
- * than what rounding does to places (ways.c). */
-static void set_scale(sunder_i_inquiry *c, const sunder_i_body *b, double limit)
+/* Limits and features, by which lengths a branch and bound tells what is small: a hair is 2^-40 of the longest
+ * limit, and more than what rounding does to places (ways.c). */
+static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limit)
 {
-    const sunder_i_body *first = &c->town->body[c->body[0]];
+    const sunder_i_body *first = &c->model->body[c->body[0]];
     double size = 0;
     for (size_t x = 0; x < 4; x++) size += fabs(b->box[x]) + fabs(b->origin[x & 1] - first->origin[x & 1]);
     c->longest = fmax(c->longest, limit);
-    c->hair = fmax(c->hair, fmax(c->longest * 0x1p-40, (size + c->town->rules.gap) * 0x1p-47));
+    c->hair = fmax(c->hair, fmax(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
 }
 
-uint32_t sunder_i_inquiry_place(sunder_i_inquiry *c, uint32_t body)
+uint32_t sunder_i_branching_place(sunder_i_branching *c, uint32_t body)
 {
     for (uint32_t k = 0; k < c->bodies; k++)
         if (c->body[k] == body) return k;
@@ -31,7 +31,7 @@ uint32_t sunder_i_inquiry_place(sunder_i_inquiry *c, uint32_t body)
         c->failed = true;
         return 0;
     }
-    const sunder_i_body *b = &c->town->body[body];
+    const sunder_i_body *b = &c->model->body[body];
     const uint32_t at = (uint32_t)c->bodies++;
     c->body[at] = body;
     c->limit[at] = b->fixed ? 0 : b->limit;
@@ -42,9 +42,9 @@ uint32_t sunder_i_inquiry_place(sunder_i_inquiry *c, uint32_t body)
 }
 
 /* Could the two, moving as far as they may, come nearer than the gap? By their boxes. */
-static bool is_in_reach(const sunder_i_town *town, const sunder_i_body *p, const sunder_i_body *q)
+static bool is_in_reach(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
-    const double reach = (p->fixed ? 0 : p->limit) + (q->fixed ? 0 : q->limit) + town->rules.gap;
+    const double reach = (p->fixed ? 0 : p->limit) + (q->fixed ? 0 : q->limit) + model->rules.gap;
     double box[4];
     for (uint32_t x = 0; x < 4; x++)
         box[x] = p->box[x] + (p->origin[x & 1] - q->origin[x & 1]) + (x < 2 ? -reach : reach);
@@ -52,63 +52,65 @@ static bool is_in_reach(const sunder_i_town *town, const sunder_i_body *p, const
 }
 
 /* Those of the reserve that could meet body `of`: appended to c->near. */
-static bool find_in_reach(sunder_i_inquiry *c, uint32_t of)
+static bool find_in_reach(sunder_i_branching *c, uint32_t of)
 {
-    const sunder_i_town *town = c->town;
-    const sunder_i_question *q = c->question;
-    const sunder_i_body *p = &town->body[of];
-    const double reach = (p->fixed ? 0 : p->limit) + q->farthest + town->rules.gap;
+    const sunder_i_model *model = c->model;
+    const sunder_i_subproblem *q = c->subproblem;
+    const sunder_i_body *p = &model->body[of];
+    const double reach = (p->fixed ? 0 : p->limit) + q->farthest + model->rules.gap;
     double box[4];
     const size_t before = c->near.n;
     size_t out = before;
     for (uint32_t x = 0; x < 4; x++) box[x] = p->box[x] + p->origin[x & 1];
     sunder_i_box_grow(box, reach, box);
-    if (!sunder_i_index_query(&town->tree, box, &c->near)) return false;
+    if (!sunder_i_index_query(&model->tree, box, &c->near)) return false;
     c->looked += c->near.n - before;
     for (size_t k = before; k < c->near.n; k++) {
-        const uint32_t b = town->body_of[c->near.item[k]];
-        const sunder_i_body *r = &town->body[b];
-        if ((r->fixed || isfinite(r->limit)) && sunder_i_set_has(q->reserve, q->reserves, b) && is_in_reach(town, p, r))
+        const uint32_t b = model->body_of[c->near.item[k]];
+        const sunder_i_body *r = &model->body[b];
+        if ((r->fixed || isfinite(r->limit)) && sunder_i_set_has(q->reserve, q->reserves, b) &&
+            is_in_reach(model, p, r))
             c->near.item[out++] = b;
     }
     c->near.n = out;
     return true;
 }
 
-bool sunder_i_inquiry_widen(sunder_i_inquiry *c)
+bool sunder_i_branching_widen(sunder_i_branching *c)
 {
     const size_t before = c->bodies;
     c->near.n = 0;
-    for (size_t i = 0; i < before && c->question->reserves && !c->failed; i++)
+    for (size_t i = 0; i < before && c->subproblem->reserves && !c->failed; i++)
         if (!find_in_reach(c, c->body[i])) c->failed = true;
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);
-    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_inquiry_place(c, c->near.item[k]);
+    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_branching_place(c, c->near.item[k]);
     return c->bodies > before;
 }
 
 static int by_pair(const void *a, const void *b)
 {
-    const sunder_i_held *p = a, *q = b;
+    const sunder_i_requirement *p = a, *q = b;
     if (p->a != q->a) return p->a < q->a ? -1 : 1;
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-bool sunder_i_inquiry_owe(const sunder_i_inquiry *c, uint32_t f, uint32_t g, double *clearance)
+bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
 {
-    const sunder_i_town *town = c->town;
-    const sunder_i_question *q = c->question;
-    const sunder_i_body *p = &town->body[town->body_of[f]], *r = &town->body[town->body_of[g]];
+    const sunder_i_model *model = c->model;
+    const sunder_i_subproblem *q = c->subproblem;
+    const sunder_i_body *p = &model->body[model->body_of[f]], *r = &model->body[model->body_of[g]];
     const double reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
     if (p == r || !(reach > 0) || !isfinite(reach)) return false;
     if (q->feature && (!sunder_i_set_has(q->feature, q->features, f) || !sunder_i_set_has(q->feature, q->features, g)))
         return false;
-    if (sunder_i_may_get_inside(&town->rules, town->box + 4 * (size_t)f, town->box + 4 * (size_t)g,
+    if (sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
                                 nextafter(reach, INFINITY)))
         return false;
-    *clearance = town->rules.gap;
-    const sunder_i_held key = {f < g ? f : g, f < g ? g : f, 0};
+    *clearance = model->rules.gap;
+    const sunder_i_requirement key = {f < g ? f : g, f < g ? g : f, 0};
     const bool is_asked = key.a == q->a && key.b == q->b;
-    const sunder_i_held *held = is_asked || !q->held_n ? NULL : bsearch(&key, q->held, q->held_n, sizeof key, by_pair);
-    if (held) *clearance = held->clearance;
+    const sunder_i_requirement *required =
+        is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, by_pair);
+    if (required) *clearance = required->clearance;
     return *clearance > -INFINITY;
 }

@@ -1,4 +1,4 @@
-/* The convex program of one node of an inquiry, and the proof that it has no solution.
+/* The convex program of one node of a branch and bound, and the proof that it has no solution.
  *
  * The steps to the node say n.(t_j - t_i) >= d, and limits |t| <= L. Forces f >= 0 on the steps, of any size, prove
  * that no t does both if
@@ -6,7 +6,7 @@
  *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
  *
  * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; Boyd and
- * Vandenberghe, Convex Optimization, section 5.8]. The program's own forces are tried, whatever it ended with.
+ * Vandenberghe, Convex Optimization, section 5.8]. The program's own forces are tried, whatever it restored with.
  *
  * Limits enter it as tangents, added where a solution oversteps one. The program pulls each body to a place, softly,
  * and asks a hair more of the steps than they say, so that its softness does not show. The place is the last solution,
@@ -27,7 +27,7 @@
 /* Rounding, with e = 2^-53 and N steps, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
  * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
  * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
-static bool is_contradiction(sunder_i_inquiry *c)
+static bool is_contradiction(sunder_i_branching *c)
 {
     const double share = (double)(c->steps + c->bodies + 8) * 0x1p-50;
     double won = 0, all = 0, lost = 0;
@@ -51,7 +51,7 @@ static bool is_contradiction(sunder_i_inquiry *c)
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
 
-bool sunder_i_inquiry_is_dead(sunder_i_inquiry *c)
+bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
 {
     sunder_i_claim *last = &c->step[c->steps - 1];
     if (!(last->d > c->limit[last->i] + c->limit[last->j])) return false;
@@ -65,7 +65,7 @@ bool sunder_i_inquiry_is_dead(sunder_i_inquiry *c)
 static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
 
 /* Steps and tangents, as they look from the candidate. */
-static bool load(sunder_i_inquiry *c)
+static bool load(sunder_i_branching *c)
 {
     sunder_i_quadratic *p = &c->program;
     if (!sunder_i_reserve(&p->constraint, &p->capacity, c->steps + c->tangents, sizeof *p->constraint)) return false;
@@ -87,7 +87,7 @@ static bool load(sunder_i_inquiry *c)
     return true;
 }
 
-static void take_over(sunder_i_inquiry *c)
+static void take_over(sunder_i_branching *c)
 {
     const sunder_i_quadratic *p = &c->program;
     for (size_t k = 0; k < p->n; k++) {
@@ -98,7 +98,7 @@ static void take_over(sunder_i_inquiry *c)
 }
 
 /* By how much the candidate misses a step at worst. */
-static double worst_step(const sunder_i_inquiry *c)
+static double worst_step(const sunder_i_branching *c)
 {
     double worst = 0;
     for (size_t k = 0; k < c->steps; k++) {
@@ -109,7 +109,7 @@ static double worst_step(const sunder_i_inquiry *c)
 }
 
 /* Tangents where the candidate oversteps a limit; how many, and the longest overstep. */
-static size_t add_tangents(sunder_i_inquiry *c, double *worst)
+static size_t add_tangents(sunder_i_branching *c, double *worst)
 {
     size_t added = 0;
     *worst = 0;
@@ -132,7 +132,7 @@ static size_t add_tangents(sunder_i_inquiry *c, double *worst)
     return added;
 }
 
-static void drop_idle_tangents(sunder_i_inquiry *c)
+static void drop_idle_tangents(sunder_i_branching *c)
 {
     size_t out = 0;
     for (size_t k = 0; k < c->tangents; k++)
@@ -140,23 +140,23 @@ static void drop_idle_tangents(sunder_i_inquiry *c)
     c->tangents = out;
 }
 
-sunder_status sunder_i_inquiry_solve(sunder_i_inquiry *c, sunder_i_outcome *outcome, sunder_error *err)
+sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
 {
     double missed = INFINITY, over = INFINITY;
     drop_idle_tangents(c);
-    for (int round = 0; round < ROUNDS && !sunder_i_inquiry_is_over(c); round++) {
+    for (int round = 0; round < ROUNDS && !sunder_i_branching_is_over(c); round++) {
         if (!load(c) || sunder_i_quadratic_solve(&c->program, SOFTNESS, c->hair / 4, c->longest) < 0)
             return sunder_i_no_memory(err);
         if (!sunder_i_look()) return sunder_i_no_memory(err);
         take_over(c);
-        *outcome = SUNDER_I_VOID;
+        *outcome = SUNDER_I_NODE_INFEASIBLE;
         if (is_contradiction(c)) return SUNDER_OK;
         missed = worst_step(c);
         add_tangents(c, &over);
         if (c->failed) return sunder_i_no_memory(err);
-        *outcome = SUNDER_I_CANDIDATE;
+        *outcome = SUNDER_I_NODE_CANDIDATE;
         if (missed <= c->hair && over <= c->hair) return SUNDER_OK;
     }
-    *outcome = SUNDER_I_UNDECIDED;
+    *outcome = SUNDER_I_NODE_UNDECIDED;
     return SUNDER_OK;
 }

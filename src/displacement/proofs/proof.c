@@ -1,4 +1,5 @@
-/* The record of an inquiry as a proof of its own: what hangs below one node, in one piece of memory for each array. */
+/* The record of a branch and bound as a proof of its own: what hangs below one node, in one piece of memory for each
+ * array. */
 #include "displacement/proofs/branching.h"
 
 #include "shape/shape.h"
@@ -6,7 +7,7 @@
 #include <string.h>
 
 /* What a subtree has. */
-static void count(const sunder_i_inquiry *c, size_t at, sunder_proof *sum)
+static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
 {
     const sunder_i_node *node = &c->node[at];
     sum->nodes++;
@@ -17,7 +18,7 @@ static void count(const sunder_i_inquiry *c, size_t at, sunder_proof *sum)
 }
 
 typedef struct copying {
-    const sunder_i_inquiry *inquiry;
+    const sunder_i_branching *branching;
     sunder_proof *proof;
     sunder_proof_node *node;
     sunder_proof_way *way;
@@ -27,15 +28,15 @@ typedef struct copying {
     size_t path_copy[SUNDER_I_LEVELS + 1]; /* ... and of the proof */
 } copying;
 
-static size_t copy_part(copying *g, const sunder_i_piece *piece, uint32_t feature)
+static size_t copy_part(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
 {
-    const sunder_shape *shape = g->inquiry->town->layer->feature[feature].shape;
+    const sunder_shape *shape = g->branching->model->layer->feature[feature].shape;
     const size_t at = g->proof->corners;
-    /* Pieces of the town are in the order of the shape's; the town's corners are relative to the body. */
+    /* Pieces of the model are in the order of the shape's; the model's corners are relative to the body. */
     uint32_t p = 0;
-    const sunder_i_piece *first = piece;
-    const sunder_i_body *body = &g->inquiry->town->body[g->inquiry->town->body_of[feature]];
-    const sunder_i_piece *all = g->inquiry->town->piece + body->piece;
+    const sunder_i_body_piece *first = piece;
+    const sunder_i_body *body = &g->branching->model->body[g->branching->model->body_of[feature]];
+    const sunder_i_body_piece *all = g->branching->model->piece + body->piece;
     while (first > all && first[-1].feature == feature) first--, p++;
     const uint32_t from = p ? shape->piece_end[p - 1] : 0;
     for (uint32_t k = from; k < shape->piece_end[p]; k++)
@@ -45,7 +46,7 @@ static size_t copy_part(copying *g, const sunder_i_piece *piece, uint32_t featur
 
 static size_t copy(copying *g, size_t at, size_t depth)
 {
-    const sunder_i_inquiry *c = g->inquiry;
+    const sunder_i_branching *c = g->branching;
     const sunder_i_node *from = &c->node[at];
     sunder_proof *proof = g->proof;
     const size_t number = proof->nodes++;
@@ -78,7 +79,7 @@ static size_t copy(copying *g, size_t at, size_t depth)
     return number;
 }
 
-sunder_proof *sunder_i_proof_of(const sunder_i_inquiry *c, size_t root)
+sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
 {
     sunder_proof size = {0};
     count(c, root, &size);

@@ -6,23 +6,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-static bool is_rational(const sunder_i_town *town, uint32_t f) { return town->layer->feature[f].shape->rational; }
+static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
 
 /* The ways between two pieces: into c->scratch. */
-static size_t fill_ways(sunder_i_inquiry *c, const sunder_i_body *p, const sunder_i_piece *a, const sunder_i_body *q,
-                        const sunder_i_piece *b, double clearance)
+static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance)
 {
-    const sunder_i_town *town = c->town;
-    sunder_i_parting parting = {.a = town->corner + 2 * (size_t)a->corner,
-                                .b = town->corner + 2 * (size_t)b->corner,
+    const sunder_i_model *model = c->model;
+    sunder_i_parting parting = {.a = model->corner + 2 * (size_t)a->corner,
+                                .b = model->corner + 2 * (size_t)b->corner,
                                 .na = a->corners,
                                 .nb = b->corners,
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                                 .clearance = clearance};
     /* Corners of rational shapes are known as the nearest doubles. */
     for (int x = 0; x < 4; x++) {
-        if (is_rational(town, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
-        if (is_rational(town, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
+        if (is_rational(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
+        if (is_rational(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
     }
     const size_t most = SUNDER_I_WAYS_A_CORNER * (parting.na + parting.nb);
     c->looked += parting.na + parting.nb;
@@ -33,7 +33,7 @@ static size_t fill_ways(sunder_i_inquiry *c, const sunder_i_body *p, const sunde
     return sunder_i_ways_between(&parting, c->scratch);
 }
 
-static double depth_of(const sunder_i_inquiry *c, size_t ways, const double u[2])
+static double depth_of(const sunder_i_branching *c, size_t ways, const double u[2])
 {
     double at = -INFINITY;
     for (size_t k = 0; k < ways; k++) {
@@ -51,58 +51,59 @@ typedef struct standing {
     double t[2];
 } standing;
 
-static standing stand(const sunder_i_inquiry *c, uint32_t place)
+static standing stand(const sunder_i_branching *c, uint32_t place)
 {
-    return (standing){c->body[place], &c->town->body[c->body[place]], {c->t[2 * place], c->t[2 * place + 1]}};
+    return (standing){c->body[place], &c->model->body[c->body[place]], {c->t[2 * place], c->t[2 * place + 1]}};
 }
 
-static void look_at(sunder_i_inquiry *c, const standing *s, const standing *r, sunder_i_meeting *worst)
+static void look_at(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
 {
     const sunder_i_body *p = s->body, *q = r->body;
     const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]};
     double box[4], shift[4], clearance = 0;
     for (uint32_t x = 0; x < 4; x++) {
-        shift[x] = p->origin[x & 1] - q->origin[x & 1] - u[x & 1] + (x < 2 ? -c->town->rules.gap : c->town->rules.gap);
+        shift[x] =
+            p->origin[x & 1] - q->origin[x & 1] - u[x & 1] + (x < 2 ? -c->model->rules.gap : c->model->rules.gap);
         box[x] = p->box[x] + shift[x];
     }
     c->looked++;
     if (p->pieces == 0 || q->pieces == 0 || !sunder_i_box_meet(box, q->box)) return;
     for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
-        const sunder_i_piece *a = &c->town->piece[k];
+        const sunder_i_body_piece *a = &c->model->piece[k];
         for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + shift[x];
         c->looked++;
         if (!sunder_i_box_meet(box, q->box)) continue;
         c->looked += q->pieces / 4;
         for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
-            const sunder_i_piece *b = &c->town->piece[l];
+            const sunder_i_body_piece *b = &c->model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
-            if (!sunder_i_inquiry_owe(c, a->feature, b->feature, &clearance)) continue;
+            if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
             const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance), u);
-            if (depth > worst->depth) *worst = (sunder_i_meeting){s->number, r->number, a, b, clearance, depth};
+            if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth};
         }
     }
 }
 
 /* Bodies that a member of this one may meet, in c->near, ascending. */
-static bool find_near(sunder_i_inquiry *c, const standing *s)
+static bool find_near(sunder_i_branching *c, const standing *s)
 {
-    const sunder_i_town *town = c->town;
+    const sunder_i_model *model = c->model;
     c->near.n = 0;
     for (uint32_t m = 0; m < s->body->members; m++) {
-        const uint32_t f = town->member[s->body->member + m];
+        const uint32_t f = model->member[s->body->member + m];
         double box[4], grown[4];
-        if (!town->present[f]) continue;
-        for (uint32_t x = 0; x < 4; x++) box[x] = town->box[4 * (size_t)f + x] + s->t[x & 1];
-        sunder_i_box_grow(box, town->rules.gap, grown);
+        if (!model->present[f]) continue;
+        for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
+        sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += 16;
-        if (!sunder_i_index_query(&town->tree, grown, &c->near)) return false;
+        if (!sunder_i_index_query(&model->tree, grown, &c->near)) return false;
     }
-    for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = town->body_of[c->near.item[k]];
+    for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = model->body_of[c->near.item[k]];
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);
     return true;
 }
 
-static size_t insert(sunder_i_meeting deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_meeting *o)
+static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_violation *o)
 {
     if (!o->a || (n == SUNDER_I_CHOICES && o->depth <= deepest[n - 1].depth)) return n;
     size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
@@ -111,13 +112,13 @@ static size_t insert(sunder_i_meeting deepest[SUNDER_I_CHOICES], size_t n, const
     return n;
 }
 
-size_t sunder_i_inquiry_meetings(sunder_i_inquiry *c, sunder_i_meeting deepest[SUNDER_I_CHOICES])
+size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = 0;
     for (uint32_t i = 0; i < c->bodies; i++) {
         const standing s = stand(c, i);
         for (uint32_t j = i + 1; j < c->bodies; j++) {
-            sunder_i_meeting o = {.depth = 2 * c->hair};
+            sunder_i_violation o = {.depth = 2 * c->hair};
             const standing r = stand(c, j);
             look_at(c, &s, &r, &o);
             n = insert(deepest, n, &o);
@@ -125,11 +126,11 @@ size_t sunder_i_inquiry_meetings(sunder_i_inquiry *c, sunder_i_meeting deepest[S
         /* The others stand where they were. */
         if (!find_near(c, &s)) c->failed = true;
         for (size_t k = 0; k < c->near.n && !c->failed; k++) {
-            sunder_i_meeting o = {.depth = 2 * c->hair};
+            sunder_i_violation o = {.depth = 2 * c->hair};
             bool known = false;
             for (uint32_t j = 0; j < c->bodies && !known; j++) known = c->body[j] == c->near.item[k];
             if (known) continue;
-            const standing r = {.number = c->near.item[k], .body = &c->town->body[c->near.item[k]]};
+            const standing r = {.number = c->near.item[k], .body = &c->model->body[c->near.item[k]]};
             look_at(c, &s, &r, &o);
             n = insert(deepest, n, &o);
         }
@@ -144,9 +145,9 @@ static int by_nearness(const void *a, const void *b)
     return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
-size_t sunder_i_inquiry_ways(sunder_i_inquiry *c, const sunder_i_meeting *o)
+size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
-    const standing s = stand(c, sunder_i_inquiry_place(c, o->p)), r = stand(c, sunder_i_inquiry_place(c, o->q));
+    const standing s = stand(c, sunder_i_branching_place(c, o->p)), r = stand(c, sunder_i_branching_place(c, o->q));
     const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance);
     const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     depth_of(c, n, u);

@@ -1,6 +1,5 @@
 /* What stands in the way of a conflict: the features of the proof that it has no room; where there is no proof, those
  * that the two rest against, as they stand. */
-#include "displacement/layer/inclusion.h"
 #include "displacement/report/report.h"
 
 #include "separation/separation.h"
@@ -15,40 +14,42 @@ static bool append(sunder_i_list *list, uint32_t item)
 }
 
 /* Features of other blocks within the gap, and a hair, of feature f. */
-static sunder_status find_around(const sunder_i_job *w, const sunder_conflict *c, uint32_t f, sunder_i_list *near,
+static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict *c, uint32_t f, sunder_i_list *near,
                                  sunder_i_list *blockers, sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
-    const sunder_i_scene *scene = &w->scene;
-    const double *own = scene->box + 4 * (size_t)f, size = hypot(own[2] - own[0], own[3] - own[1]);
-    const double reach = town->rules.gap + fmax(town->rules.gap, size) * 0x1p-20;
+    const sunder_i_model *model = &s->model;
+    const sunder_i_placement *placement = &s->placement;
+    const double *own = placement->box + 4 * (size_t)f, size = hypot(own[2] - own[0], own[3] - own[1]);
+    const double reach = model->rules.gap + fmax(model->rules.gap, size) * 0x1p-20;
     double box[4];
     sunder_i_box_grow(own, reach, box);
     near->n = 0;
-    if (!sunder_i_index_query(&scene->tree, box, near)) return sunder_i_no_memory(err);
+    if (!sunder_i_index_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
     for (size_t k = 0; k < near->n; k++) {
-        const uint32_t g = near->item[k], other = town->body_of[g];
-        if (other == town->body_of[c->a] || other == town->body_of[c->b] || sunder_i_is_kept(town, f, g)) continue;
+        const uint32_t g = near->item[k], other = model->body_of[g];
+        if (other == model->body_of[c->a] || other == model->body_of[c->b] || sunder_i_is_included(model, f, g))
+            continue;
         bool apart;
-        const sunder_status status = sunder_i_apart(scene->stand[f].shape, scene->stand[f].t, scene->stand[g].shape,
-                                                    scene->stand[g].t, reach, &apart, err);
+        const sunder_status status =
+            sunder_i_apart(placement->translate[f].shape, placement->translate[f].t, placement->translate[g].shape,
+                           placement->translate[g].t, reach, &apart, err);
         if (status) return status;
         if (!apart && !append(blockers, g)) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;
 }
 
-static sunder_status find_blockers(const sunder_i_job *w, const sunder_conflict *c, sunder_i_list *near,
+static sunder_status find_blockers(const sunder_i_solver *s, const sunder_conflict *c, sunder_i_list *near,
                                    sunder_i_list *blockers, sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
+    const sunder_i_model *model = &s->model;
     const size_t pair[2] = {c->a, c->b};
     for (int e = 0; e < 2; e++) {
-        const sunder_i_body *body = &town->body[town->body_of[pair[e]]];
+        const sunder_i_body *body = &model->body[model->body_of[pair[e]]];
         for (uint32_t m = 0; m < body->members; m++) {
-            const uint32_t f = town->member[body->member + m];
-            if (!town->present[f]) continue;
-            const sunder_status status = find_around(w, c, f, near, blockers, err);
+            const uint32_t f = model->member[body->member + m];
+            if (!model->present[f]) continue;
+            const sunder_status status = find_around(s, c, f, near, blockers, err);
             if (status) return status;
         }
     }
@@ -66,7 +67,7 @@ static bool take_from_proof(const sunder_conflict *c, const sunder_proof *proof,
     return true;
 }
 
-sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_list blockers = {0}, near = {0};
     sunder_status status = SUNDER_OK;
@@ -75,7 +76,7 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_job
         const size_t first = blockers.n;
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
         if (!report->proof[k])
-            status = find_blockers(w, c, &near, &blockers, err);
+            status = find_blockers(s, c, &near, &blockers, err);
         else if (!take_from_proof(c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
         if (blockers.n == first) continue; /* nobody to name, and perhaps no list yet */

@@ -16,24 +16,24 @@ static double down(double v) { return nextafter(v, -INFINITY); }
 static double up(double v) { return nextafter(v, INFINITY); }
 
 /* A lower bound of the weight of a body: its members' weights are added downwards. */
-static double weight_below(const sunder_i_town *town, const sunder_i_body *body)
+static double weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++) {
-        const double own = town->layer->feature[town->member[body->member + k]].weight;
+        const double own = model->layer->feature[model->member[body->member + k]].weight;
         w = k ? down(w + own) : own;
     }
     return w;
 }
 
-static void ascend(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n, double *load)
+static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *load)
 {
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double moved = 0, scale = 0;
         for (size_t k = 0; k < n; k++) {
-            const uint32_t i = town->body_of[pairs[k].a], j = town->body_of[pairs[k].b];
-            const double mi = town->body[i].fixed ? 0 : 0.5 / town->body[i].weight;
-            const double mj = town->body[j].fixed ? 0 : 0.5 / town->body[j].weight;
+            const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+            const double mi = model->body[i].fixed ? 0 : 0.5 / model->body[i].weight;
+            const double mj = model->body[j].fixed ? 0 : 0.5 / model->body[j].weight;
             if (!(mi + mj > 0)) continue;
             double change = (pairs[k].least - mi * load[i] - mj * load[j]) / (mi + mj);
             if (change < -pairs[k].multiplier) change = -pairs[k].multiplier;
@@ -49,28 +49,28 @@ static void ascend(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
 }
 
-sunder_status sunder_i_bound(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n, double *bound,
+sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err)
 {
     *bound = 0;
     if (n == 0) return SUNDER_OK;
-    double *load = sunder_i_calloc(town->bodies, sizeof *load);
+    double *load = sunder_i_calloc(model->bodies, sizeof *load);
     if (!load) return sunder_i_no_memory(err);
-    ascend(town, pairs, n, load);
-    for (size_t b = 0; b < town->bodies; b++) load[b] = 0;
+    ascend(model, pairs, n, load);
+    for (size_t b = 0; b < model->bodies; b++) load[b] = 0;
     double value = 0;
     for (size_t k = 0; k < n; k++) {
-        const uint32_t i = town->body_of[pairs[k].a], j = town->body_of[pairs[k].b];
+        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
         /* Two fixed bodies have no solution at all, and prove nothing. */
-        if (town->body[i].fixed && town->body[j].fixed) pairs[k].multiplier = 0;
+        if (model->body[i].fixed && model->body[j].fixed) pairs[k].multiplier = 0;
         if (!(pairs[k].multiplier > 0)) continue;
         value = down(value + down(pairs[k].multiplier * pairs[k].least));
         load[i] = up(load[i] + pairs[k].multiplier);
         load[j] = up(load[j] + pairs[k].multiplier);
     }
-    for (size_t b = 0; b < town->bodies; b++) {
-        if (!(load[b] > 0) || town->body[b].fixed) continue;
-        const double w = weight_below(town, &town->body[b]);
+    for (size_t b = 0; b < model->bodies; b++) {
+        if (!(load[b] > 0) || model->body[b].fixed) continue;
+        const double w = weight_below(model, &model->body[b]);
         value = down(value - up(up(load[b] * load[b]) / (4 * w)));
     }
     sunder_i_free(load);

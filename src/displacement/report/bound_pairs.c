@@ -1,5 +1,4 @@
 /* Which pairs the lower bound stands on, and how far apart each has to go. */
-#include "displacement/clusters/settle.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -9,7 +8,7 @@
 #include <stdlib.h>
 
 typedef struct measuring {
-    const sunder_i_town *town;
+    const sunder_i_model *model;
     sunder_bound_pair *pair;
 } measuring;
 
@@ -17,12 +16,12 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
 {
     const measuring *m = context;
     for (size_t k = begin; k < end; k++) {
-        sunder_i_peace peace;
+        sunder_i_resolution resolution;
         const sunder_status status =
-            sunder_i_make_peace(&m->town->rules, m->town->layer->feature[m->pair[k].a].shape,
-                                m->town->layer->feature[m->pair[k].b].shape, INFINITY, &peace, err);
+            sunder_i_resolve(&m->model->rules, m->model->layer->feature[m->pair[k].a].shape,
+                             m->model->layer->feature[m->pair[k].b].shape, INFINITY, &resolution, err);
         if (status) return status;
-        m->pair[k].least = peace.least;
+        m->pair[k].least = resolution.least;
     }
     return SUNDER_OK;
 }
@@ -39,40 +38,40 @@ static int by_bodies(const void *a, const void *b)
     return p->at < q->at ? -1 : p->at > q->at;
 }
 
-static uint64_t bodies_of(const sunder_i_town *town, size_t a, size_t b)
+static uint64_t bodies_of(const sunder_i_model *model, size_t a, size_t b)
 {
-    const uint32_t i = town->body_of[a], j = town->body_of[b];
+    const uint32_t i = model->body_of[a], j = model->body_of[b];
     return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
 }
 
 /* Is it still in conflict? */
-static bool is_left(const sunder_i_job *w, const sunder_i_relation *r)
+static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    const sunder_i_relation *now = sunder_i_relations_find(&w->now, r->a, r->b);
-    return now && !sunder_i_is_at_peace(now);
+    const sunder_i_relation *now = sunder_i_relations_find(&s->now, r->a, r->b);
+    return now && sunder_i_is_conflict(now);
 }
 
-/* Of each pair of blocks the pair of members that is hardest to bring to peace; of those that were. */
-sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_job *w, sunder_error *err)
+/* Of each pair of blocks the pair of members that is hardest to bring to resolution; of those that were. */
+sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
+    const sunder_i_model *model = &s->model;
     size_t n = 0;
-    key_pair *key = sunder_i_alloc(w->start.n, sizeof *key);
-    report->bound_pair = sunder_i_calloc(w->start.n, sizeof *report->bound_pair);
+    key_pair *key = sunder_i_alloc(s->start.n, sizeof *key);
+    report->bound_pair = sunder_i_calloc(s->start.n, sizeof *report->bound_pair);
     sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
-        for (size_t k = 0; k < w->start.n; k++) {
-            const sunder_i_relation *r = &w->start.pair[k];
-            if (!sunder_i_job_is_conflict(town, r) || is_left(w, r)) continue;
+        for (size_t k = 0; k < s->start.n; k++) {
+            const sunder_i_relation *r = &s->start.pair[k];
+            if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(s, r)) continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = r->b;
         }
-        measuring m = {town, report->bound_pair};
-        status = sunder_i_parallel(town->rules.threads, n, 8, measure_pairs, &m, err);
+        measuring m = {model, report->bound_pair};
+        status = sunder_i_parallel(model->rules.threads, n, 8, measure_pairs, &m, err);
     }
     if (!status) {
         for (size_t k = 0; k < n; k++)
-            key[k] = (key_pair){bodies_of(town, report->bound_pair[k].a, report->bound_pair[k].b), k};
+            key[k] = (key_pair){bodies_of(model, report->bound_pair[k].a, report->bound_pair[k].b), k};
         qsort(key, n, sizeof *key, by_bodies);
         /* Keep the hardest of each run; a pair that is dropped gets least < 0. */
         for (size_t k = 1; k < n; k++) {
@@ -90,7 +89,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_job *w
         for (size_t k = 0; k < n; k++)
             if (report->bound_pair[k].least > 0) report->bound_pair[out++] = report->bound_pair[k];
         report->bound_pairs = out;
-        status = sunder_i_bound(town, report->bound_pair, out, &report->summary.lower_bound, err);
+        status = sunder_i_bound(model, report->bound_pair, out, &report->summary.lower_bound, err);
     }
     sunder_i_free(key);
     return status;

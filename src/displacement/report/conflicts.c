@@ -1,5 +1,4 @@
 /* Conflicts as they are reported: what kind, how bad, and why they remain. */
-#include "displacement/layer/inclusion.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -12,35 +11,35 @@
 
 /* ---- Which pairs, and of what kind ------------------------------------------------------------------------------- */
 
-static bool is_inside(const sunder_i_town *town, const sunder_i_relation *r)
+static bool is_inside(const sunder_i_model *model, const sunder_i_relation *r)
 {
-    return town->body_of[r->a] == town->body_of[r->b];
+    return model->body_of[r->a] == model->body_of[r->b];
 }
 
-static sunder_conflict_kind kind_of(const sunder_i_town *town, const sunder_i_relation *r)
+static sunder_conflict_kind kind_of(const sunder_i_model *model, const sunder_i_relation *r)
 {
     if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
     /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
-    if (is_inside(town, r)) return SUNDER_CONFLICT_OVERLAP;
+    if (is_inside(model, r)) return SUNDER_CONFLICT_OVERLAP;
     return r->duplicate   ? SUNDER_CONFLICT_DUPLICATE
            : r->contained ? SUNDER_CONFLICT_CONTAINED
                           : SUNDER_CONFLICT_OVERLAP;
 }
 
 /* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
-static bool is_listed(const sunder_i_town *town, const sunder_i_relation *r)
+static bool is_listed(const sunder_i_model *model, const sunder_i_relation *r)
 {
-    return !sunder_i_is_at_peace(r) && (!is_inside(town, r) || town->rules.list_inside || (r->overlap && !r->touch));
+    return sunder_i_is_conflict(r) && (!is_inside(model, r) || model->rules.list_inside || (r->overlap && !r->touch));
 }
 
-void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
+void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts)
 {
     memset(counts, 0, sizeof *counts);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (sunder_i_is_at_peace(r)) continue;
-        const sunder_conflict c = {.kind = kind_of(town, r), .inside_block = is_inside(town, r)};
+        if (!sunder_i_is_conflict(r)) continue;
+        const sunder_conflict c = {.kind = kind_of(model, r), .inside_block = is_inside(model, r)};
         sunder_i_count(counts, &c);
     }
 }
@@ -48,7 +47,7 @@ void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relation
 /* ---- How bad ----------------------------------------------------------------------------------------------------- */
 
 /* The shapes as they stand, as shapes. */
-static sunder_status settle(const sunder_i_stand *stand, sunder_shape **out, sunder_error *err)
+static sunder_status settle(const sunder_i_translate *stand, sunder_shape **out, sunder_error *err)
 {
     bool exact;
     return sunder_shape_translate(stand->shape, stand->t[0], stand->t[1], out, &exact, err);
@@ -167,16 +166,16 @@ static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool 
 
 /* ---- Why --------------------------------------------------------------------------------------------------------- */
 
-static double limit_of(const sunder_i_town *town, size_t f)
+static double limit_of(const sunder_i_model *model, size_t f)
 {
-    const sunder_i_body *body = &town->body[town->body_of[f]];
+    const sunder_i_body *body = &model->body[model->body_of[f]];
     return body->fixed ? 0 : body->limit;
 }
 
-static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict *c, sunder_reason *reason,
+static sunder_status reason_of(const sunder_i_model *model, const sunder_conflict *c, sunder_reason *reason,
                                sunder_error *err)
 {
-    const double la = limit_of(town, c->a), lb = limit_of(town, c->b);
+    const double la = limit_of(model, c->a), lb = limit_of(model, c->b);
     if (la == 0 && lb == 0) {
         *reason = SUNDER_REASON_FIXED;
         return SUNDER_OK;
@@ -184,19 +183,19 @@ static sunder_status reason_of(const sunder_i_town *town, const sunder_conflict 
     *reason = SUNDER_REASON_UNRESOLVED;
     if (la + lb == INFINITY) return SUNDER_OK;
     /* Too far for the two limits together? The pair by itself, as it stood, tells. */
-    sunder_i_peace peace;
+    sunder_i_resolution resolution;
     const sunder_status status =
-        sunder_i_make_peace(&town->rules, town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
-                            nextafter(la + lb, INFINITY), &peace, err);
-    if (!status && peace.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
+        sunder_i_resolve(&model->rules, model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
+                         nextafter(la + lb, INFINITY), &resolution, err);
+    if (!status && resolution.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
     return status;
 }
 
 /* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 typedef struct describing {
-    const sunder_i_town *town;
-    const sunder_i_scene *scene;
+    const sunder_i_model *model;
+    const sunder_i_placement *placement;
     sunder_conflict *conflict;
     const bool *overlap;
     bool reasons;
@@ -205,12 +204,12 @@ typedef struct describing {
 static sunder_status describe(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const describing *d = context;
-    const sunder_i_town *town = d->town;
+    const sunder_i_model *model = d->model;
     for (size_t k = begin; k < end; k++) {
         sunder_conflict *c = &d->conflict[k];
         sunder_shape *a = NULL, *b = NULL;
-        sunder_status status = settle(&d->scene->stand[c->a], &a, err);
-        if (!status) status = settle(&d->scene->stand[c->b], &b, err);
+        sunder_status status = settle(&d->placement->translate[c->a], &a, err);
+        if (!status) status = settle(&d->placement->translate[c->b], &b, err);
         if (!status) status = measure(a, b, d->overlap[k], c, err);
         sunder_shape_free(a);
         sunder_shape_free(b);
@@ -219,13 +218,13 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
         if (c->inside_block) {
             c->reason = SUNDER_REASON_SAME_BLOCK;
         } else if (d->reasons) {
-            if (sunder_i_is_kept(town, (uint32_t)c->a, (uint32_t)c->b))
+            if (sunder_i_is_included(model, (uint32_t)c->a, (uint32_t)c->b))
                 c->reason = SUNDER_REASON_KEPT;
             else
-                status = reason_of(town, c, &c->reason, err);
+                status = reason_of(model, c, &c->reason, err);
             if (status) return status;
             double on_a[2], on_b[2];
-            status = sunder_pair_distance(town->layer->feature[c->a].shape, town->layer->feature[c->b].shape,
+            status = sunder_pair_distance(model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
                                           &c->before, on_a, on_b, err);
             if (status) return status;
         }
@@ -233,11 +232,12 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
-                                        const sunder_i_relations *relations, bool reasons, sunder_error *err)
+sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
+                                        const sunder_i_placement *placement, const sunder_i_relations *relations,
+                                        bool reasons, sunder_error *err)
 {
     size_t n = 0, k = 0;
-    for (size_t i = 0; i < relations->n; i++) n += is_listed(town, &relations->pair[i]);
+    for (size_t i = 0; i < relations->n; i++) n += is_listed(model, &relations->pair[i]);
     report->conflict = sunder_i_calloc(n, sizeof *report->conflict);
     bool *overlap = sunder_i_alloc(n, sizeof *overlap);
     if (!report->conflict || !overlap) {
@@ -246,17 +246,17 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_to
     }
     for (size_t i = 0; i < relations->n; i++) {
         const sunder_i_relation *r = &relations->pair[i];
-        if (!is_listed(town, r)) continue;
+        if (!is_listed(model, r)) continue;
         overlap[k] = r->overlap;
         report->conflict[k].a = r->a;
         report->conflict[k].b = r->b;
-        report->conflict[k].kind = kind_of(town, r);
-        report->conflict[k].required = town->rules.gap;
-        report->conflict[k++].inside_block = is_inside(town, r);
+        report->conflict[k].kind = kind_of(model, r);
+        report->conflict[k].required = model->rules.gap;
+        report->conflict[k++].inside_block = is_inside(model, r);
     }
     report->conflicts = n;
-    describing d = {town, scene, report->conflict, overlap, reasons};
-    sunder_status status = sunder_i_parallel(town->rules.threads, n, 8, describe, &d, err);
+    describing d = {model, placement, report->conflict, overlap, reasons};
+    sunder_status status = sunder_i_parallel(model->rules.threads, n, 8, describe, &d, err);
     sunder_i_free(overlap);
     return status;
 }

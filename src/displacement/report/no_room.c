@@ -1,8 +1,9 @@
 /* Which conflicts that remain have no room, with the proof of each.
  *
  * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
- * being held no worse than it stood. Each is asked about by itself (certify.c). A proof is then made irreducible:
- * without one feature after another, what cannot be proved any more needs it, and so does every part of it. */
+ * being required no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
+ * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
+ * it. */
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 
@@ -14,11 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Effort, in constraints looked at (some hundred million a second). Inquiries that found no proof may take so much
+/* Effort, in constraints looked at (some hundred million a second). Searches that found no proof may take so much
  * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
 #define EFFORT 20000000u
 #define EFFORT_EACH 10000u
-/* One inquiry is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No
+/* One subproblem is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No
  * more bodies than these take part in one: all proofs that were ever found had fewer. */
 #define FIRST 10000u
 #define GROWTH 8
@@ -28,14 +29,14 @@
 #define REDUCING 4
 #define LITTLE 1000000u
 
-/* ---- What listed pairs are held to ------------------------------------------------------------------------------- */
+/* ---- What listed pairs are required to --------------------------------------------------------------------------- */
 
-typedef struct holding {
-    const sunder_i_job *job;
+typedef struct requiring {
+    const sunder_i_solver *solver;
     const sunder_report *report;
     const uint32_t *listed; /* places in the report's conflicts */
-    sunder_i_held *held;
-} holding;
+    sunder_i_requirement *required;
+} requiring;
 
 /* A length just below the distance of two that stand disjoint. What is known of it in doubles is near, and may be
  * above: it is asked exactly, and lengths farther below where need be. */
@@ -58,16 +59,17 @@ static sunder_status below_distance(const sunder_feature *a, const sunder_featur
 
 /* Disjoint, it may come no nearer than it was; meeting, its depth may not grow: the double nearest to that length is
  * taken one step up. What lies in another may stay there. */
-static sunder_status hold(const sunder_i_job *w, const sunder_conflict *c, double *clearance, sunder_error *err)
+static sunder_status find_requirement(const sunder_i_solver *s, const sunder_conflict *c, double *clearance,
+                                      sunder_error *err)
 {
-    const sunder_i_town *town = &w->town;
-    const sunder_i_relation *start = sunder_i_relations_find(&w->start, (uint32_t)c->a, (uint32_t)c->b);
+    const sunder_i_model *model = &s->model;
+    const sunder_i_relation *start = sunder_i_relations_find(&s->start, (uint32_t)c->a, (uint32_t)c->b);
     *clearance = -INFINITY;
     if (start && start->contained) return SUNDER_OK;
-    const sunder_feature *feature = town->layer->feature;
+    const sunder_feature *feature = model->layer->feature;
     if (!start || !start->overlap) {
         const sunder_status status = below_distance(&feature[c->a], &feature[c->b], c->before, clearance, err);
-        *clearance = fmin(town->rules.gap, *clearance);
+        *clearance = fmin(model->rules.gap, *clearance);
         return status;
     }
     const double none[2] = {0, 0};
@@ -81,13 +83,13 @@ static sunder_status hold(const sunder_i_job *w, const sunder_conflict *c, doubl
     return SUNDER_OK;
 }
 
-static sunder_status hold_some(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status find_some_requirements(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const holding *g = context;
+    const requiring *g = context;
     for (size_t k = begin; k < end; k++) {
         const sunder_conflict *c = &g->report->conflict[g->listed[k]];
-        g->held[k] = (sunder_i_held){(uint32_t)c->a, (uint32_t)c->b, 0};
-        const sunder_status status = hold(g->job, c, &g->held[k].clearance, err);
+        g->required[k] = (sunder_i_requirement){(uint32_t)c->a, (uint32_t)c->b, 0};
+        const sunder_status status = find_requirement(g->solver, c, &g->required[k].clearance, err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -108,9 +110,9 @@ static size_t features_of(const sunder_proof *proof, uint32_t *set)
 }
 
 /* Leaves out what the proof can do without, in order of number, while the effort lasts. */
-static sunder_status reduce(const sunder_i_question *question, sunder_proof **proof, sunder_error *err)
+static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof **proof, sunder_error *err)
 {
-    sunder_i_question q = *question;
+    sunder_i_subproblem q = *subproblem;
     const size_t room = 2 * (*proof)->nodes;
     uint32_t *all = sunder_i_alloc(room, sizeof *all), *set = sunder_i_alloc(room, sizeof *set);
     uint32_t *body = sunder_i_alloc(room, sizeof *body);
@@ -118,7 +120,7 @@ static sunder_status reduce(const sunder_i_question *question, sunder_proof **pr
     const size_t n = status ? 0 : features_of(*proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
-    q.effort = question->effort < LITTLE ? LITTLE : question->effort;
+    q.effort = subproblem->effort < LITTLE ? LITTLE : subproblem->effort;
     uint64_t budget = REDUCING * q.effort;
     q.reserves = 0;
     for (size_t k = 0; k < n && !status; k++) {
@@ -126,25 +128,25 @@ static sunder_status reduce(const sunder_i_question *question, sunder_proof **pr
         size_t out = 0;
         for (size_t i = 0; i < left; i++)
             if (set[i] != all[k]) set[out++] = set[i];
-        for (size_t i = 0; i < out; i++) body[i] = q.town->body_of[set[i]];
+        for (size_t i = 0; i < out; i++) body[i] = q.model->body_of[set[i]];
         q.body = body;
         q.bodies = sunder_i_set_make(body, out);
         q.feature = set;
         q.features = out;
-        sunder_i_answer answer;
-        status = sunder_i_certify(&q, &answer, err);
-        if (answer.proof) {
+        sunder_i_decision decision;
+        status = sunder_i_decide(&q, &decision, err);
+        if (decision.proof) {
             sunder_i_proof_free(*proof);
-            *proof = answer.proof;
-            answer.proof = NULL;
+            *proof = decision.proof;
+            decision.proof = NULL;
             /* Its nodes may be more than the first proof's, its features are among those of the set. */
             left = out;
         } else {
             set[out] = all[k];
             left = sunder_i_set_make(set, out + 1);
         }
-        budget = budget > answer.work ? budget - answer.work : 0;
-        sunder_i_answer_clear(&answer);
+        budget = budget > decision.work ? budget - decision.work : 0;
+        sunder_i_decision_clear(&decision);
         if (budget == 0) break;
     }
     sunder_i_free(all);
@@ -162,12 +164,12 @@ typedef struct matter {
 } matter;
 
 typedef struct asking {
-    const sunder_i_job *job;
+    const sunder_i_solver *solver;
     sunder_report *report;
     matter *matter;
     const size_t *first; /* [clusters + 1] matters, cluster after cluster */
-    const sunder_i_held *held;
-    size_t held_n;
+    const sunder_i_requirement *required;
+    size_t required_n;
 } asking;
 
 static int by_root(const void *a, const void *b)
@@ -177,34 +179,34 @@ static int by_root(const void *a, const void *b)
     return p->conflict < q->conflict ? -1 : p->conflict > q->conflict;
 }
 
-static double farthest_of(const sunder_i_town *town, const uint32_t *body, size_t n)
+static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
     double farthest = 0;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_body *b = &town->body[body[k]];
+        const sunder_i_body *b = &model->body[body[k]];
         if (!b->fixed && isfinite(b->limit)) farthest = fmax(farthest, b->limit);
     }
     return farthest;
 }
 
 /* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
-static sunder_status ask(const asking *g, matter *m, sunder_i_question *q, uint64_t *pool, sunder_error *err)
+static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     sunder_report *report = g->report;
     sunder_conflict *c = &report->conflict[m->conflict];
-    const uint32_t body[2] = {g->job->town.body_of[c->a], g->job->town.body_of[c->b]};
+    const uint32_t body[2] = {g->solver->model.body_of[c->a], g->solver->model.body_of[c->b]};
     q->body = body;
     q->bodies = 2;
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
-    sunder_i_answer answer;
-    sunder_status status = sunder_i_certify(q, &answer, err);
+    sunder_i_decision decision;
+    sunder_status status = sunder_i_decide(q, &decision, err);
     sunder_proof **proof = &report->proof[m->conflict];
-    *proof = answer.proof;
-    answer.proof = NULL;
-    m->open = !*proof && answer.verdict == SUNDER_I_UNKNOWN && answer.work > q->effort;
-    if (!*proof) *pool = *pool > answer.work ? *pool - answer.work : 0;
-    sunder_i_answer_clear(&answer);
+    *proof = decision.proof;
+    decision.proof = NULL;
+    m->open = !*proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
+    if (!*proof) *pool = *pool > decision.work ? *pool - decision.work : 0;
+    sunder_i_decision_clear(&decision);
     if (!status && *proof) status = reduce(q, proof, err);
     if (!status && *proof) c->reason = SUNDER_REASON_NO_ROOM;
     return status;
@@ -217,9 +219,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end; k++) {
         matter *first = g->matter + g->first[k], *last = g->matter + g->first[k + 1];
-        sunder_i_question q = {.town = &g->job->town, .held = g->held, .held_n = g->held_n, .most = MOST_BODIES};
-        q.reserve = sunder_i_job_members(g->job, first->root, &q.reserves);
-        q.farthest = farthest_of(q.town, q.reserve, q.reserves);
+        sunder_i_subproblem q = {
+            .model = &g->solver->model, .required = g->required, .required_n = g->required_n, .most = MOST_BODIES};
+        q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
+        q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         uint64_t pool = EFFORT + EFFORT_EACH * (uint64_t)(q.reserves + 2);
         for (uint64_t effort = FIRST; effort <= MOST && pool; effort *= GROWTH)
             for (matter *m = first; m < last && pool; m++) {
@@ -235,16 +238,16 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
 /* The conflicts to be asked about, by clusters; first: where each begins, and the end. Returns how many clusters. */
-static size_t group(const sunder_i_job *w, const sunder_report *report, const uint32_t *listed, size_t n, matter *list,
-                    size_t *first)
+static size_t group(const sunder_i_solver *s, const sunder_report *report, const uint32_t *listed, size_t n,
+                    matter *list, size_t *first)
 {
-    const sunder_i_town *town = &w->town;
+    const sunder_i_model *model = &s->model;
     size_t open = 0, groups = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_conflict *c = &report->conflict[listed[k]];
         if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
-        const uint32_t i = town->body_of[c->a], j = town->body_of[c->b];
-        list[open++] = (matter){sunder_i_union_find(w->parent, town->body[i].fixed ? j : i), listed[k], true};
+        const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
+        list[open++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true};
     }
     if (open) qsort(list, open, sizeof *list, by_root);
     for (size_t k = 0; k < open; k++)
@@ -253,29 +256,29 @@ static size_t group(const sunder_i_job *w, const sunder_report *report, const ui
     return groups;
 }
 
-sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_job *w, sunder_error *err)
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
-    const unsigned threads = w->town.rules.threads;
+    const unsigned threads = s->model.rules.threads;
     const size_t most = report->conflicts;
     report->proof = sunder_i_calloc(most, sizeof *report->proof);
     uint32_t *listed = sunder_i_alloc(most, sizeof *listed);
     matter *list = sunder_i_alloc(most, sizeof *list);
     size_t *first = sunder_i_alloc(most + 1, sizeof *first);
-    sunder_i_held *held = sunder_i_alloc(most, sizeof *held);
-    sunder_status status = report->proof && listed && list && first && held ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_i_requirement *required = sunder_i_alloc(most, sizeof *required);
+    sunder_status status = report->proof && listed && list && first && required ? SUNDER_OK : sunder_i_no_memory(err);
     size_t n = 0;
     for (size_t k = 0; !status && k < most; k++)
         if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;
-    const size_t groups = status ? 0 : group(w, report, listed, n, list, first);
+    const size_t groups = status ? 0 : group(s, report, listed, n, list, first);
     if (groups) {
-        holding h = {w, report, listed, held};
-        status = sunder_i_parallel(threads, n, 8, hold_some, &h, err);
-        asking g = {w, report, list, first, held, n};
+        requiring h = {s, report, listed, required};
+        status = sunder_i_parallel(threads, n, 8, find_some_requirements, &h, err);
+        asking g = {s, report, list, first, required, n};
         if (!status) status = sunder_i_parallel(threads, groups, 1, ask_clusters, &g, err);
     }
     sunder_i_free(listed);
     sunder_i_free(list);
     sunder_i_free(first);
-    sunder_i_free(held);
+    sunder_i_free(required);
     return status;
 }

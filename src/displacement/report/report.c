@@ -4,9 +4,9 @@
 
 #include <math.h>
 
-sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err)
+sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err)
 {
-    const size_t n = town->features;
+    const size_t n = model->features;
     sunder_report *r = sunder_i_calloc(1, sizeof *r);
     if (!r) return sunder_i_no_memory(err);
     r->n = n;
@@ -19,18 +19,18 @@ sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out
     }
     /* Bodies are numbered by their first members, so one pass over them numbers the blocks as promised. */
     int64_t blocks = 0;
-    for (size_t b = 0; b < town->bodies; b++) {
-        const sunder_i_body *body = &town->body[b];
+    for (size_t b = 0; b < model->bodies; b++) {
+        const sunder_i_body *body = &model->body[b];
         const int64_t number = body->members > 1 ? blocks++ : -1;
-        for (uint32_t k = 0; k < body->members; k++) r->block[town->member[body->member + k]] = number;
+        for (uint32_t k = 0; k < body->members; k++) r->block[model->member[body->member + k]] = number;
     }
     r->summary.features = n;
     r->summary.blocks = (size_t)blocks;
     r->summary.max_feature = SIZE_MAX;
     for (size_t f = 0; f < n; f++) {
-        const sunder_feature *feature = &town->layer->feature[f];
+        const sunder_feature *feature = &model->layer->feature[f];
         if (feature->shape) r->summary.vertices += sunder_shape_vertices(feature->shape);
-        const bool fixed = town->body[town->body_of[f]].fixed;
+        const bool fixed = model->body[model->body_of[f]].fixed;
         r->status[f] = feature->ignored ? SUNDER_FEATURE_SKIPPED
                        : fixed          ? SUNDER_FEATURE_FIXED
                                         : SUNDER_FEATURE_UNMOVED;
@@ -40,11 +40,11 @@ sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out
     return SUNDER_OK;
 }
 
-void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town)
+void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 {
     sunder_layer_summary *s = &report->summary;
-    for (size_t f = 0; f < town->features; f++) {
-        const double *t = town->move + 2 * (size_t)town->body_of[f];
+    for (size_t f = 0; f < model->features; f++) {
+        const double *t = model->move + 2 * (size_t)model->body_of[f];
         if (t[0] == 0 && t[1] == 0) continue;
         report->move[2 * f] = t[0];
         report->move[2 * f + 1] = t[1];
@@ -52,12 +52,12 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town)
         report->status[f] = SUNDER_FEATURE_MOVED;
         s->moved++;
         s->total += length;
-        s->cost += town->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
+        s->cost += model->layer->feature[f].weight * (t[0] * t[0] + t[1] * t[1]);
         if (length > s->max) {
             s->max = length;
             s->max_feature = f;
         }
-        if (town->inexact[f]) s->rounded++;
+        if (model->inexact[f]) s->rounded++;
     }
     if (s->moved) s->mean = s->total / (double)s->moved;
     for (size_t k = 0; k < report->conflicts; k++) {
@@ -65,9 +65,9 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town)
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
         const size_t pair[2] = {c->a, c->b};
         for (int e = 0; e < 2; e++)
-            if (!town->body[town->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
+            if (!model->body[model->body_of[pair[e]]].fixed) report->status[pair[e]] = SUNDER_FEATURE_BLOCKED;
     }
-    for (size_t f = 0; f < town->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
+    for (size_t f = 0; f < model->features; f++) s->blocked += report->status[f] == SUNDER_FEATURE_BLOCKED;
 }
 
 void sunder_report_free(sunder_report *r)

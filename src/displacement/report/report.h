@@ -20,10 +20,10 @@ struct sunder_report {
     sunder_layer_summary summary;
 };
 
-sunder_status sunder_i_report_new(const sunder_i_town *town, sunder_report **out, sunder_error *err);
+sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err);
 /* Moves, statuses and their sums; in the order of work, so that they are the same however it was shared out and however
  * features were listed. */
-void sunder_i_report_moves(sunder_report *report, const sunder_i_town *town);
+void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model);
 /* Adds one to the count of the conflict's kind. */
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);
 
@@ -34,32 +34,33 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
 
 /* ---- conflicts.c ------------------------------------------------------------------------------------------------- */
 
-/* Fills the report's conflicts from the relations as the features stand. start: the relations and scene before anything
- * moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far as it shows
- * in the pair by itself. */
-sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_town *town, const sunder_i_scene *scene,
-                                        const sunder_i_relations *relations, bool reasons, sunder_error *err);
+/* Fills the report's conflicts from the relations as the features stand. start: the relations and placement before
+ * anything moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far
+ * as it shows in the pair by itself. */
+sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
+                                        const sunder_i_placement *placement, const sunder_i_relations *relations,
+                                        bool reasons, sunder_error *err);
 /* Counts what the relations amount to, without listing it. */
-void sunder_i_count_relations(const sunder_i_town *town, const sunder_i_relations *relations,
+void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
 /* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get none.
  */
-sunder_status sunder_i_bound(const sunder_i_town *town, sunder_bound_pair *pairs, size_t n, double *bound,
+sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err);
 /* Fills the report's pairs for the lower bound, and the bound. */
-sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 
 /* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
-sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- blockers.c -------------------------------------------------------------------------------------------------- */
 
 /* Fills the conflicts' blocked_by. */
-sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_job *w, sunder_error *err);
+sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 #endif

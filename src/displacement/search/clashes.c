@@ -8,12 +8,12 @@ typedef struct missing {
     double worst;
 } missing;
 
-static void measure_part(sunder_i_search *s, const sunder_i_part *part, void *context)
+static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
 {
     missing *m = context;
     double gap;
     size_t n;
-    const sunder_i_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
     if (edge) m->worst = fmax(m->worst, gap - sunder_i_support_at(edge, n, m->u).distance);
 }
 
@@ -22,11 +22,11 @@ double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const do
     missing m = {u, 0};
     double shift;
     *yields = false;
-    sunder_i_search_parts(s, i, j, u, s->gap, false, measure_part, &m);
-    if (m.worst <= s->tolerance || !sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift)) return m.worst;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
+    if (m.worst <= s->tolerance || !sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift)) return m.worst;
     *yields = true;
     m.worst = 0;
-    sunder_i_search_parts(s, i, j, u, s->gap, true, measure_part, &m);
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, true, measure_part, &m);
     return m.worst;
 }
 
@@ -74,10 +74,10 @@ void sunder_i_search_look_again(sunder_i_search *s, const double *t, uint32_t i)
         if (s->clash[k].i != i && s->clash[k].j != i) s->clash[out++] = s->clash[k];
     s->clashes = out;
     look l = {t, 0};
-    const sunder_i_body *p = &s->town->body[s->body[i]];
+    const sunder_i_body *p = &s->model->body[s->body[i]];
     if (p->pieces == 0) return;
     for (uint32_t j = 0; j < s->n && !s->failed; j++) {
-        const sunder_i_body *q = &s->town->body[s->body[j]];
+        const sunder_i_body *q = &s->model->body[s->body[j]];
         if (j == i || q->pieces == 0) continue;
         double box[4];
         for (size_t c = 0; c < 4; c++)

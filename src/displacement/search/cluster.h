@@ -7,54 +7,56 @@
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double margin;          /* what is demanded beyond the gap, to cover rounding */
-    bool limited;           /* a limit or a fixed body is in it: it may have no solution */
-    sunder_i_truces truces; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
-    sunder_i_ended *ended;  /* [ended_n] truces of the town that no longer count: these are at peace; owned */
-    size_t ended_n;
+    double margin; /* what is demanded beyond the gap, to cover rounding */
+    bool limited;  /* a limit or a fixed body is in it: it may have no solution */
+    sunder_i_relaxations
+        relaxations; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
+    sunder_i_restored
+        *restored; /* [restored_n] relaxations of the model that no longer count: these are resolved; owned */
+    size_t restored_n;
     sunder_i_couple *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
     size_t guests, guest_capacity;
 } sunder_i_cluster;
 
-/* Two bodies of a cluster under a truce, and what is to be asked for them. */
-typedef struct sunder_i_suit {
+/* Two bodies of a cluster relaxed, and what is to be asked for them. */
+typedef struct sunder_i_retry {
     uint32_t root; /* of the cluster */
     sunder_i_couple body;
-    const uint32_t *truce; /* [truces] between members of theirs: places in the town's */
-    size_t truces;
+    const uint32_t *relaxation; /* [relaxations] between members of theirs: places in the model's */
+    size_t relaxations;
     size_t part;    /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */
     bool overlap;   /* do members overlap? */
-    bool peace;     /* ask for peace, those that are not hopeless */
+    bool resolve;   /* ask for all that is owed, of those that are not infeasible */
     bool disjoint;  /* ask, at least, that they do not overlap, those that can be parted so far */
     double missing; /* what it would take */
-} sunder_i_suit;
+} sunder_i_retry;
 
 /* ---- solve.c ----------------------------------------------------------------------------------------------------- */
 
 /* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
  * pairs are given up, and the rest is solved. */
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 
 /* ---- retry.c ----------------------------------------------------------------------------------------------------- */
 
-/* Pairs given up are asked for peace once more, and keep it where there is a solution, the first ones first. All others
- * keep theirs, and neighbours outside the cluster stay where they are. */
-sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, const sunder_i_suit *suit,
-                                     size_t suits, double *move, sunder_error *err);
+/* Pairs given up are asked for all that is owed once more, and keep it where there is a solution, the first ones
+ * first. All others keep theirs, and neighbours outside the cluster stay where they are. */
+sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
+                                     const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err);
 /* Do the two features overlap now, and could limits let them be parted, if not to the gap? */
-bool sunder_i_suit_parts(const sunder_i_town *town, const sunder_i_truce *truce);
+bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 
 /* ---- improve.c --------------------------------------------------------------------------------------------------- */
 
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
-sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
 
 /* ---- invite.c ---------------------------------------------------------------------------------------------------- */
 
 /* Bodies of the cluster that would have a nearer place but for strangers who might move: pairs of the two go to
  * cluster->guest. False if memory is out. */
-bool sunder_i_cluster_invite(const sunder_i_town *town, sunder_i_cluster *cluster, const double *move);
+bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
 #endif

@@ -1,6 +1,6 @@
 /* The sequence of quadratic programs.
  *
- * Around a reference position each pair of convex pieces gives one support constraint (contact.c). Its direction is
+ * Around a reference position each pair of convex pieces gives one support constraint (obstacle.c). Its direction is
  * that of the nearest point where the pair stands free; where two bodies clash the directions are taken where the pair
  * would stand if the least translation from here had parted it, so that all pieces of the pair agree on the side. The
  * program's solution is feasible for the true shapes, since support constraints are global; from a feasible position
@@ -77,14 +77,14 @@ typedef struct sighted {
     size_t first; /* of the pair's constraints */
 } sighted;
 
-static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *context)
+static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
 {
     const sighted *pair = context;
     const sighting *at = pair->at;
     if (look_up(at->known, at->known_n, part->key)) return;
     double gap;
     size_t n;
-    const sunder_i_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
     if (!edge) return;
     sunder_i_support h = sunder_i_support_at(edge, n, at->near);
     if (h.distance > s->gap + at->reach) return;
@@ -115,7 +115,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_part *part, void *
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
 {
     sighted pair = {at, i, j, s->program.n};
-    sunder_i_search_parts(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
+    sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
 }
 
 typedef struct around {

@@ -18,12 +18,13 @@
 /* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
 static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
 
-static const sunder_i_piece *part_of(const sunder_i_town *town, const sunder_i_body *body, bool coarse, uint32_t k)
+static const sunder_i_body_piece *part_of(const sunder_i_model *model, const sunder_i_body *body, bool coarse,
+                                          uint32_t k)
 {
-    return coarse ? &town->outline[town->member[body->member + k]] : &town->piece[body->piece + k];
+    return coarse ? &model->outline[model->member[body->member + k]] : &model->piece[body->piece + k];
 }
 
-static void add_wall(sunder_i_search *s, const sunder_i_part *part, void *context)
+static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
 {
     sunder_i_obstacles *o = context;
     double gap;
@@ -33,20 +34,21 @@ static void add_wall(sunder_i_search *s, const sunder_i_part *part, void *contex
 
 /* The walls of either that keep the other inside. */
 static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
-                      const double offset[2], const double v[2], double reach, bool torn)
+                      const double offset[2], const double v[2], double reach, bool relaxed)
 {
-    const sunder_i_town *town = s->town;
-    sunder_i_part part = {.offset = {offset[0], offset[1]}, .torn = torn};
+    const sunder_i_model *model = s->model;
+    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
     const double back[2] = {-v[0], -v[1]};
     if (p->walls)
-        sunder_i_search_visit(s, town->wall + p->wall, p->walls, q, v, reach, &part, false, true, add_wall, o);
+        sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, add_wall, o);
     if (q->walls)
-        sunder_i_search_visit(s, town->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
+        sunder_i_search_visit(s, model->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
 }
 
 static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
 
-/* Might they, or what a truce shifts, be within r of each other at v? No least translation is longer than the boxes. */
+/* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
+ * boxes. */
 static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
 {
     const double far = r + extent(p->box) + extent(q->box);
@@ -60,33 +62,36 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                           const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
                           double reach)
 {
-    const sunder_i_town *town = s->town;
+    const sunder_i_model *model = s->model;
     double shift;
     const double v[2] = {offset[0] + u[0], offset[1] + u[1]};
     if (!are_near(p, q, v, reach + s->gap)) return;
-    const bool torn = sunder_i_search_is_torn(s, (uint32_t)(p - town->body), (uint32_t)(q - town->body), &shift);
+    const bool relaxed =
+        sunder_i_search_is_relaxed(s, (uint32_t)(p - model->body), (uint32_t)(q - model->body), &shift);
     const double r = reach + s->gap + shift;
     const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
-    if ((p->walls || q->walls) && (torn || town->kept_n)) add_walls(s, o, p, q, offset, v, r, torn);
+    if ((p->walls || q->walls) && (relaxed || model->inclusions)) add_walls(s, o, p, q, offset, v, r, relaxed);
     for (uint32_t k = 0; k < np; k++) {
-        const sunder_i_piece *a = part_of(town, p, coarse_p, k);
+        const sunder_i_body_piece *a = part_of(model, p, coarse_p, k);
         const double box[4] = {a->box[0] - v[0] - r, a->box[1] - v[1] - r, a->box[2] - v[0] + r, a->box[3] - v[1] + r};
         if (a->corners == 0 || !sunder_i_box_meet(box, q->box)) continue;
         for (uint32_t l = 0; l < nq; l++) {
-            const sunder_i_piece *b = part_of(town, q, coarse_q, l);
-            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) || sunder_i_is_kept(town, a->feature, b->feature))
+            const sunder_i_body_piece *b = part_of(model, q, coarse_q, l);
+            if (b->corners == 0 || !sunder_i_box_meet(box, b->box) ||
+                sunder_i_is_included(model, a->feature, b->feature))
                 continue;
-            const sunder_i_truce *truce = torn ? sunder_i_search_truce(s, a, b) : NULL;
-            if (truce && truce->inside) continue;
-            const size_t n = sunder_i_difference(town->corner + 2 * (size_t)a->corner, a->corners,
-                                                 town->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+            const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
+            if (relaxation && relaxation->inside) continue;
+            const size_t n =
+                sunder_i_difference(model->corner + 2 * (size_t)a->corner, a->corners,
+                                    model->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
                 s->failed = true;
                 return;
             }
             s->steps += 16;
             const double gap =
-                truce ? fmin(s->gap, sunder_i_search_shift(truce, b->feature, s->scratch.xy, n)) : s->gap;
+                relaxation ? fmin(s->gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n)) : s->gap;
             /* A little more room than is asked, so that no rounding makes a clash of it. */
             sunder_i_obstacles_add(o, s->scratch.xy, n, gap + 2 * s->tolerance);
         }
@@ -139,16 +144,16 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
 size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2])
 {
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]], *q = &town->body[s->body[j]];
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
-    const sunder_shape *ps = sunder_i_town_shape(town, s->body[i]), *qs = sunder_i_town_shape(town, s->body[j]);
+    const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
     double shift;
-    const bool torn = sunder_i_search_is_torn(s, s->body[i], s->body[j], &shift);
+    const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && town->kept_n == 0 && !torn && ps && qs &&
+    if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]))
         return 1;
     const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
@@ -165,15 +170,15 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     }
 }
 
-/* Bodies of the town that stand near a box (relative to body p's origin, at the start), those of this search apart;
+/* Bodies of the model that stand near a box (relative to body p's origin, at the start), those of this search apart;
  * appended to hits once each. */
-static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
+static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
 {
-    const sunder_i_town *town = s->town;
+    const sunder_i_model *model = s->model;
     double where[4];
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
-    if (!sunder_i_index_query(town->standing, where, hits)) return false;
-    for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
+    if (!sunder_i_index_query(model->standing, where, hits)) return false;
+    for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++) {
@@ -189,20 +194,20 @@ static bool strangers(sunder_i_search *s, const sunder_i_body *p, const double b
 static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach,
                              const sunder_i_list *foreign)
 {
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]];
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]];
     uint64_t n = 0;
     for (size_t k = 0; k < s->n + foreign->n; k++) {
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &town->body[body];
+        const sunder_i_body *q = &model->body[body];
         if (k == i || q->pieces == 0 || (k < s->n && s->away[k])) continue;
-        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        const double *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
         double box[4];
         for (int c = 0; c < 4; c++)
             box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
                      (c < 2 ? -1 : 1) * (reach + s->gap);
         if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, town->piece[q->piece + l].box);
+        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, model->piece[q->piece + l].box);
     }
     return n;
 }
@@ -211,15 +216,15 @@ static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double 
 static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
                      const sunder_i_list *foreign)
 {
-    const sunder_i_town *town = s->town;
-    const sunder_i_body *p = &town->body[s->body[i]];
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]];
     const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
     for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
         if (k == i || (k < s->n && s->away[k])) continue;
         const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &town->body[body];
+        const sunder_i_body *q = &model->body[body];
         if (q->pieces == 0) continue;
-        const double *t = k < s->n ? s->t + 2 * k : town->move + 2 * (size_t)body;
+        const double *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
         add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
@@ -228,9 +233,9 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
 
 bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
 {
-    const sunder_i_body *p = &s->town->body[s->body[i]];
+    const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0};
-    const sunder_i_index *tree = s->town->standing;
+    const sunder_i_index *tree = s->model->standing;
     const double all = 4 * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
@@ -239,7 +244,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
-        if (!strangers(s, p, box, &foreign)) s->failed = true;
+        if (!find_others(s, p, box, &foreign)) s->failed = true;
         surround(s, &o, i, home, reach, &foreign);
         double best[1][2];
         size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);

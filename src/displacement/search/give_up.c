@@ -1,9 +1,9 @@
 /* Clusters without a solution: limits, fixed bodies, or no room between them.
  *
- * Pairs that clash in the end, and clashed at the start, are put under a truce (truce.c): all others stay at peace, and
- * these stand no worse than they stood. What came into a clash besides goes home, until nothing clashes; in the end all
- * are at home, where every truce holds. From there the cluster descends as from any other solution: nobody is pushed to
- * ease a pair that stays in conflict. (retry.c asks them again.) */
+ * Pairs that clash in the end, and clashed at the start, are put relaxed (relaxation.c): all others stay resolved,
+ * and these stand no worse than they stood. What came into a clash besides goes home, until nothing clashes; in the
+ * end all are at home, where every relaxation holds. From there the cluster descends as from any other solution:
+ * nobody is pushed to ease a pair that stays in conflict. (retry.c asks them again.) */
 #include "displacement/search/stages.h"
 
 #include <stdlib.h>
@@ -41,15 +41,15 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
     return at_home;
 }
 
-/* A truce for pair (i, j), if there is none by this search yet. */
-static bool make_truce(sunder_i_search *s, uint32_t i, uint32_t j)
+/* A relaxation for pair (i, j), if there is none by this search yet. */
+static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const uint32_t p = s->body[i], q = s->body[j];
-    if (sunder_i_truces_between(&s->truces, p, q)) return false;
-    const size_t before = s->truces.n;
+    if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
+    const size_t before = s->relaxations.n;
     /* All that is within what the search asks for: the gap and its margin. */
-    if (sunder_i_truces_make(s->town, p, q, s->gap + 2 * s->tolerance, &s->truces, NULL)) s->failed = true;
-    return s->truces.n > before;
+    if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL)) s->failed = true;
+    return s->relaxations.n > before;
 }
 
 /* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
@@ -109,17 +109,17 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
 static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *changed)
 {
     bool any = false;
-    const size_t before = s->truces.n;
+    const size_t before = s->relaxations.n;
     memset(changed, 0, s->n * sizeof *changed);
     for (size_t k = 0; k < s->clashes && !s->failed; k++) {
         const sunder_i_clash *c = &s->clash[k];
-        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, by_pair) && make_truce(s, c->i, c->j);
+        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, by_pair) && relax(s, c->i, c->j);
         const bool i = yields || send_home(s, c->i), j = yields || send_home(s, c->j);
         changed[c->i] = changed[c->i] || i;
         changed[c->j] = changed[c->j] || j;
         any = any || i || j;
     }
-    if (s->truces.n > before && !sunder_i_truces_index(&s->truces, s->town)) s->failed = true;
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
     return any;
 }
 
@@ -136,7 +136,7 @@ void sunder_i_search_lower(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-void sunder_i_search_yield(sunder_i_search *s)
+void sunder_i_search_give_up(sunder_i_search *s)
 {
     size_t n = 0;
     sunder_i_search_clip(s);

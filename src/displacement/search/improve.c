@@ -53,8 +53,9 @@ bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
  * them. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
-    if (!s->vicinity) return sunder_i_search_attempt(s, best, cost);
-    const double gain = sunder_i_vicinity_descend(s->vicinity, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
+    if (!s->neighbourhood) return sunder_i_search_attempt(s, best, cost);
+    const double gain =
+        sunder_i_neighbourhood_descend(s->neighbourhood, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
     if (gain > 0) memcpy(best, s->t, 2 * s->n * sizeof *best);
     *cost -= gain;
     return gain > 0;
@@ -176,16 +177,16 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
 /* One round of both. */
 static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
 {
-    sunder_i_vicinity about = {0};
+    sunder_i_neighbourhood about = {0};
     size_t moving = 0;
     for (size_t k = 0; k < s->n; k++) moving += s->mass[k] > 0;
-    if (moving > MANY) s->vicinity = &about;
-    if (s->vicinity && !sunder_i_vicinity_init(&about, s)) s->failed = true;
+    if (moving > MANY) s->neighbourhood = &about;
+    if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     if (!s->failed) try_places(s, order, best, cost);
     if (!s->failed) try_sides(s, best, cost);
-    if (s->vicinity && !s->failed) sunder_i_search_attempt(s, best, cost);
-    s->vicinity = NULL;
-    sunder_i_vicinity_free(&about);
+    if (s->neighbourhood && !s->failed) sunder_i_search_attempt(s, best, cost);
+    s->neighbourhood = NULL;
+    sunder_i_neighbourhood_free(&about);
 }
 
 /* Places and sides in turn, until a round of both gains little. */
@@ -230,7 +231,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
     if (cost < ordered) try_all(s, order, best, &cost);
 }
 
-sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
     uint32_t *body = NULL;
@@ -239,18 +240,18 @@ sunder_status sunder_i_cluster_improve(const sunder_i_town *town, const sunder_i
     rank *order = NULL;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
-    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
+    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n);
     if (ok) {
         best = sunder_i_alloc(2 * n, sizeof *best);
         near = sunder_i_alloc(2 * n, sizeof *near);
         order = sunder_i_alloc(n, sizeof *order);
-        ok = best && near && order && sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        ok = best && near && order && sunder_i_search_init(&s, model, body, n, cluster->margin, all);
     }
     if (ok) {
         s.settled = 1e-5;
         s.effort = EFFORT * (uint64_t)cluster->n;
         s.own = cluster->n;
-        /* Strangers stay. */
+        /* Those about the cluster stay. */
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {

@@ -11,9 +11,9 @@
 #define COSTLY 0.1
 #define NEARER 0.9
 
-static bool can_move(const sunder_i_town *town, uint32_t body)
+static bool can_move(const sunder_i_model *model, uint32_t body)
 {
-    return !town->body[body].fixed && !town->body[body].pinned;
+    return !model->body[body].fixed && !model->body[body].pinned;
 }
 
 /* Bodies that clash with the cluster's body i at that place. */
@@ -35,7 +35,7 @@ static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
 {
     s->own = cluster->n;
     for (size_t k = cluster->n; k < s->n; k++) {
-        s->away[k] = can_move(s->town, s->body[k]);
+        s->away[k] = can_move(s->model, s->body[k]);
         s->mass[k] = 0;
     }
     const double cost = sunder_i_search_cost(s, s->t);
@@ -47,16 +47,16 @@ static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
     }
 }
 
-bool sunder_i_cluster_invite(const sunder_i_town *town, sunder_i_cluster *cluster, const double *move)
+bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move)
 {
     uint32_t *body = NULL;
     double *all = NULL;
     size_t n = 0;
-    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n), any = false;
-    for (size_t k = cluster->n; ok && k < n; k++) any = any || can_move(town, body[k]);
+    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n), any = false;
+    for (size_t k = cluster->n; ok && k < n; k++) any = any || can_move(model, body[k]);
     if (ok && any) {
         sunder_i_search s;
-        ok = sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+        ok = sunder_i_search_init(&s, model, body, n, cluster->margin, all);
         if (ok) invite(&s, cluster);
         ok = ok && !s.failed;
         sunder_i_search_free(&s);

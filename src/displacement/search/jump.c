@@ -18,7 +18,7 @@ void sunder_i_search_clip(sunder_i_search *s)
  * found none are marked, and not asked again. */
 static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool *stuck, double place[2])
 {
-    const sunder_i_body *p = &s->town->body[s->body[clash->i]], *q = &s->town->body[s->body[clash->j]];
+    const sunder_i_body *p = &s->model->body[s->body[clash->i]], *q = &s->model->body[s->body[clash->j]];
     const bool swap = p->pieces > q->pieces;
     const uint32_t pair[2] = {swap ? clash->j : clash->i, swap ? clash->i : clash->j};
     for (int e = 0; e < 2 && !s->failed; e++) {

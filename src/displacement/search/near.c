@@ -14,11 +14,11 @@ static int by_left(const void *a, const void *b)
 
 static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool or_home)
 {
-    const double *o = s->town->body[s->body[0]].origin;
+    const double *o = s->model->body[s->body[0]].origin;
     const double **left = sunder_i_alloc(s->n, sizeof *left);
     if (!left) return false;
     for (size_t k = 0; k < s->n; k++) {
-        const sunder_i_body *b = &s->town->body[s->body[k]];
+        const sunder_i_body *b = &s->model->body[s->body[k]];
         const bool home = or_home && s->mass[k] > 0;
         for (int c = 0; c < 4; c++) {
             const double at = t[2 * k + (size_t)(c & 1)], least = home ? fmin(at, 0) : at,
@@ -34,7 +34,7 @@ static bool sort_boxes(sunder_i_search *s, const double *t, double reach, bool o
     return true;
 }
 
-static void visit_near(sunder_i_search *s, const double *t, double reach, bool or_home, sunder_i_near visit,
+static void visit_near(sunder_i_search *s, const double *t, double reach, bool or_home, sunder_i_visit_pair visit,
                        void *context)
 {
     if (!sort_boxes(s, t, reach, or_home)) {
@@ -55,12 +55,12 @@ static void visit_near(sunder_i_search *s, const double *t, double reach, bool o
     }
 }
 
-void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sunder_i_near visit, void *context)
+void sunder_i_search_near(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit, void *context)
 {
     visit_near(s, t, reach, false, visit, context);
 }
 
-void sunder_i_search_near_or_home(sunder_i_search *s, double reach, sunder_i_near visit, void *context)
+void sunder_i_search_near_or_home(sunder_i_search *s, double reach, sunder_i_visit_pair visit, void *context)
 {
     visit_near(s, s->t, reach, true, visit, context);
 }

@@ -17,13 +17,13 @@
 
 static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
 {
-    const sunder_i_body *b = &s->town->body[s->body[i]], *first = &s->town->body[s->body[0]];
+    const sunder_i_body *b = &s->model->body[s->body[i]], *first = &s->model->body[s->body[0]];
     for (uint32_t c = 0; c < 4; c++)
         box[c] =
             b->box[c] + (b->origin[c & 1] - first->origin[c & 1]) + s->t[2 * i + (c & 1)] + (c < 2 ? -grown : grown);
 }
 
-bool sunder_i_vicinity_init(sunder_i_vicinity *v, sunder_i_search *s)
+bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *v, sunder_i_search *s)
 {
     memset(v, 0, sizeof *v);
     v->all = s;
@@ -36,7 +36,7 @@ bool sunder_i_vicinity_init(sunder_i_vicinity *v, sunder_i_search *s)
     bool ok = box && present && v->place && v->moves && v->body && v->t;
     for (uint32_t i = 0; i < s->n && ok; i++) {
         box_at(s, i, 0, box + 4 * i);
-        present[i] = s->town->body[s->body[i]].pieces > 0;
+        present[i] = s->model->body[s->body[i]].pieces > 0;
     }
     ok = ok && !sunder_i_index_build(box, present, s->n, &v->tree, NULL);
     sunder_i_free(box);
@@ -44,7 +44,7 @@ bool sunder_i_vicinity_init(sunder_i_vicinity *v, sunder_i_search *s)
     return ok;
 }
 
-void sunder_i_vicinity_free(sunder_i_vicinity *v)
+void sunder_i_neighbourhood_free(sunder_i_neighbourhood *v)
 {
     sunder_i_index_free(&v->tree);
     sunder_i_free(v->place);
@@ -56,7 +56,7 @@ void sunder_i_vicinity_free(sunder_i_vicinity *v)
 }
 
 /* Who stands within reach of body i, in order of number: into v->near. */
-static bool look_about(sunder_i_vicinity *v, uint32_t i, double reach)
+static bool look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
 {
     double box[4];
     box_at(v->all, i, reach, box);
@@ -66,7 +66,7 @@ static bool look_about(sunder_i_vicinity *v, uint32_t i, double reach)
     return true;
 }
 
-static void take_in(sunder_i_vicinity *v, uint32_t i)
+static void take_in(sunder_i_neighbourhood *v, uint32_t i)
 {
     if (v->moves[i] || !(v->all->mass[i] > 0)) return;
     v->moves[i] = true;
@@ -75,7 +75,7 @@ static void take_in(sunder_i_vicinity *v, uint32_t i)
 
 /* The pair, those that they could run into, and those that these could, up to `most` that move; then those that stand
  * about them. v->wider: there would have been more. */
-static bool gather(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach)
+static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     v->n = 0;
     v->wider = false;
@@ -103,7 +103,7 @@ static bool gather(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, do
 }
 
 /* The search among those gathered; what was given up so far is lent by that of the whole. */
-static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
+static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
 {
     sunder_i_search *s = v->all;
     sunder_i_set_make(v->place, v->n);
@@ -112,7 +112,7 @@ static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
         memcpy(v->t + 2 * k, s->t + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
     }
     /* Places go by number up to s->own, and again from there: bodies are ascending in both, and so they are here. */
-    if (!sunder_i_search_init(part, s->town, v->body, v->n, s->gap - s->town->rules.gap, v->t)) return false;
+    if (!sunder_i_search_init(part, s->model, v->body, v->n, s->gap - s->model->rules.gap, v->t)) return false;
     part->own = 0;
     for (size_t k = 0; k < v->n; k++) {
         part->own += v->place[k] < s->own;
@@ -120,29 +120,29 @@ static bool begin(sunder_i_vicinity *v, sunder_i_search *part)
     }
     part->tolerance = s->tolerance;
     part->extent = s->extent;
-    part->truces = s->truces;
-    part->ended = s->ended;
-    part->ended_n = s->ended_n;
-    part->shelf = s->shelf; /* and goes back there */
-    memset(&s->shelf, 0, sizeof s->shelf);
+    part->relaxations = s->relaxations;
+    part->restored = s->restored;
+    part->restored_n = s->restored_n;
+    part->cache = s->cache; /* and goes back there */
+    memset(&s->cache, 0, sizeof s->cache);
     part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
 }
 
-static void end(sunder_i_vicinity *v, sunder_i_search *part)
+static void end(sunder_i_neighbourhood *v, sunder_i_search *part)
 {
     v->all->steps += part->steps + part->program.work;
     v->all->failed = v->all->failed || part->failed;
-    memset(&part->truces, 0, sizeof part->truces);
-    part->ended = NULL;
-    if (part->shelf.slots) v->all->shelf = part->shelf;
-    memset(&part->shelf, 0, sizeof part->shelf);
+    memset(&part->relaxations, 0, sizeof part->relaxations);
+    part->restored = NULL;
+    if (part->cache.slots) v->all->cache = part->cache;
+    memset(&part->cache, 0, sizeof part->cache);
     sunder_i_search_free(part);
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
 /* Are those that moved in nobody's way, wherever he stands? */
-static bool is_free(sunder_i_vicinity *v)
+static bool is_free(sunder_i_neighbourhood *v)
 {
     sunder_i_search *s = v->all;
     for (size_t m = 0; m < v->n && !s->failed; m++) {
@@ -160,19 +160,20 @@ static bool is_free(sunder_i_vicinity *v)
 }
 
 /* Puts those that move there: a place for each of v->place. */
-static void put(sunder_i_vicinity *v, const double *t)
+static void put(sunder_i_neighbourhood *v, const double *t)
 {
     for (size_t k = 0; k < v->n; k++) {
         double box[4];
         if (!v->moves[v->place[k]]) continue;
         memcpy(v->all->t + 2 * (size_t)v->place[k], t + 2 * k, 2 * sizeof *t);
         box_at(v->all, v->place[k], 0, box);
-        if (v->all->town->body[v->body[k]].pieces) sunder_i_index_move(&v->tree, v->place[k], box);
+        if (v->all->model->body[v->body[k]].pieces) sunder_i_index_move(&v->tree, v->place[k], box);
     }
 }
 
-/* Begins with the pair and those about it as they stand. On failure it has ended. */
-static bool open_part(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach, sunder_i_search *part)
+/* Begins with the pair and those about it as they stand. On failure it has restored. */
+static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
+                      sunder_i_search *part)
 {
     memset(part, 0, sizeof *part);
     if (gather(v, i, j, most, reach) && begin(v, part)) return true;
@@ -181,7 +182,7 @@ static bool open_part(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most,
     return false;
 }
 
-bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach)
+bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     sunder_i_search part;
     if (!open_part(v, i, j, most, reach, &part)) return false;
@@ -201,7 +202,7 @@ bool sunder_i_vicinity_settle(sunder_i_vicinity *v, uint32_t i, uint32_t j, size
 
 /* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
  * each of all. */
-static double costs_more(const sunder_i_vicinity *v, const double *t, const double *best)
+static double costs_more(const sunder_i_neighbourhood *v, const double *t, const double *best)
 {
     double sum = 0;
     for (size_t k = 0; k < v->n; k++) {
@@ -213,8 +214,8 @@ static double costs_more(const sunder_i_vicinity *v, const double *t, const doub
     return sum;
 }
 
-double sunder_i_vicinity_descend(sunder_i_vicinity *v, uint32_t i, uint32_t j, size_t most, double reach,
-                                 const double *best, double least)
+double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
+                                      const double *best, double least)
 {
     sunder_i_search part;
     double gain = 0;

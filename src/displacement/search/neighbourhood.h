@@ -4,7 +4,7 @@
 
 #include "displacement/search/search.h"
 
-typedef struct sunder_i_vicinity {
+typedef struct sunder_i_neighbourhood {
     sunder_i_search *all;
     sunder_i_index tree; /* the boxes of all as they stand, from the first body's origin */
     uint32_t *place;     /* [n] who is in it, by places in `all`; `moving` of them move */
@@ -14,17 +14,18 @@ typedef struct sunder_i_vicinity {
     uint32_t *body;
     double *t; /* where they stood */
     sunder_i_list near;
-} sunder_i_vicinity;
+} sunder_i_neighbourhood;
 
 /* Of a search that stands without clashes. False if memory is out; is to be freed then, too. */
-bool sunder_i_vicinity_init(sunder_i_vicinity *vicinity, sunder_i_search *all);
-void sunder_i_vicinity_free(sunder_i_vicinity *vicinity);
+bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all);
+void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
 /* Is there a place without clashes for bodies i and j and those about them, `most` in all, everybody else standing?
  * They are put there. reach: how far off somebody may be run into. */
-bool sunder_i_vicinity_settle(sunder_i_vicinity *vicinity, uint32_t i, uint32_t j, size_t most, double reach);
+bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                   double reach);
 /* From a solution, `best`, which all stand at but for i and j, down with those about these, everybody else standing.
  * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
-double sunder_i_vicinity_descend(sunder_i_vicinity *vicinity, uint32_t i, uint32_t j, size_t most, double reach,
-                                 const double *best, double least);
+double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                      double reach, const double *best, double least);
 
 #endif

@@ -63,7 +63,7 @@ typedef struct reordering {
 
 static double extent(const sunder_i_search *s, uint32_t i)
 {
-    const double *box = s->town->body[s->body[i]].box;
+    const double *box = s->model->body[s->body[i]].box;
     return fmin(box[2] - box[0], box[3] - box[1]);
 }
 
@@ -98,7 +98,7 @@ static bool find_doubtful(reordering *r)
 /* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
 static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
 {
-    const sunder_i_body *p = &s->town->body[s->body[i]], *q = &s->town->body[s->body[j]];
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
     double d[2];
     for (uint32_t c = 0; c < 2; c++) {
         const double offset = q->origin[c] - p->origin[c] + share * (s->t[2 * j + c] - s->t[2 * i + c]);
@@ -172,7 +172,7 @@ static uint64_t search_work(const sunder_i_search *s)
 {
     uint64_t own = 0, all = 0;
     for (size_t k = 0; k < s->n; k++) {
-        const uint64_t pieces = s->town->body[s->body[k]].pieces;
+        const uint64_t pieces = s->model->body[s->body[k]].pieces;
         all += pieces;
         if (s->mass[k] > 0) own += pieces;
     }

@@ -1,10 +1,10 @@
-/* Pairs that were given up are asked for peace again.
+/* Pairs that were given up are asked for all that is owed again.
  *
- * Pairs that were put under a truce together (yield.c) may be more than need be. So once nothing joins clusters any
+ * Pairs that were put relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any
  * more each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several
  * members are in conflict for all of these, and then for each, since one may have no solution where others do. At
- * first nobody but the pair moves, then more and more of those about it (vicinity.c), at last the whole cluster.
- * What overlaps and finds no peace is asked not to overlap, at least, before any pair that is only too near is asked
+ * first nobody but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster.
+ * What overlaps and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked
  * for anything. All are asked at one stage before any is at the next, so that where the effort ends the small
  * questions have been put; it grows with the number of bodies and of pairs, and with nothing else. */
 #include "displacement/search/neighbourhood.h"
@@ -21,8 +21,8 @@ static const size_t stage[] = {2, 8, 32, 128};
 /* Effort, in constraints looked at: for a cluster, for each of its bodies, and for each pair that is asked. */
 #define EFFORT 2000000u
 #define EFFORT_EACH 5000u
-#define EFFORT_SUIT 200000u
-#define MOST_SUITS 50 /* ... of no more than these */
+#define EFFORT_RETRY 200000u
+#define MOST_RETRIES 50 /* ... of no more than these */
 /* So many in vain, one after the other, and with so many who move none of the others is asked. */
 #define USELESS 32
 /* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
@@ -31,99 +31,101 @@ static const size_t stage[] = {2, 8, 32, 128};
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
 
-typedef struct petition {
+typedef struct retrying {
     sunder_i_search *search;
-    const sunder_i_suit *suit;
+    const sunder_i_retry *retry;
     size_t n, moving;
     bool *settled;   /* [n] nothing is left to be asked */
     bool *in_vain;   /* [n] with more bodies the question would be the same */
     double *stand;   /* [2 bodies] */
     uint64_t effort; /* till when */
-    bool any;        /* somebody found peace */
-    sunder_i_vicinity vicinity;
-} petition;
+    bool any;        /* something was resolved */
+    sunder_i_neighbourhood neighbourhood;
+} retrying;
 
 static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program.work; }
 
-bool sunder_i_suit_parts(const sunder_i_town *town, const sunder_i_truce *t)
+bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *t)
 {
-    const sunder_i_body *p = &town->body[town->body_of[t->a]], *q = &town->body[town->body_of[t->b]];
+    const sunder_i_body *p = &model->body[model->body_of[t->a]], *q = &model->body[model->body_of[t->b]];
     const double depth = hypot(t->shift[0], t->shift[1]);
-    return depth > 0 && town->rules.gap > 0 && depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
+    return depth > 0 && model->rules.gap > 0 && depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
-static const sunder_i_truce *truce_of(const sunder_i_search *s, const sunder_i_suit *x, size_t k)
+static const sunder_i_relaxation *relaxation_of(const sunder_i_search *s, const sunder_i_retry *x, size_t k)
 {
-    return &s->town->truces.item[x->truce[k]];
+    return &s->model->relaxations.item[x->relaxation[k]];
 }
 
-static size_t find_ended(const sunder_i_search *s, const sunder_i_truce *t, bool *known)
+static size_t find_restored(const sunder_i_search *s, const sunder_i_relaxation *t, bool *known)
 {
-    const sunder_i_ended wanted = sunder_i_ended_of(s->town, t);
-    const size_t at = sunder_i_ended_at(s->ended, s->ended_n, &wanted);
-    *known = at < s->ended_n && sunder_i_by_ended(&s->ended[at], &wanted) == 0;
+    const sunder_i_restored wanted = sunder_i_restored_of(s->model, t);
+    const size_t at = sunder_i_restored_at(s->restored, s->restored_n, &wanted);
+    *known = at < s->restored_n && sunder_i_by_restored(&s->restored[at], &wanted) == 0;
     return at;
 }
 
-/* From now on the town's truces of this suit do not count, but for those that are hopeless; or they do again. */
-static bool end_truces(sunder_i_search *s, const sunder_i_suit *x)
+/* From now on the model's relaxations of this retry do not count, but for those that are infeasible; or they do
+ * again. */
+static bool restore(sunder_i_search *s, const sunder_i_retry *x)
 {
-    if (!sunder_i_reserve(&s->ended, &s->ended_capacity, s->ended_n + x->truces, sizeof *s->ended)) return false;
-    for (size_t k = 0; k < x->truces; k++) {
-        const sunder_i_truce *t = truce_of(s, x, k);
+    if (!sunder_i_reserve(&s->restored, &s->restored_capacity, s->restored_n + x->relaxations, sizeof *s->restored))
+        return false;
+    for (size_t k = 0; k < x->relaxations; k++) {
+        const sunder_i_relaxation *t = relaxation_of(s, x, k);
         bool known;
-        const size_t at = find_ended(s, t, &known);
-        if (t->hopeless || known) continue;
-        memmove(s->ended + at + 1, s->ended + at, (s->ended_n++ - at) * sizeof *s->ended);
-        s->ended[at] = sunder_i_ended_of(s->town, t);
+        const size_t at = find_restored(s, t, &known);
+        if (t->infeasible || known) continue;
+        memmove(s->restored + at + 1, s->restored + at, (s->restored_n++ - at) * sizeof *s->restored);
+        s->restored[at] = sunder_i_restored_of(s->model, t);
     }
     return true;
 }
 
-static void resume_truces(sunder_i_search *s, const sunder_i_suit *x)
+static void relax_again(sunder_i_search *s, const sunder_i_retry *x)
 {
-    for (size_t k = 0; k < x->truces; k++) {
+    for (size_t k = 0; k < x->relaxations; k++) {
         bool known;
-        const size_t at = find_ended(s, truce_of(s, x, k), &known);
-        if (known) memmove(s->ended + at, s->ended + at + 1, (--s->ended_n - at) * sizeof *s->ended);
+        const size_t at = find_restored(s, relaxation_of(s, x, k), &known);
+        if (known) memmove(s->restored + at, s->restored + at + 1, (--s->restored_n - at) * sizeof *s->restored);
     }
 }
 
-/* The truce, but that what overlapped no longer does, nor will after rounding. */
-static void part_barely(const sunder_i_search *s, sunder_i_truce *t)
+/* The relaxation, but that what overlapped no longer does, nor will after rounding. */
+static void part_barely(const sunder_i_search *s, sunder_i_relaxation *t)
 {
     if (t->shift[0] == 0 && t->shift[1] == 0) return;
     t->shift[0] = t->shift[1] = 0;
     t->inside = false;
-    t->gap = s->gap - s->town->rules.gap;
+    t->gap = s->gap - s->model->rules.gap;
 }
 
-/* The suit's truces, but that what overlapped no longer does. */
-static bool ask_disjoint(sunder_i_search *s, const sunder_i_suit *x)
+/* The retry's relaxations, but that what overlapped no longer does. */
+static bool ask_disjoint(sunder_i_search *s, const sunder_i_retry *x)
 {
-    const sunder_i_town *town = s->town;
-    for (size_t k = 0; k < x->truces; k++) {
-        sunder_i_truce t = *truce_of(s, x, k);
-        if (!sunder_i_suit_parts(town, &t)) continue;
+    const sunder_i_model *model = s->model;
+    for (size_t k = 0; k < x->relaxations; k++) {
+        sunder_i_relaxation t = *relaxation_of(s, x, k);
+        if (!sunder_i_can_be_disjoint(model, &t)) continue;
         part_barely(s, &t);
-        if (!sunder_i_truces_insert(&s->truces, town, &t)) return false;
+        if (!sunder_i_relaxations_insert(&s->relaxations, model, &t)) return false;
     }
     return true;
 }
 
-static void resume_overlap(sunder_i_search *s, const sunder_i_suit *x)
+static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
 {
-    for (size_t k = 0; k < x->truces; k++)
-        if (sunder_i_suit_parts(s->town, truce_of(s, x, k)))
-            sunder_i_truces_remove(&s->truces, s->town, truce_of(s, x, k));
+    for (size_t k = 0; k < x->relaxations; k++)
+        if (sunder_i_can_be_disjoint(s->model, relaxation_of(s, x, k)))
+            sunder_i_relaxations_remove(&s->relaxations, s->model, relaxation_of(s, x, k));
 }
 
 /* ---- At one stage ------------------------------------------------------------------------------------------------ */
 
 /* With all that the cluster has. */
-static bool settle_all(petition *p)
+static bool settle_all(retrying *p)
 {
     sunder_i_search *s = p->search;
     const size_t size = 2 * s->n * sizeof *p->stand;
@@ -147,32 +149,32 @@ static uint32_t place_of(const sunder_i_search *s, uint32_t body)
         const uint32_t *found = bsearch(&body, set, part ? s->n - s->own : s->own, sizeof body, sunder_i_by_number);
         if (found) return (uint32_t)(found - s->body);
     }
-    return SUNDER_I_NOBODY; /* cannot be: suits are of the cluster's own */
+    return SUNDER_I_NOBODY; /* cannot be: retries are of the cluster's own */
 }
 
-static bool settle_one(petition *p, size_t k, size_t level)
+static bool settle_one(retrying *p, size_t k, size_t level)
 {
     sunder_i_search *s = p->search;
     if (level == STAGES) return settle_all(p);
-    const sunder_i_couple *pair = &p->suit[k].body;
-    const bool done = sunder_i_vicinity_settle(&p->vicinity, place_of(s, pair->a), place_of(s, pair->b), stage[level],
-                                               s->gap + 2 * p->suit[k].missing);
-    p->in_vain[k] = !p->vicinity.wider;
+    const sunder_i_couple *pair = &p->retry[k].body;
+    const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, place_of(s, pair->a), place_of(s, pair->b),
+                                                    stage[level], s->gap + 2 * p->retry[k].missing);
+    p->in_vain[k] = !p->neighbourhood.wider;
     return done;
 }
 
-/* Asks one for peace, or not to overlap. */
-static bool grant(petition *p, size_t k, size_t level, bool peace)
+/* Asks one for all that is owed, or not to overlap. */
+static bool grant(retrying *p, size_t k, size_t level, bool resolve)
 {
     sunder_i_search *s = p->search;
-    const sunder_i_suit *x = &p->suit[k];
-    if (!(peace ? end_truces(s, x) : ask_disjoint(s, x))) {
+    const sunder_i_retry *x = &p->retry[k];
+    if (!(resolve ? restore(s, x) : ask_disjoint(s, x))) {
         s->failed = true;
         return false;
     }
     if (settle_one(p, k, level)) return true;
-    if (peace)
-        resume_truces(s, x);
+    if (resolve)
+        relax_again(s, x);
     else
         resume_overlap(s, x);
     return false;
@@ -181,7 +183,7 @@ static bool grant(petition *p, size_t k, size_t level, bool peace)
 /* What is asked, in this order: as few overlaps as can be, then as few pairs. Truces of two bodies first together; of
  * those of which that had no solution, each. */
 typedef struct request {
-    bool overlap, peace, part;
+    bool overlap, resolve, part;
 } request;
 
 static const request requests[] = {{true, true, false}, {true, true, true},   {true, false, false},
@@ -189,20 +191,21 @@ static const request requests[] = {{true, true, false}, {true, true, true},   {t
 #define REQUESTS (sizeof requests / sizeof *requests)
 
 /* Was it granted with others, or is it not what this request is for? */
-static bool is_out(const petition *p, size_t k, const request *r)
+static bool is_out(const retrying *p, size_t k, const request *r)
 {
-    const sunder_i_suit *x = &p->suit[k];
+    const sunder_i_retry *x = &p->retry[k];
     bool known;
-    if (p->settled[k] || x->overlap != r->overlap || (x->part > 0) != r->part || !(r->peace ? x->peace : x->disjoint))
+    if (p->settled[k] || x->overlap != r->overlap || (x->part > 0) != r->part ||
+        !(r->resolve ? x->resolve : x->disjoint))
         return true;
     if (!r->part) return false;
-    const sunder_i_truce *t = truce_of(p->search, x, 0);
-    find_ended(p->search, t, &known);
-    return known || sunder_i_truces_find(&p->search->truces, t->a, t->b);
+    const sunder_i_relaxation *t = relaxation_of(p->search, x, 0);
+    find_restored(p->search, t, &known);
+    return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
 /* Puts one question to all whom it concerns, stage by stage. */
-static void ask_all(petition *p, const request *r)
+static void ask_all(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
@@ -210,7 +213,7 @@ static void ask_all(petition *p, const request *r)
         size_t useless = 0;
         for (size_t k = 0; k < p->n && !s->failed && work_of(s) < p->effort; k++) {
             if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == USELESS)) continue;
-            p->settled[k] = grant(p, k, level, r->peace);
+            p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
             useless = p->settled[k] ? 0 : useless + 1;
         }
@@ -219,50 +222,50 @@ static void ask_all(petition *p, const request *r)
 
 /* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
 
-/* Lets the pairs that were in conflict at the start, and are at peace, be as they were then, but that none overlaps:
- * their truces are in `list`. */
-static void sacrifice(sunder_i_search *s, sunder_i_truces *list)
+/* Lets the pairs that were in conflict at the start, and are resolved, be as they were then, but that none overlaps:
+ * their relaxations are in `list`. */
+static void sacrifice(sunder_i_search *s, sunder_i_relaxations *list)
 {
     size_t n = 0, out = 0;
     sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
     if (!clash) s->failed = true;
     for (size_t k = 0; k < n && !s->failed; k++)
-        if (sunder_i_truces_make(s->town, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance, list,
-                                 NULL))
+        if (sunder_i_relaxations_make(s->model, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance,
+                                      list, NULL))
             s->failed = true;
     sunder_i_free(clash);
     for (size_t k = 0; k < list->n && !s->failed; k++) {
-        sunder_i_truce t = list->item[k];
-        const sunder_i_truce *old = sunder_i_truces_find(&s->town->truces, t.a, t.b);
-        bool ended = false;
+        sunder_i_relaxation t = list->item[k];
+        const sunder_i_relaxation *old = sunder_i_relaxations_find(&s->model->relaxations, t.a, t.b);
+        bool restored = false;
         part_barely(s, &t);
-        if (old) find_ended(s, old, &ended);
-        if (sunder_i_truces_find(&s->truces, t.a, t.b) || (old && !ended)) continue;
-        if (!sunder_i_truces_insert(&s->truces, s->town, &t)) s->failed = true;
+        if (old) find_restored(s, old, &restored);
+        if (sunder_i_relaxations_find(&s->relaxations, t.a, t.b) || (old && !restored)) continue;
+        if (!sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
         list->item[out++] = t;
     }
     list->n = s->failed ? 0 : out;
 }
 
-/* Takes the truces back, those first that least is missing of, where there is a solution without. */
-static void redeem(petition *p, sunder_i_truces *list)
+/* Takes the relaxations back, those first that least is missing of, where there is a solution without. */
+static void redeem(retrying *p, sunder_i_relaxations *list)
 {
     sunder_i_search *s = p->search;
     for (size_t k = 0; k < list->n && !s->failed; k++) {
         size_t best = k;
         for (size_t other = k + 1; other < list->n; other++)
             if (list->item[other].gap > list->item[best].gap) best = other;
-        const sunder_i_truce t = list->item[best];
+        const sunder_i_relaxation t = list->item[best];
         list->item[best] = list->item[k];
         list->item[k] = t;
-        sunder_i_truces_remove(&s->truces, s->town, &t);
+        sunder_i_relaxations_remove(&s->relaxations, s->model, &t);
         if (sunder_i_search_look(s, s->t) <= s->tolerance || (work_of(s) < p->effort && settle_all(p))) continue;
-        if (!s->failed && !sunder_i_truces_insert(&s->truces, s->town, &t)) s->failed = true;
+        if (!s->failed && !sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
     }
 }
 
 /* From where all came from: sides that others chose do not matter there. */
-static bool grant_from_home(petition *p, size_t k)
+static bool grant_from_home(retrying *p, size_t k)
 {
     sunder_i_search *s = p->search;
     double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
@@ -279,12 +282,12 @@ static bool grant_from_home(petition *p, size_t k)
 
 /* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap
  * counts for more than any number of pairs. */
-static void trade(petition *p)
+static void trade(retrying *p)
 {
     sunder_i_search *s = p->search;
     for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && work_of(s) < p->effort && !s->failed; k++) {
-        sunder_i_truces list = {0};
-        const sunder_i_suit *x = &p->suit[k];
+        sunder_i_relaxations list = {0};
+        const sunder_i_retry *x = &p->retry[k];
         const request r = {x->overlap, false, x->part > 0};
         if (!x->overlap || is_out(p, k, &r)) continue;
         sacrifice(s, &list);
@@ -292,8 +295,8 @@ static void trade(petition *p)
         p->any = p->any || p->settled[k];
         if (p->settled[k]) redeem(p, &list);
         for (size_t t = 0; t < list.n && !p->settled[k]; t++)
-            sunder_i_truces_remove(&s->truces, s->town, &list.item[t]);
-        sunder_i_truces_free(&list);
+            sunder_i_relaxations_remove(&s->relaxations, s->model, &list.item[t]);
+        sunder_i_relaxations_free(&list);
     }
 }
 
@@ -306,50 +309,50 @@ static bool is_in_order(sunder_i_search *s)
     return ok && !s->failed;
 }
 
-void sunder_i_search_retry(sunder_i_search *s, const sunder_i_suit *suit, size_t n)
+void sunder_i_search_retry(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
 {
     if (!is_in_order(s)) return;
-    petition p = {.search = s,
-                  .suit = suit,
+    retrying p = {.search = s,
+                  .retry = retry,
                   .n = n,
                   .settled = sunder_i_calloc(n, sizeof *p.settled),
                   .in_vain = sunder_i_alloc(n, sizeof *p.in_vain),
                   .stand = sunder_i_alloc(2 * s->n, sizeof *p.stand)};
     for (size_t k = 0; k < s->n; k++) p.moving += s->mass[k] > 0;
-    if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_vicinity_init(&p.vicinity, s)))
+    if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_neighbourhood_init(&p.neighbourhood, s)))
         s->failed = true;
-    const uint64_t pairs = n < MOST_SUITS ? n : MOST_SUITS;
-    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_SUIT * pairs;
+    const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
+    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_RETRY * pairs;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
         if (!requests[k].part) p.effort = work_of(s) + effort / 2;
         ask_all(&p, &requests[k]);
     }
     p.effort = work_of(s) + effort / 2;
-    if (!s->failed && s->town->rules.gap > 0) trade(&p);
+    if (!s->failed && s->model->rules.gap > 0) trade(&p);
     if (p.any && p.moving > FEW) sunder_i_search_lower(s);
-    sunder_i_vicinity_free(&p.vicinity);
+    sunder_i_neighbourhood_free(&p.neighbourhood);
     sunder_i_free(p.settled);
     sunder_i_free(p.in_vain);
     sunder_i_free(p.stand);
 }
 
-sunder_status sunder_i_cluster_retry(const sunder_i_town *town, sunder_i_cluster *cluster, const sunder_i_suit *suit,
-                                     size_t suits, double *move, sunder_error *err)
+sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
+                                     const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err)
 {
     uint32_t *body = NULL;
     double *all = NULL;
     size_t n = 0;
     sunder_i_search s;
     memset(&s, 0, sizeof s);
-    bool ok = sunder_i_cluster_about(town, cluster, move, &body, &all, &n);
-    if (ok) ok = sunder_i_search_init(&s, town, body, n, cluster->margin, all);
+    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n);
+    if (ok) ok = sunder_i_search_init(&s, model, body, n, cluster->margin, all);
     if (ok) {
         s.own = cluster->n;
         for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
-        sunder_i_search_retry(&s, suit, suits);
+        sunder_i_search_retry(&s, retry, retries);
         ok = !s.failed;
     }
-    if (ok && s.ended_n + s.truces.n) {
+    if (ok && s.restored_n + s.relaxations.n) {
         s.n = cluster->n;
         sunder_i_search_round(&s, move);
         sunder_i_search_hand_over(&s, cluster);

@@ -4,14 +4,14 @@
 #include <math.h>
 #include <string.h>
 
-bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const uint32_t *body, size_t n, double margin,
-                          const double *move)
+bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const uint32_t *body, size_t n,
+                          double margin, const double *move)
 {
     memset(s, 0, sizeof *s);
-    s->town = town;
+    s->model = model;
     s->body = body;
     s->n = s->own = n;
-    s->gap = town->rules.gap + margin;
+    s->gap = model->rules.gap + margin;
     s->tolerance = margin / 4;
     s->settled = 1e-3;
     s->cap = INFINITY;
@@ -25,7 +25,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_town *town, const u
     s->order = sunder_i_alloc(n, sizeof *s->order);
     if (!s->mass || !s->away || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_body *b = &town->body[body[k]];
+        const sunder_i_body *b = &model->body[body[k]];
         s->mass[k] = b->fixed || b->pinned ? 0 : 0.5 / b->weight;
         if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
@@ -47,17 +47,17 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->program.constraint);
     sunder_i_free(s->old);
     sunder_i_free(s->clash);
-    sunder_i_truces_free(&s->truces);
-    sunder_i_free(s->ended);
+    sunder_i_relaxations_free(&s->relaxations);
+    sunder_i_free(s->restored);
     sunder_i_free(s->scratch.xy);
-    sunder_i_shelf_free(&s->shelf);
+    sunder_i_obstacle_cache_free(&s->cache);
     sunder_i_free(s->shifted);
     memset(s, 0, sizeof *s);
 }
 
 double sunder_i_search_limit(const sunder_i_search *s, uint32_t i)
 {
-    return fmin(s->cap, s->town->body[s->body[i]].limit);
+    return fmin(s->cap, s->model->body[s->body[i]].limit);
 }
 
 double sunder_i_search_cost(const sunder_i_search *s, const double *t)

@@ -14,7 +14,7 @@ typedef struct sunder_i_clash {
 } sunder_i_clash;
 
 typedef struct sunder_i_search {
-    const sunder_i_town *town;
+    const sunder_i_model *model;
     const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
     size_t n, own;              /* ascending up to `own`, and from there on */
     double gap;                 /* the gap and the margin */
@@ -30,14 +30,14 @@ typedef struct sunder_i_search {
     size_t old_n, old_capacity;
     sunder_i_clash *clash; /* of the last look */
     size_t clashes, clash_capacity;
-    sunder_i_truces truces; /* of pairs that this search has given up; they come before those of the town */
-    sunder_i_ended *ended;  /* those of the town that do not count; sorted */
-    size_t ended_n, ended_capacity;
-    double cap;                         /* no body is sent farther than this, whatever its limit; INFINITY unless set */
-    struct sunder_i_vicinity *vicinity; /* lent: changes are tried in it; NULL: with all */
+    sunder_i_relaxations relaxations; /* of pairs that this search has given up; they come before those of the model */
+    sunder_i_restored *restored;      /* those of the model that do not count; sorted */
+    size_t restored_n, restored_capacity;
+    double cap; /* no body is sent farther than this, whatever its limit; INFINITY unless set */
+    struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
     sunder_i_scratch scratch;
-    sunder_i_shelf shelf;   /* obstacles of pairs of pieces */
-    sunder_i_edge *shifted; /* one that is not kept there */
+    sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
+    sunder_i_obstacle_edge *shifted; /* one that is not kept there */
     size_t shifted_capacity;
     double extent;          /* the mean size of the bodies */
     double settled;         /* a round that gains less of the cost is the last */
@@ -48,7 +48,7 @@ typedef struct sunder_i_search {
 } sunder_i_search;
 
 /* Looks at the bodies as they stand at move (two doubles a body, copied). */
-bool sunder_i_search_init(sunder_i_search *search, const sunder_i_town *town, const uint32_t *body, size_t n,
+bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, const uint32_t *body, size_t n,
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
 /* How far body i may be sent. */
@@ -60,61 +60,64 @@ double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
 /* The bodies of a cluster, which stand at `own`, and then those about it: *n bodies and where they stand. False if
  * memory is out; what there is by then is the caller's, too. */
-bool sunder_i_cluster_about(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
-                            uint32_t **body, double **move, size_t *n);
+bool sunder_i_cluster_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
+                                   uint32_t **body, double **move, size_t *n);
 
 /* ---- near.c: who stands near whom -------------------------------------------------------------------------------- */
 
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
-typedef void (*sunder_i_near)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
+typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 
-void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_near visit, void *context);
+void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                          void *context);
 /* The same for every pair that might, were one of them, or both, where it came from. */
-void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_near visit, void *context);
+void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context);
 
-/* ---- parts.c: what two bodies owe each other, piece by piece ----------------------------------------------------- */
+/* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
 
-/* Is there a truce between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where not. */
-bool sunder_i_search_is_torn(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);
+/* Is there a relaxation between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where
+ * not. */
+bool sunder_i_search_is_relaxed(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);
 
 /* Two convex pieces, of bodies i and j, or a wall of one and a piece of the other that it keeps inside. */
-typedef struct sunder_i_part {
-    const sunder_i_piece *a, *b; /* of i, of j */
-    double offset[2];            /* of j's origin from i's */
-    uint64_t key;                /* tells it from all others */
-    sunder_i_keeping keeping;    /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
-    bool torn;                   /* the bodies: some of the pieces owe each other less */
-    const sunder_i_truce *truce; /* ... these; or NULL */
-} sunder_i_part;
+typedef struct sunder_i_piece_pair {
+    const sunder_i_body_piece *a, *b;   /* of i, of j */
+    double offset[2];                   /* of j's origin from i's */
+    uint64_t key;                       /* tells it from all others */
+    sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
+    bool relaxed;                       /* the bodies: some of the pieces owe each other less */
+    const sunder_i_relaxation *relaxation; /* ... these; or NULL */
+} sunder_i_piece_pair;
 
-typedef void (*sunder_i_visit_part)(sunder_i_search *search, const sunder_i_part *part, void *context);
+typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *part, void *context);
 
 /* All parts of the pair whose boxes are within reach of each other at relative position u; yields: they are held to
- * their truces, where there are any. */
-void sunder_i_search_parts(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
-                           bool yields, sunder_i_visit_part visit, void *context);
+ * their relaxations, where there are any. */
+void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
+                                 bool yields, sunder_i_visit_piece_pair visit, void *context);
 /* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
  * from it. part->offset is the caller's; swapped: `from` is of j. */
-void sunder_i_search_visit(sunder_i_search *search, const sunder_i_piece *from, uint32_t n, const sunder_i_body *other,
-                           const double v[2], double reach, sunder_i_part *part, bool swapped, bool walls,
-                           sunder_i_visit_part visit, void *context);
-/* The truce that pieces a and b are held to; NULL: none, they owe each other peace. */
-const sunder_i_truce *sunder_i_search_truce(const sunder_i_search *search, const sunder_i_piece *a,
-                                            const sunder_i_piece *b);
-/* Shifts the n corners of an obstacle as the truce says; returns the gap that it leaves. */
-double sunder_i_search_shift(const sunder_i_truce *truce, uint32_t of_j, double *corner, size_t n);
-/* The part's obstacle A + (-B), in search->scratch, shifted by its truce: how many corners (0: memory is out), and the
- * gap that it owes. */
-size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_part *part, double *gap);
+void sunder_i_search_visit(sunder_i_search *search, const sunder_i_body_piece *from, uint32_t n,
+                           const sunder_i_body *other, const double v[2], double reach, sunder_i_piece_pair *part,
+                           bool swapped, bool walls, sunder_i_visit_piece_pair visit, void *context);
+/* The relaxation that pieces a and b are held to; NULL: none, they owe each other the gap. */
+const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
+                                                      const sunder_i_body_piece *b);
+/* Shifts the n corners of an obstacle as the relaxation says; returns the gap that it leaves. */
+double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
+/* The part's obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out),
+ * and the gap that it owes. */
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
 /* The same as edges, *n of them, which stay until the next call; NULL: memory is out. */
-const sunder_i_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_part *part, size_t *n, double *gap);
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
+                                                    double *gap);
 
 /* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
 
-/* What pair (i, j) misses at relative position u: of peace, or where it has none (*yields) of its truce. */
+/* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
-/* Fills search->clash with the pairs that violate the gap at t, or their truce; returns the worst violation, of a limit
- * of moves too. */
+/* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
+ * a limit of moves too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
 /* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
 void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);

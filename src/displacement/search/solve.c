@@ -8,31 +8,31 @@
 void sunder_i_search_round(const sunder_i_search *s, double *move)
 {
     for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) sunder_i_round_move(s->town, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
+        if (s->mass[k] > 0) sunder_i_round_move(s->model, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
 }
 
 void sunder_i_search_hand_over(sunder_i_search *s, sunder_i_cluster *cluster)
 {
-    cluster->truces = s->truces;
-    cluster->ended = s->ended;
-    cluster->ended_n = s->ended_n;
-    memset(&s->truces, 0, sizeof s->truces);
-    s->ended = NULL;
-    s->ended_n = s->ended_capacity = 0;
+    cluster->relaxations = s->relaxations;
+    cluster->restored = s->restored;
+    cluster->restored_n = s->restored_n;
+    memset(&s->relaxations, 0, sizeof s->relaxations);
+    s->restored = NULL;
+    s->restored_n = s->restored_capacity = 0;
 }
 
-sunder_status sunder_i_cluster_solve(const sunder_i_town *town, sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     sunder_i_search s;
-    if (!sunder_i_search_init(&s, town, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
+    if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     bool done = !s.failed && sunder_i_search_descend(&s);
     for (int k = 0; k < 3 && !done && !s.failed; k++) {
         if (!sunder_i_search_jump(&s) && cluster->limited) break;
         done = sunder_i_search_descend(&s);
     }
     if (!done && !s.failed && cluster->limited) {
-        sunder_i_search_yield(&s);
+        sunder_i_search_give_up(&s);
         sunder_i_search_hand_over(&s, cluster);
     }
     const bool failed = s.failed;

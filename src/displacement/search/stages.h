@@ -27,9 +27,9 @@ bool sunder_i_search_jump(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* From where the search ended, with clashes, to where the pairs that clashed at the start are under a truce and nothing
- * clashes; then down from there. The new truces are in search->truces. */
-void sunder_i_search_yield(sunder_i_search *search);
+/* From where the search restored, with clashes, to where the pairs that clashed at the start are relaxed and nothing
+ * clashes; then down from there. The new relaxations are in search->relaxations. */
+void sunder_i_search_give_up(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
 void sunder_i_search_lower(sunder_i_search *search);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
@@ -44,9 +44,9 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
 
 /* ---- retry.c ----------------------------------------------------------------------------------------------------- */
 
-/* From a free position, pairs under a truce are asked for peace, or at least not to overlap. What came of it is in
- * search->ended and search->truces. */
-void sunder_i_search_retry(sunder_i_search *search, const sunder_i_suit *suit, size_t n);
+/* From a free position, pairs relaxed are asked for all that is owed, or at least not to overlap. What came of it is in
+ * search->restored and search->relaxations. */
+void sunder_i_search_retry(sunder_i_search *search, const sunder_i_retry *retry, size_t n);
 
 /* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
 

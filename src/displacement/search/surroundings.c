@@ -7,12 +7,12 @@
 static double farthest(const double t[2]) { return fmax(fabs(t[0]), fabs(t[1])); }
 
 /* How far bodies of the cluster go, one with another. */
-static double mean_move(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own)
+static double mean_move(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own)
 {
     double sum = 0;
     size_t n = 0;
     for (size_t k = 0; k < cluster->n; k++) {
-        if (town->body[cluster->body[k]].fixed) continue;
+        if (model->body[cluster->body[k]].fixed) continue;
         sum += farthest(own + 2 * k);
         n++;
     }
@@ -22,19 +22,19 @@ static double mean_move(const sunder_i_town *town, const sunder_i_cluster *clust
 /* Bodies within reach of the cluster that are not of it, ascending. Each member looks about itself as far as it may
  * be sent by its own move, or by those of the others as they mostly are: one that had to go far does not make all
  * the others look that far. */
-static bool find_strangers(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
-                           sunder_i_list *hits)
+static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
+                              sunder_i_list *hits)
 {
-    const double mean = mean_move(town, cluster, own);
+    const double mean = mean_move(model, cluster, own);
     for (size_t k = 0; k < cluster->n; k++) {
-        const sunder_i_body *b = &town->body[cluster->body[k]];
+        const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
-        const double reach = town->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
+        const double reach = model->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
         double box[4];
         for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
-        if (!sunder_i_index_query(town->standing, box, hits)) return false;
+        if (!sunder_i_index_query(model->standing, box, hits)) return false;
     }
-    for (size_t k = 0; k < hits->n; k++) hits->item[k] = town->body_of[hits->item[k]];
+    for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;
     for (size_t k = 0; k < hits->n; k++)
@@ -43,11 +43,11 @@ static bool find_strangers(const sunder_i_town *town, const sunder_i_cluster *cl
     return true;
 }
 
-bool sunder_i_cluster_about(const sunder_i_town *town, const sunder_i_cluster *cluster, const double *own,
-                            uint32_t **body, double **move, size_t *n)
+bool sunder_i_cluster_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
+                                   uint32_t **body, double **move, size_t *n)
 {
     sunder_i_list hits = {0};
-    bool ok = find_strangers(town, cluster, own, &hits);
+    bool ok = find_surroundings(model, cluster, own, &hits);
     if (ok) {
         *n = cluster->n + hits.n;
         *body = sunder_i_alloc(*n, sizeof **body);
@@ -59,7 +59,7 @@ bool sunder_i_cluster_about(const sunder_i_town *town, const sunder_i_cluster *c
         memcpy(*move, own, 2 * cluster->n * sizeof **move);
         for (size_t k = 0; k < hits.n; k++) {
             (*body)[cluster->n + k] = hits.item[k];
-            memcpy(*move + 2 * (cluster->n + k), town->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
+            memcpy(*move + 2 * (cluster->n + k), model->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
         }
     }
     sunder_i_free(hits.item);

@@ -1,0 +1,177 @@
+/* What two bodies of a cluster owe each other, piece by piece: the gap, or what they are held to where they are left in
+ * conflict; and the edges of one that keep the other inside. */
+#include "displacement/search/search.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+
+/* Is it one of the model's relaxations that still counts here? */
+static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *relaxation)
+{
+    if (s->restored_n == 0) return true;
+    const sunder_i_restored wanted = sunder_i_restored_of(s->model, relaxation);
+    const size_t at = sunder_i_restored_at(s->restored, s->restored_n, &wanted);
+    return at == s->restored_n || sunder_i_by_restored(&s->restored[at], &wanted) != 0;
+}
+
+/* Has every relaxation of the model between the two been restored here? */
+static bool all_restored(const sunder_i_search *s, const sunder_i_relaxed_bodies *relaxed)
+{
+    const sunder_i_restored first = {{relaxed->i, relaxed->j}, {0, 0}},
+                            last = {{relaxed->i, relaxed->j}, {UINT32_MAX, UINT32_MAX}};
+    return s->restored_n && sunder_i_restored_at(s->restored, s->restored_n, &last) -
+                                    sunder_i_restored_at(s->restored, s->restored_n, &first) ==
+                                relaxed->n;
+}
+
+bool sunder_i_search_is_relaxed(const sunder_i_search *s, uint32_t body, uint32_t other, double *reach)
+{
+    *reach = 0;
+    if (s->relaxations.n + s->model->relaxations.n == 0) return false;
+    const sunder_i_relaxed_bodies *own = sunder_i_relaxations_between(&s->relaxations, body, other),
+                                  *all = sunder_i_relaxations_between(&s->model->relaxations, body, other);
+    if (all && all_restored(s, all)) all = NULL;
+    if (own) *reach = own->reach;
+    if (all) *reach = fmax(*reach, all->reach);
+    return own || all;
+}
+
+const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *s, const sunder_i_body_piece *a,
+                                                      const sunder_i_body_piece *b)
+{
+    const sunder_i_relaxation *relaxation = sunder_i_relaxations_find(&s->relaxations, a->feature, b->feature);
+    if (relaxation) return relaxation;
+    relaxation = sunder_i_relaxations_find(&s->model->relaxations, a->feature, b->feature);
+    return relaxation && still_counts(s, relaxation) ? relaxation : NULL;
+}
+
+/* Does the wall keep the piece inside, by the rules or by a relaxation? */
+static bool keeps(const sunder_i_search *s, const sunder_i_body_piece *wall, const sunder_i_body_piece *piece,
+                  sunder_i_piece_pair *part)
+{
+    if (sunder_i_keeps_inside(s->model, wall->feature, piece->feature, &part->inclusion)) return true;
+    if (!part->relaxed) return false;
+    const sunder_i_relaxation *relaxation = sunder_i_search_relaxation(s, wall, piece);
+    part->inclusion = SUNDER_I_LENIENT;
+    return relaxation && relaxation->inside && sunder_i_is_inner(s->model, piece->feature, wall->feature);
+}
+
+/* Do the pieces let each other alone? */
+static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                       sunder_i_piece_pair *part)
+{
+    part->inclusion = SUNDER_I_LAPSED;
+    if (part->relaxed) part->relaxation = sunder_i_search_relaxation(s, a, b);
+    return sunder_i_is_included(s->model, a->feature, b->feature) || (part->relaxation && part->relaxation->inside);
+}
+
+/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
+void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped, bool walls,
+                           sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    for (uint32_t k = 0; k < n; k++) {
+        const sunder_i_body_piece *a = &from[k];
+        const double box[4] = {a->box[0] - v[0] - reach, a->box[1] - v[1] - reach, a->box[2] - v[0] + reach,
+                               a->box[3] - v[1] + reach};
+        if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
+        if (!sunder_i_box_meet(box, other->box)) continue;
+        for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
+            const sunder_i_body_piece *b = &model->piece[l];
+            if (!sunder_i_box_meet(box, b->box)) continue;
+            part->relaxation = NULL;
+            if (walls ? !keeps(s, a, b, part) : are_exempt(s, a, b, part)) continue;
+            const uint64_t key = walls ? UINT64_C(1) << 62 | (uint64_t)(a - model->wall) << 32 | l
+                                       : (uint64_t)(a - model->piece) << 32 | l;
+            part->a = swapped ? b : a;
+            part->b = swapped ? a : b;
+            part->key = key;
+            visit(s, part, context);
+        }
+    }
+}
+
+void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                                 bool yields, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
+    sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
+    const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
+    double shift = 0;
+    part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
+    reach += shift;
+    sunder_i_search_visit(s, model->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    if (!part.relaxed && model->inclusions == 0) return;
+    if (p->walls)
+        sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
+    if (q->walls)
+        sunder_i_search_visit(s, model->wall + q->wall, q->walls, p, back, reach, &part, true, true, visit, context);
+}
+
+double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)
+{
+    double shift[2];
+    const double gap = sunder_i_relaxation_shift(relaxation, of_j, shift);
+    for (size_t k = 0; k < 2 * n; k++) corner[k] -= shift[k & 1];
+    return gap;
+}
+
+/* A + (-B), as it is. */
+static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
+{
+    const double *corner = s->model->corner;
+    return sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
+                               corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
+}
+
+/* What a part without a relaxation owes, n edges of its obstacle given. */
+static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, const sunder_i_obstacle_edge *edge,
+                   size_t n)
+{
+    const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
+    if (part->inclusion == SUNDER_I_LAPSED) return s->gap;
+    if (part->inclusion == SUNDER_I_STRICT) return margin;
+    return fmin(margin, sunder_i_support_at(edge, n, home).distance);
+}
+
+/* The edges of what is in s->scratch. */
+static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
+{
+    if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;
+    *n = sunder_i_edges_of(s->scratch.xy, *n, s->shifted);
+    return s->shifted;
+}
+
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+                                                    double *gap)
+{
+    const sunder_i_obstacle_edge *edge =
+        part->relaxation ? NULL : sunder_i_obstacle_cache_find(&s->cache, part->key, n);
+    *gap = s->gap;
+    s->steps++;
+    if (!edge) {
+        *n = make_obstacle(s, part);
+        if (*n && part->relaxation) {
+            *gap = fmin(s->gap, sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
+            edge = take_edges(s, n);
+        } else if (*n) {
+            edge = sunder_i_obstacle_cache_add(&s->cache, part->key, s->scratch.xy, n);
+        }
+    }
+    if (!edge || !sunder_i_steps(1 + *n / 8)) s->failed = true;
+    if (edge && !part->relaxation) *gap = owed(s, part, edge, *n);
+    return edge;
+}
+
+size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, double *gap)
+{
+    size_t n = 0;
+    sunder_i_search_edges(s, part, &n, gap);
+    n = s->failed ? 0 : make_obstacle(s, part);
+    if (n && part->relaxation) sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, n);
+    if (n == 0) s->failed = true;
+    return n;
+}
