@@ -10,6 +10,8 @@
  * union's crossings are rounded once more. */
 #include "buffer/buffer.h"
 
+#include "base/core.h"
+
 #include <cpl_conv.h>
 #include <cpl_quad_tree.h>
 #include <math.h>
@@ -55,7 +57,7 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
     sunder_error why;
     bool ok = turn(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
               (gis_polygons_shape(&turned, SUNDER_VALIDITY_EVEN_ODD, out, &why) == SUNDER_OK ||
-               gis_fail(error, "--shape, turned: %s", why.message));
+               gis_core_failed(error, "--shape, turned", &why));
     gis_polygons_clear(&turned);
     return ok;
 }
@@ -77,7 +79,7 @@ static bool tell_part(double fraction, void *user)
 static bool round_result(sunder_status status, const sunder_sum *sum, const sunder_error *why, gis_rounded *out,
                          gis_error *error)
 {
-    if (status != SUNDER_OK) return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why->message);
+    if (status != SUNDER_OK) return gis_core_failed(error, NULL, why);
     return gis_round_sum(sum, out, error);
 }
 
@@ -218,7 +220,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
     sunder_error why;
     gis_rounded united = {0};
     if (gis_polygons_shape(polygons, SUNDER_VALIDITY_STRICT, &shape, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+        return gis_core_failed(error, NULL, &why);
     sunder_status status = sunder_shape_union(shape, &stage, &sum, &why);
     bool ok = round_result(status, sum, &why, &united, error);
     if (ok) {

@@ -36,8 +36,10 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
 {
     bool multi = is_multi(buffer);
     gis_field number = {"features", OFTInteger64, 0};
-    gis_layer_request request = {.suffix = "", .type = multi ? wkbMultiPolygon : wkbPolygon,
-                                 .crs = gis_source_crs(buffer->input.source), .style = GIS_STYLE_RESULT};
+    gis_sink_layer_request request = {.suffix = "",
+                                      .type = multi ? wkbMultiPolygon : wkbPolygon,
+                                      .crs = gis_source_crs(buffer->input.source),
+                                      .style = GIS_STYLE_RESULT};
     request.like_source = !buffer->request->dissolve;
     if (buffer->request->dissolve) {
         request.fields = &number;
@@ -95,12 +97,12 @@ static bool write_parts(gis_sink_layer *layer, const gis_buffer *buffer, bool po
 static bool write_degenerate(gis_sink *sink, const gis_buffer *buffer, bool points, gis_error *error)
 {
     const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(&buffer->input), 0}};
-    const gis_layer_request request = {.suffix = points ? "degenerate_points" : "degenerate_segments",
-                                       .type = points ? wkbPoint : wkbLineString,
-                                       .crs = gis_source_crs(buffer->input.source),
-                                       .fields = fields,
-                                       .n_fields = sizeof fields / sizeof *fields,
-                                       .style = GIS_STYLE_RESULT};
+    const gis_sink_layer_request request = {.suffix = points ? "degenerate_points" : "degenerate_segments",
+                                            .type = points ? wkbPoint : wkbLineString,
+                                            .crs = gis_source_crs(buffer->input.source),
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_RESULT};
     gis_sink_layer *layer;
     return gis_sink_add(sink, &request, &layer, error) && write_parts(layer, buffer, points, error);
 }

@@ -2,6 +2,7 @@
  * exactly, rounded. What rounding moves is added up, never estimated. */
 #include "buffer/buffer.h"
 
+#include "base/core.h"
 #include "layer/fields.h"
 
 #include <math.h>
@@ -132,7 +133,7 @@ static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double
     sunder_sum *sum;
     sunder_error why;
     gis_rounded rounded = {0};
-    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK) return gis_fail(error, "%s", why.message);
+    if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     bool ok = gis_round_sum(sum, &rounded, error);
     for (size_t p = 0; ok && p < rounded.set.polygons; p++)
         ok = gis_polygons_append(all, &rounded.set, p ? rounded.set.poly_end[p - 1] : 0, rounded.set.poly_end[p],
@@ -165,7 +166,7 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
              append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) != SUNDER_OK)
-        ok = gis_fail(error, "%s", why.message);
+        ok = gis_core_failed(error, NULL, &why);
     gis_rings_clear(&rings);
     gis_polygons_clear(&all);
     return ok;
@@ -176,7 +177,7 @@ static bool place(const sunder_sum *sum, const uint32_t *vertex, size_t n, doubl
 {
     sunder_error why;
     if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+        return gis_core_failed(error, NULL, &why);
     return isfinite(*deviation) || gis_fail(error, "the result leaves the range of doubles");
 }
 
@@ -232,7 +233,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     sunder_sum *sum;
     sunder_error why;
     sunder_status status = sunder_morphology(p, b, buffer->request->operation, how, &sum, &why);
-    if (status != SUNDER_OK) return gis_fail(error, "%s", status == SUNDER_ECANCEL ? GIS_INTERRUPTED : why.message);
+    if (status != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     bool ok = gis_round_sum(sum, &set->result, error) &&
               (!buffer->request->align || gis_straighten(&set->result, error)) &&
               (!buffer->request->degenerate || keep_degenerate(sum, set, error));

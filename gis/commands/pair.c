@@ -1,5 +1,6 @@
 /* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer
  * `pair`: the line from the anchor of Q to where it goes. */
+#include "base/core.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/resolve.h"
@@ -38,8 +39,12 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
                                        {"dy", OFTReal, 0},            {"len", OFTReal, 0},
                                        {"contact", OFTString, 20},    {"attained", OFTInteger64, 0},
                                        {"free", OFTInteger64, 0}};
-    const gis_layer_request request = {.suffix = "", .type = wkbLineString, .crs = operands->crs, .fields = fields,
-                                       .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_DISPLACEMENT};
+    const gis_sink_layer_request request = {.suffix = "",
+                                            .type = wkbLineString,
+                                            .crs = operands->crs,
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_DISPLACEMENT};
     const gis_value values[] = {
         {GIS_INTEGER, {.integer = answer->overlap}},
         {GIS_REAL, {.real = answer->dx}},
@@ -103,7 +108,7 @@ int gis_command_pair(const gis_options *options)
                      gis_optional_length_in_layer_units(&asked, &operands.rule, "--gap", &gap, &error);
     ok = ok && (!to.output || open_sink(options, &operands, to.output, &sink, &error));
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
-        ok = gis_fail(&error, "%s", why.message);
+        ok = gis_core_failed(&error, NULL, &why);
     ok = ok && report(&to, &operands, &answer, sink, taken, &error);
     gis_sink_free(sink);
     sunder_separation_clear(&answer);

@@ -1,4 +1,5 @@
 /* route.c: sunder route. A shortest way for a robot among obstacles, contact allowed, as JSON, or as layers. */
+#include "base/core.h"
 #include "base/message.h"
 #include "commands/commands.h"
 #include "commands/report.h"
@@ -41,7 +42,7 @@ static bool find(route_run *run, gis_error *error)
     const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
     sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot,
                                              &run->request.from.at, &run->request.to.at, &how, &run->route, &why);
-    if (status != SUNDER_OK) return gis_fail(error, "%s", why.message);
+    if (status != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     gis_progress_done(&progress);
     size_t obstacle;
     sunder_route_status reason = sunder_route_reason(run->route, &obstacle);

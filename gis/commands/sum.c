@@ -1,4 +1,5 @@
 /* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
+#include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
@@ -30,7 +31,7 @@ static bool compute(sum_run *run, gis_error *error)
     run->decompose = run->operands.building;
     if (run->options->given[OPT_REFLECT]) {
         double begin = gis_clock();
-        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK) return gis_fail(error, "Q: %s", why.message);
+        if (sunder_shape_reflect(q, &run->reflected, &why) != SUNDER_OK) return gis_core_failed(error, "Q", &why);
         q = run->reflected;
         run->decompose += gis_clock() - begin;
     }
@@ -39,7 +40,7 @@ static bool compute(sum_run *run, gis_error *error)
     how.progress_user = &progress;
     double begin = gis_clock();
     sunder_status status = sunder_minkowski_sum(run->operands.p, q, &how, &run->sum, &why);
-    if (status != SUNDER_OK) return gis_fail(error, "%s", why.message);
+    if (status != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     run->compute = run->decompose + (gis_clock() - begin);
     gis_progress_done(&progress);
     return true;
@@ -54,7 +55,7 @@ static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_
         char *x, *y;
         sunder_error why;
         if (sunder_sum_vertex_text(run->sum, vertex, &x, &y, &why) != SUNDER_OK)
-            return gis_fail(error, "%s", why.message);
+            return gis_core_failed(error, NULL, &why);
         gis_json_string(out, x);
         gis_json_string(out, y);
         sunder_free(x);
@@ -146,7 +147,7 @@ static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
     char *area;
     sunder_error why;
     sunder_sum_get_size(run->sum, &size);
-    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK) return gis_fail(error, "%s", why.message);
+    if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     gis_json_key(out, "result");
     gis_json_open(out, '{');
     gis_json_key(out, "polygons");

@@ -109,8 +109,12 @@ bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sun
         [COLUMN_DEPTH] = {"depth", OFTReal, 0},         [COLUMN_REQUIRED] = {"required", OFTReal, 0},
         [COLUMN_BLOCKED_BY] = {"blocked_by", OFTString, 0},
     };
-    const gis_layer_request request = {.suffix = suffix, .type = wkbLineString, .crs = gis_source_crs(input->source),
-                                       .fields = fields, .n_fields = N_CONFLICT_COLUMNS, .style = GIS_STYLE_CONFLICTS};
+    const gis_sink_layer_request request = {.suffix = suffix,
+                                            .type = wkbLineString,
+                                            .crs = gis_source_crs(input->source),
+                                            .fields = fields,
+                                            .n_fields = N_CONFLICT_COLUMNS,
+                                            .style = GIS_STYLE_CONFLICTS};
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error)) return false;
     size_t n;

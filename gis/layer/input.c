@@ -2,6 +2,7 @@
  * the core. Hints about a misunderstood call stand here, where its failure is known to come of opening. */
 #include "layer/input.h"
 
+#include "base/core.h"
 #include "base/message.h"
 #include "layer/fields.h"
 #include "read/ruler.h"
@@ -77,7 +78,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     sunder_error why;
     for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
     if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
-        return gis_fail(error, "%s: %s", gis_source_name(input->source), why.message);
+        return gis_core_failed(error, gis_source_name(input->source), &why);
     return true;
 }
 

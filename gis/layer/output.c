@@ -21,8 +21,12 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
                                        {"sunder_len", OFTReal, 0},
                                        {"sunder_st", OFTString, 7},
                                        {"sunder_blk", OFTInteger64, 0}};
-    const gis_layer_request request = {.suffix = "", .like_source = true, .as_source = true, .fields = fields,
-                                       .n_fields = sizeof fields / sizeof *fields, .style = GIS_STYLE_STATUS};
+    const gis_sink_layer_request request = {.suffix = "",
+                                            .like_source = true,
+                                            .as_source = true,
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_STATUS};
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
@@ -79,12 +83,12 @@ bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const 
 {
     const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(input), 0}, {"dx", OFTReal, 0},
                                 {"dy", OFTReal, 0},       {"len", OFTReal, 0},           {"block", OFTInteger64, 0}};
-    const gis_layer_request request = {.suffix = "displacement",
-                                       .type = wkbLineString,
-                                       .crs = gis_source_crs(input->source),
-                                       .fields = fields,
-                                       .n_fields = sizeof fields / sizeof *fields,
-                                       .style = GIS_STYLE_DISPLACEMENT};
+    const gis_sink_layer_request request = {.suffix = "displacement",
+                                            .type = wkbLineString,
+                                            .crs = gis_source_crs(input->source),
+                                            .fields = fields,
+                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .style = GIS_STYLE_DISPLACEMENT};
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {
@@ -111,9 +115,11 @@ bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunde
     bool multi = false;
     for (size_t i = 0; i < input->n; i++)
         multi = multi || (input->shape[i] && sunder_shape_polygons(input->shape[i]) > 1);
-    const gis_layer_request request = {.suffix = "symbols", .like_source = true,
-                                       .type = multi ? wkbMultiPolygon : wkbPolygon,
-                                       .crs = gis_source_crs(input->source), .style = GIS_STYLE_SYMBOLS};
+    const gis_sink_layer_request request = {.suffix = "symbols",
+                                            .like_source = true,
+                                            .type = multi ? wkbMultiPolygon : wkbPolygon,
+                                            .crs = gis_source_crs(input->source),
+                                            .style = GIS_STYLE_SYMBOLS};
     gis_sink_layer *layer;
     if (!gis_sink_add(sink, &request, &layer, error)) return false;
     for (size_t i = 0; i < input->n; i++) {

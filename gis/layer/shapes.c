@@ -3,6 +3,7 @@
  * skip) has no shape and passes through as skipped. */
 #include "layer/input.h"
 
+#include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "layer/fields.h"
@@ -18,12 +19,6 @@ static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
 
-/* The core's status of a call about one feature. */
-static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
-{
-    return gis_fail(error, "%s: %s", who, why->message);
-}
-
 /* S grown by a disc that contains the disc of `radius`, as a shape of doubles. Rounding the sum to doubles takes it in
  * by less than four units in the last place: the radius is increased by eight. */
 static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
@@ -38,10 +33,10 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
     sunder_error why;
     bool ok = sunder_shape_disc(radius, growth_segments, false, &disc, &why) == SUNDER_OK &&
               sunder_minkowski_sum(shape, disc, NULL, &sum, &why) == SUNDER_OK;
-    if (!ok) core_failed(who, &why, error);
+    if (!ok) gis_core_failed(error, who, &why);
     ok = ok && gis_round_sum(sum, &rounded, error);
     if (ok && gis_polygons_shape(&rounded.set, SUNDER_VALIDITY_STRICT, &grown, &why) != SUNDER_OK)
-        ok = core_failed(who, &why, error);
+        ok = gis_core_failed(error, who, &why);
     gis_rounded_clear(&rounded);
     sunder_sum_free(sum);
     sunder_shape_free(disc);
@@ -81,7 +76,7 @@ static bool append_translate(const sunder_shape *symbol, const double at[2], gis
     sunder_error why;
     bool exact;
     if (sunder_shape_translate(symbol, at[0], at[1], &moved, &exact, &why) != SUNDER_OK)
-        return core_failed(who, &why, error);
+        return gis_core_failed(error, who, &why);
     bool ok = gis_polygons_append_shape(all, moved, 0, 0, error);
     sunder_shape_free(moved);
     return ok;
@@ -102,7 +97,7 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, &input->shape[i], &why) != SUNDER_OK &&
         gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, &input->shape[i], &why) != SUNDER_OK)
-        ok = core_failed(who, &why, error);
+        ok = gis_core_failed(error, who, &why);
     gis_polygons_clear(&all);
     return ok;
 }

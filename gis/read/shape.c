@@ -2,6 +2,7 @@
  * taken together as one set: strictly where all are valid, by the even-odd rule where one had to be repaired by it. */
 #include "read/shape.h"
 
+#include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
@@ -49,7 +50,7 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
         sunder_error why;
         double begin = gis_clock();
         const sunder_validity validity = any_invalid ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT;
-        ok = gis_polygons_shape(&all, validity, out, &why) == SUNDER_OK || gis_fail(error, "%s: %s", who, why.message);
+        ok = gis_polygons_shape(&all, validity, out, &why) == SUNDER_OK || gis_core_failed(error, who, &why);
         if (building) *building += gis_clock() - begin;
     }
     gis_rings_clear(&rings);

@@ -2,6 +2,7 @@
  * name of a file is a data source: who has one called "POLYGON (...)" means it. */
 #include "read/shape_text.h"
 
+#include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/nearest.h"
@@ -51,7 +52,7 @@ static bool read_length(const char *text, size_t n, const char *what, const char
 static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
 {
     if (why->status == SUNDER_EARG) return gis_fail_usage(error, "%s: %s", who, why->message);
-    return gis_fail(error, "%s: %s", who, why->message);
+    return gis_core_failed(error, who, why);
 }
 
 static bool read_disc(const char *text, bool inside, const char *who, const gis_ruler *rule, sunder_shape **out,

@@ -10,6 +10,7 @@
  * generously; those that hang together are a group. Then the question is exact: the interior of the union of n
  * polygons, each with a connected interior, has n components exactly if they are apart in the sense above. A group that
  * is not is bent through its vertices, united, and rounded again, until all is well. */
+#include "base/core.h"
 #include "round/constants.h"
 #include "round/steps.h"
 
@@ -203,7 +204,7 @@ static bool unite(const gis_polygons *group, sunder_validity validity, sunder_su
     sunder_error why;
     bool ok = (gis_polygons_shape(group, validity, &shape, &why) == SUNDER_OK &&
                sunder_shape_union(shape, NULL, out, &why) == SUNDER_OK) ||
-              gis_fail(error, "%s", why.message);
+              gis_core_failed(error, NULL, &why);
     sunder_shape_free(shape);
     return ok;
 }

@@ -11,6 +11,7 @@
  *
  * Rounding the second can break things once more, at other places: both are repeated. In doubles distances are measured
  * only to choose where to bend; the core's exact validation decides what is well. */
+#include "base/core.h"
 #include "round/constants.h"
 #include "round/steps.h"
 
@@ -48,7 +49,7 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
     sunder_status status =
         sunder_shape_from_rings(set->xy + 2 * start, ends, &rings, 1, SUNDER_VALIDITY_STRICT, out, &why);
     free(ends);
-    return status == SUNDER_OK || status == SUNDER_EINVALID || gis_fail(error, "%s", why.message);
+    return status == SUNDER_OK || status == SUNDER_EINVALID || gis_core_failed(error, NULL, &why);
 }
 
 bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state)
@@ -74,7 +75,7 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
             const uint32_t *vertex = sunder_sum_ring(sum, p, r, &n);
             if (!gis_polygons_reserve(to, n, error)) return false;
             if (sunder_sum_vertices(sum, vertex, n, to->xy + 2 * to->vertices, &off, &why) != SUNDER_OK)
-                return gis_fail(error, "%s", why.message);
+                return gis_core_failed(error, NULL, &why);
             to->vertices += n;
             if (!gis_polygons_end_ring(to, error)) return false;
         }
@@ -245,7 +246,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
     sunder_shape *shape = NULL;
     sunder_error why;
     if (gis_polygons_shape(set, SUNDER_VALIDITY_EVEN_ODD, &shape, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+        return gis_core_failed(error, NULL, &why);
     bool ok = true;
     for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++) ok = append_rounded(shape, p, out, moved, error);
     sunder_shape_free(shape);

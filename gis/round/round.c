@@ -5,6 +5,8 @@
  * united there (apart.c). The core's exact validation says what is well, before and after. */
 #include "round/steps.h"
 
+#include "base/core.h"
+
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -50,7 +52,7 @@ bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviat
     double xy[2];
     sunder_error why;
     *deviation = 0;
-    return sunder_sum_vertices(sum, &vertex, 1, xy, deviation, &why) == SUNDER_OK || gis_fail(error, "%s", why.message);
+    return sunder_sum_vertices(sum, &vertex, 1, xy, deviation, &why) == SUNDER_OK || gis_core_failed(error, NULL, &why);
 }
 
 static bool same_vertex(const double *a, const double *b)
@@ -68,7 +70,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
     if (!gis_polygons_reserve(&out->set, n, error)) return false;
     double *xy = out->set.xy + 2 * first;
     if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
-        return gis_fail(error, "%s", why.message);
+        return gis_core_failed(error, NULL, &why);
     if (!isfinite(*deviation))
         return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
                         "`sunder sum --exact` gives it as JSON");

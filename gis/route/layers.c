@@ -2,6 +2,7 @@
  * answers are exact; how far the doubles of any layer are from them is added up as they are written. */
 #include "route/layers.h"
 
+#include "base/core.h"
 #include "read/geometry.h"
 #include "sum/layers.h"
 
@@ -23,9 +24,12 @@ typedef struct route_writer {
 static bool add_layer(route_writer *w, const char *suffix, OGRwkbGeometryType type, const gis_field *fields,
                       size_t n_fields, gis_sink_layer **layer, gis_error *error)
 {
-    const gis_layer_request request = {.suffix = suffix, .type = type, .crs = w->input->crs, .fields = fields,
-                                       .n_fields = n_fields,
-                                       .style = fields ? GIS_STYLE_NONE : GIS_STYLE_RESULT};
+    const gis_sink_layer_request request = {.suffix = suffix,
+                                            .type = type,
+                                            .crs = w->input->crs,
+                                            .fields = fields,
+                                            .n_fields = n_fields,
+                                            .style = fields ? GIS_STYLE_NONE : GIS_STYLE_RESULT};
     return gis_sink_add(w->sink, &request, layer, error);
 }
 
@@ -161,7 +165,7 @@ static bool free_space(const gis_polygons *obstacles, const double box[4], gis_p
     }
     ok = ok && gis_polygons_end_polygon(&all, error);
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, &shape, &why) != SUNDER_OK)
-        ok = gis_fail(error, "free space: %s", why.message);
+        ok = gis_core_failed(error, "free space", &why);
     ok = ok && gis_polygons_append_shape(out, shape, 0, 0, error);
     sunder_shape_free(shape);
     gis_polygons_clear(&all);

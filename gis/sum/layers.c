@@ -64,7 +64,7 @@ bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH c
     gis_rounded rounded = {0};
     sunder_sum_size size;
     sunder_sum_get_size(sum, &size);
-    gis_layer_request request = {.suffix = "", .type = wkbPolygon, .crs = crs, .style = GIS_STYLE_RESULT};
+    gis_sink_layer_request request = {.suffix = "", .type = wkbPolygon, .crs = crs, .style = GIS_STYLE_RESULT};
     gis_sink_layer *layer;
     bool ok = gis_round_sum(sum, &rounded, error) && gis_sink_add(sink, &request, &layer, error) &&
               write_polygons(layer, &rounded.set, error);

@@ -170,8 +170,12 @@ static bool write_layers(gis_sink *sink, map_run *run, OGRSpatialReferenceH crs,
                   {"edges", wkbLineString, write_edges},
                   {"vertices", wkbPoint, write_vertices}};
     for (size_t i = 0; i < sizeof layers / sizeof *layers; i++) {
-        gis_layer_request request = {.suffix = layers[i].suffix, .type = layers[i].type, .crs = crs, .fields = &field,
-                                     .n_fields = 1, .style = GIS_STYLE_NONE};
+        gis_sink_layer_request request = {.suffix = layers[i].suffix,
+                                          .type = layers[i].type,
+                                          .crs = crs,
+                                          .fields = &field,
+                                          .n_fields = 1,
+                                          .style = GIS_STYLE_NONE};
         gis_sink_layer *layer;
         if (!gis_sink_add(sink, &request, &layer, error) || !layers[i].write(layer, run, error)) return false;
     }

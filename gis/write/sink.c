@@ -157,7 +157,7 @@ static void free_layer(gis_sink_layer *layer)
     free(layer);
 }
 
-static gis_sink_layer *new_layer(gis_sink *sink, const gis_layer_request *request)
+static gis_sink_layer *new_layer(gis_sink *sink, const gis_sink_layer_request *request)
 {
     gis_sink_layer *layer = calloc(1, sizeof *layer);
     if (!layer) return NULL;
@@ -175,7 +175,7 @@ static gis_sink_layer *new_layer(gis_sink *sink, const gis_layer_request *reques
     return layer;
 }
 
-bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_layer **out, gis_error *error)
+bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sink_layer **out, gis_error *error)
 {
     gis_sink_layer *previous = sink->n_layers ? sink->layers[sink->n_layers - 1] : NULL;
     if (previous && sink->format.one_layer && !gis_sink_close(sink, previous, error)) return false;

@@ -57,7 +57,7 @@ typedef enum gis_style {
     GIS_STYLE_RESULT        /* sums: polygons, lines or points by the layer's type */
 } gis_style;
 
-typedef struct gis_layer_request {
+typedef struct gis_sink_layer_request {
     const char *suffix;      /* "" for the main layer; "displacement": the layer is MAIN_displacement, the file of a
                                 one-layer format OUT_displacement.shp */
     bool like_source;        /* all fields of the source's layer come first, with their constraints; FIDs are kept */
@@ -68,10 +68,10 @@ typedef struct gis_layer_request {
     size_t n_fields;
     OGRFieldDefnH copied;    /* NULL, or one field of the source, which comes after those, if not like_source */
     gis_style style;
-} gis_layer_request;
+} gis_sink_layer_request;
 
 /* The layer is owned by the sink. Fails if it exists already (without overwrite_layer), or GDAL cannot make it. */
-bool gis_sink_add(gis_sink *sink, const gis_layer_request *request, gis_sink_layer **out, gis_error *error);
+bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sink_layer **out, gis_error *error);
 
 /* One value of a field of the program's own. */
 typedef struct gis_value {

@@ -18,7 +18,7 @@
 #include "write/format.h"
 #include "write/rtree.h"
 #include "write/sink.h"
-#include "write/stage.h"
+#include "stage/stage.h"
 
 /* One feature as it was sent, so that it can be compared: a source feature and its move, or a geometry of its own. */
 typedef struct gis_sent {
@@ -59,19 +59,19 @@ typedef struct gis_digests {
 
 struct gis_sink_layer {
     gis_sink *sink;
-    gis_layer_request request; /* its field list is copied */
-    char *name;                /* of the layer */
-    char *file;                /* base name of its file, where it has one of its own; else NULL */
-    GDALDatasetH dataset;      /* NULL when closed */
-    OGRLayerH layer;           /* NULL when closed */
-    OGRwkbGeometryType type;   /* as asked for */
-    bool has_encoding;         /* a Shapefile's file that tells it is asked for */
-    bool promote;              /* Polygons become MultiPolygons: the source said Polygon and meant both */
-    bool wind;                 /* rings are turned as Shapefiles want them before they are written */
-    int *field_map;            /* field of the source -> field of the layer, -1: not written */
-    int *own;                  /* the program's own fields -> field of the layer */
-    int fid_field;             /* where sunder_fid is, or -1 */
-    char **created;            /* names of the layer's fields, by field of the source; "" where not written */
+    gis_sink_layer_request request; /* its field list is copied */
+    char *name;                     /* of the layer */
+    char *file;                     /* base name of its file, where it has one of its own; else NULL */
+    GDALDatasetH dataset;           /* NULL when closed */
+    OGRLayerH layer;                /* NULL when closed */
+    OGRwkbGeometryType type;        /* as asked for */
+    bool has_encoding;              /* a Shapefile's file that tells it is asked for */
+    bool promote;                   /* Polygons become MultiPolygons: the source said Polygon and meant both */
+    bool wind;                      /* rings are turned as Shapefiles want them before they are written */
+    int *field_map;                 /* field of the source -> field of the layer, -1: not written */
+    int *own;                       /* the program's own fields -> field of the layer */
+    int fid_field;                  /* where sunder_fid is, or -1 */
+    char **created;                 /* names of the layer's fields, by field of the source; "" where not written */
     bool can_measure, can_curve;
     size_t written;
     gis_boxes boxes; /* for the spatial index of a GeoPackage */
@@ -84,26 +84,26 @@ struct gis_sink_layer {
     bool more_digits;       /* than tell a double: the layer is written for the second time */
     gis_value *sent_values; /* where it may be: n_fields for each that was sent, texts owned */
     size_t values_room;     /* for so many features */
-    gis_change *changes; /* by field of the source; NULL: not looked for */
+    gis_change *changes;    /* by field of the source; NULL: not looked for */
 };
 
-typedef enum gis_place {
+typedef enum gis_sink_place {
     GIS_PLACE_FILE,    /* staged beside the output, renamed */
     GIS_PLACE_MEMORY,  /* staged in memory, copied out: /vsistdout/ and other virtual files */
     GIS_PLACE_DATABASE /* one transaction */
-} gis_place;
+} gis_sink_place;
 
 struct gis_sink {
     gis_sink_request request;
     const gis_source *source;
     gis_format format;
-    gis_place place;
+    gis_sink_place place;
     bool to_stdout;
-    bool updating;     /* the output exists and gets more layers */
-    bool fids_kept;    /* FIDs of the source are set; else sunder_fid holds them */
-    gis_stage *stage;  /* of GIS_PLACE_FILE */
-    char *memory;      /* directory of GIS_PLACE_MEMORY, and of what is only written */
-    char *main_file;   /* base name of the main file in the stage */
+    bool updating;        /* the output exists and gets more layers */
+    bool fids_kept;       /* FIDs of the source are set; else sunder_fid holds them */
+    gis_stage *stage;     /* of GIS_PLACE_FILE */
+    char *memory;         /* directory of GIS_PLACE_MEMORY, and of what is only written */
+    char *main_file;      /* base name of the main file in the stage */
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
     GDALDatasetH reader;  /* of a SQLite file in a transaction: holds everyone's commit back by its open result */
     OGRLayerH reading;

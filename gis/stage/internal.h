@@ -1,13 +1,13 @@
-/* stage_internal.h: what the files of the stage share.
+/* internal.h: what the files of the stage share.
  *
  *   stage.c          the hidden directory and what is put in it
- *   stage_publish.c  renames, and their undoing
- *   stage_remains.c  what a run left that was killed among its renames */
+ *   publish.c        renames, and their undoing
+ *   remains.c        what a run left that was killed among its renames */
 #ifndef GIS_STAGE_INTERNAL_H
 #define GIS_STAGE_INTERNAL_H
 
 #include "base/interrupt.h"
-#include "write/stage.h"
+#include "stage/stage.h"
 
 /* All stages are called so, with six signs at the end. */
 #define GIS_STAGE_PREFIX ".sunder-"

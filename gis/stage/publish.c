@@ -1,12 +1,12 @@
-/* stage_publish.c: the renames that put staged files in place, and their undoing.
+/* publish.c: the renames that put staged files in place, and their undoing.
  *
  * Everything is synced before the first rename. One rename is one step: a single file that replaces a single file is at
  * every moment the old one or the new one. Several are not, and the process may be killed between two of them: so a
  * record of what will be done is written and synced first, superseded files step aside into the stage, new files come
  * to their places, the main one last. As long as one new file is still in the stage the run did not finish, and whoever
- * finds the record can bring the old state back (stage_remains.c); with the last one the new state is complete. */
+ * finds the record can bring the old state back (remains.c); with the last one the new state is complete. */
 #define _GNU_SOURCE
-#include "write/stage_internal.h"
+#include "stage/internal.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

@@ -1,7 +1,7 @@
 /* stage.c: the hidden directory and what is put in it. Its maker holds a lock on it as long
- * as it lives: by that a stage whose maker was killed is told from one at work (stage_remains.c). */
+ * as it lives: by that a stage whose maker was killed is told from one at work (remains.c). */
 #define _GNU_SOURCE
-#include "write/stage_internal.h"
+#include "stage/internal.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

@@ -1,11 +1,11 @@
-/* stage_remains.c: what a run left that was killed among its renames, and the way back.
+/* remains.c: what a run left that was killed among its renames, and the way back.
  *
  * A stage whose lock can be had belongs to nobody that lives. If it has a record and a new file is still in it, the run
  * did not finish: what stepped aside goes back, what came to a place that was empty is taken away (if it is the very
  * file of the record), and the output is as it was. Each step may be repeated: a run that is killed at this leaves what
  * the next one can finish. If no new file is in it, all were put in place, and only the stage remained. */
 #define _GNU_SOURCE
-#include "write/stage_internal.h"
+#include "stage/internal.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

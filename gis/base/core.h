@@ -1,0 +1,12 @@
+/* core.h: what the library says when it fails, as an error of the program. */
+#ifndef GIS_CORE_H
+#define GIS_CORE_H
+
+#include "base/error.h"
+#include "sunder.h"
+
+/* False, with the library's sentence, after "WHO: " unless that is NULL. That it was stopped is said as the program
+ * says it, whoever was stopped. */
+bool gis_core_failed(gis_error *error, const char *who, const sunder_error *why);
+
+#endif
