@@ -27,6 +27,9 @@ typedef struct sunder_i_vector_exact {
 
 sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
 sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder_i_big w);
+/* As big integers. */
+void sunder_i_vector_parts(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_i_big *x,
+                           sunder_i_big *y, sunder_i_big *w);
 
 /* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
 void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out);
@@ -41,9 +44,5 @@ void sunder_i_vector_doubles(sunder_i_operands *operands, double dx, double dy, 
 
 /* Are out->dx and out->dy exactly the vector? */
 bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_vector_exact *v, double dx, double dy);
-
-/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far.
- */
-bool sunder_i_doubles_free(sunder_i_operands *operands, double dx, double dy);
 
 #endif

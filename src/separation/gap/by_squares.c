@@ -122,23 +122,23 @@ static bool look_at_all(gathering *c, bool *done)
 /* ---- What they keep becomes what is searched ---- */
 
 /* Boxes of -Q, and of P, are pieces too. */
-static bool add_rings(sunder_i_operands *g, const sunder_i_bodies *b, int side)
+static bool add_boxes(sunder_i_operands *g, const sunder_i_bodies *b, int side)
 {
     const uint32_t pieces = g->shape[side]->pieces;
     sunder_i_arena *arena = &g->placed.lattice.arena;
-    sunder_i_ring *ring = sunder_i_arena_alloc(arena, b->n, sizeof *ring);
+    sunder_i_turned_piece *piece = sunder_i_arena_alloc(arena, b->n, sizeof *piece);
     sunder_i_point *point = sunder_i_arena_alloc(arena, b->boxes, 9 * sizeof *point);
-    if (!ring || !point) return false;
-    memcpy(ring, g->ring[side], pieces * sizeof *ring);
+    if (!piece || !point) return false;
+    memcpy(piece, g->turned[side], pieces * sizeof *piece);
     for (uint32_t k = 0; k < b->boxes; k++, point += 9) {
         const double *v = b->box + 4 * (size_t)k;
         const int64_t x0 = (int64_t)v[0], y0 = (int64_t)v[1], x1 = (int64_t)v[2], y1 = (int64_t)v[3];
         const sunder_i_point corner[5] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}};
         memcpy(point, corner, sizeof corner);
         for (int m = 0; m < 4; m++) point[5 + m] = sunder_i_narrow_sub(corner[m + 1], corner[m]);
-        ring[pieces + k] = (sunder_i_ring){4, point, point + 5};
+        piece[pieces + k] = (sunder_i_turned_piece){4, point, point + 5};
     }
-    g->ring[side] = ring;
+    g->turned[side] = piece;
     return true;
 }
 
@@ -207,7 +207,7 @@ static bool take_segments(gathering *c)
 static bool take_all(gathering *c)
 {
     sunder_i_operands *g = c->p->operands;
-    return add_rings(g, &c->q->bodies[0], 0) && add_rings(g, &c->q->bodies[1], 1) && number_pairs(c) &&
+    return add_boxes(g, &c->q->bodies[0], 0) && add_boxes(g, &c->q->bodies[1], 1) && number_pairs(c) &&
            take_segments(c);
 }
 

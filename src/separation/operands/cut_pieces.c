@@ -50,8 +50,8 @@ static bool cut_operand(sunder_i_operands *g, int side)
     }
     g->shape[side] = out;
     g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));
-    g->ring[side] = sunder_i_arena_alloc(arena, out->pieces, sizeof *g->ring[side]);
-    if (!g->ring[side]) return false;
+    g->turned[side] = sunder_i_arena_alloc(arena, out->pieces, sizeof *g->turned[side]);
+    if (!g->turned[side]) return false;
     sunder_i_operands_fill_boxes(g, side);
     return true;
 }
@@ -63,7 +63,7 @@ void sunder_i_operands_uncut(sunder_i_operands *g, const sunder_i_operands *befo
     for (int k = 0; k < 2; k++) {
         g->shape[k] = before->shape[k];
         g->piece_box[k] = before->piece_box[k];
-        g->ring[k] = before->ring[k];
+        g->turned[k] = before->turned[k];
     }
 }
 

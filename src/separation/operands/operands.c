@@ -31,7 +31,7 @@ void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
         for (; c < s->piece_end[i]; c++) grow_box(box, xy[2 * s->piece_vertex[c]], xy[2 * s->piece_vertex[c] + 1]);
         grow_box(all, box[0], box[1]);
         grow_box(all, box[2], box[3]);
-        g->ring[side][i].n = 0;
+        g->turned[side][i].n = 0;
     }
     for (int k = 0; k < 4; k++) g->magnitude = fmax(g->magnitude, fabs(all[k]));
 }
@@ -49,7 +49,8 @@ static bool make_room(sunder_i_operands *g, sunder_i_point **points)
 {
     const size_t pn = g->shape[0]->vertices, qn = g->shape[1]->vertices;
     const size_t pp = g->shape[0]->pieces, qp = g->shape[1]->pieces;
-    const size_t doubles = (2 * (pn + qn) + 4 * (pp + qp)) * sizeof(double), rings = (pp + qp) * sizeof(sunder_i_ring);
+    const size_t doubles = (2 * (pn + qn) + 4 * (pp + qp)) * sizeof(double),
+                 rings = (pp + qp) * sizeof(sunder_i_turned_piece);
     const size_t extra = points ? (pn + qn) * sizeof **points : 0;
     char *block = sunder_i_arena_alloc(&g->placed.lattice.arena, doubles + rings + extra, 1);
     if (!block) return false;
@@ -57,8 +58,8 @@ static bool make_room(sunder_i_operands *g, sunder_i_point **points)
     g->xy[1] = g->xy[0] + 2 * pn;
     g->piece_box[0] = g->xy[1] + 2 * qn;
     g->piece_box[1] = g->piece_box[0] + 4 * pp;
-    g->ring[0] = (sunder_i_ring *)(void *)(block + doubles);
-    g->ring[1] = g->ring[0] + pp;
+    g->turned[0] = (sunder_i_turned_piece *)(void *)(block + doubles);
+    g->turned[1] = g->turned[0] + pp;
     if (points) *points = (sunder_i_point *)(void *)(block + doubles + rings);
     return true;
 }

@@ -23,10 +23,10 @@ typedef struct sunder_i_subsum {
 } sunder_i_subsum;
 
 /* A convex piece that starts at its lowest corner; the first corner stands again at the end. */
-typedef struct sunder_i_ring {
+typedef struct sunder_i_turned_piece {
     uint32_t n; /* sides; 0: not made yet */
     sunder_i_point *corner, *side;
-} sunder_i_ring;
+} sunder_i_turned_piece;
 
 typedef struct sunder_i_operands {
     const sunder_shape *shape[2];
@@ -42,7 +42,7 @@ typedef struct sunder_i_operands {
     double base[2];   /* a translation of both that was left out */
     double unit;      /* about: length of one unit; may be 0 or infinite past the range of doubles */
 
-    sunder_i_ring *ring[2];  /* [pieces] */
+    sunder_i_turned_piece *turned[2]; /* [pieces] */
     sunder_i_subsum *subsum; /* those within reach (sunder_i_operands_reach); they that may cover the origin first */
     size_t subsums;
     struct sunder_i_board *board; /* what is known of them all together; NULL: nothing (board.h) */

@@ -102,9 +102,9 @@ static uint32_t lowest(sunder_i_operands *g, int side, uint32_t first, uint32_t 
 }
 
 /* The piece's corners and sides, one more corner than sides; NULL if memory is out. */
-static const sunder_i_ring *turned(sunder_i_operands *g, int side, uint32_t piece)
+static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, uint32_t piece)
 {
-    sunder_i_ring *r = g->ring[side] + piece;
+    sunder_i_turned_piece *r = g->turned[side] + piece;
     if (r->n) return r;
     const sunder_shape *s = g->shape[side];
     const uint32_t first = piece ? s->piece_end[piece - 1] : 0, n = s->piece_end[piece] - first;
@@ -126,7 +126,7 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 {
     for (int side = 0; side < 2; side++)
         for (uint32_t i = 0; i < g->shape[side]->pieces; i++)
-            if (!turned(g, side, i)) return false;
+            if (!turn_piece(g, side, i)) return false;
     return true;
 }
 
@@ -134,8 +134,8 @@ bool sunder_i_operands_turn(sunder_i_operands *g)
 
 /* Both start at their lowest corners, so that their sides are sorted by angle in [0, 2 pi), and the two sides at hand
  * are never pi or more apart: the side before the further one came before the other, and turns by less than pi. */
-static uint32_t merge(sunder_i_operands *g, const sunder_i_ring *a, const sunder_i_ring *b, sunder_i_point *corner,
-                      sunder_i_point *side)
+static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
+                      sunder_i_point *corner, sunder_i_point *side)
 {
     uint32_t n = 0;
     sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
@@ -150,7 +150,7 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_ring *a, const sunder
 bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const sunder_i_ring *a = turned(g, 0, s->i), *b = turned(g, 1, s->j);
+    const sunder_i_turned_piece *a = turn_piece(g, 0, s->i), *b = turn_piece(g, 1, s->j);
     if (!a || !b) return false;
     const size_t most = (size_t)a->n + b->n;
     sunder_i_point *points = sunder_i_arena_alloc(&l->arena, most, 2 * sizeof *points + 5 * sizeof *s->cx);

@@ -58,7 +58,7 @@ bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
 
 /* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
  * that if the sum itself holds what is left of the square, so much smaller. */
-static void query_to_hold(sunder_i_squares *q, const double at[4], double less[4])
+void sunder_i_squares_query(sunder_i_squares *q, const double at[4], double less[4])
 {
     const double by = 0.70 * q->gap;
     for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
@@ -163,7 +163,7 @@ sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *q, const double at
                                             uint32_t tries)
 {
     double less[4];
-    query_to_hold(q, at, less);
+    sunder_i_squares_query(q, at, less);
     q->dop = sunder_i_dop_query(q->g, less, 0);
     q->tries = tries;
     q->best_depth = -INFINITY;
@@ -174,67 +174,4 @@ sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *q, const double at
     memcpy(remembered(q), q->best, sizeof q->best);
     for (int k = 0; k < 2; k++) q->holder[k] = q->bodies[k].node[q->best[k]].chief;
     return how;
-}
-
-/* ---- Pieces ---- */
-
-/* With a gap those that are farther by little more than that are listed too, as the search with a gap asks beside its
- * points. */
-static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
-{
-    const sunder_i_square_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->query);
-    const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
-    if (q->gap > 0) {
-        const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
-        return d.touch + gap < -e ? SUNDER_I_OUTSIDE : d.in > e ? SUNDER_I_WITHIN : SUNDER_I_ACROSS;
-    }
-    if (d.touch < -e) return SUNDER_I_OUTSIDE;
-    if (d.in > e) return SUNDER_I_WITHIN;
-    return d.touch > e && d.in < -e ? SUNDER_I_ACROSS : sunder_i_squares_position(q, q->at, i, j);
-}
-
-/* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
-static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32_t part[2][2])
-{
-    const bool first = b >= q->bodies[1].pieces.leaves || (a < q->bodies[0].pieces.leaves && a <= b);
-    for (uint32_t k = 0; k < 2; k++) {
-        part[k][0] = first ? 2 * a + k : a;
-        part[k][1] = first ? b : 2 * b + k;
-    }
-}
-
-/* Adds the pairs below two nodes; false once there are more than `most`, or if one of them holds the square (q->held),
- * or if memory is out. */
-static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
-{
-    const sunder_i_dop_tree *p = &q->bodies[0].pieces, *r = &q->bodies[1].pieces;
-    if (!sunder_i_dop_near(p->extent + a, r->extent + b, &q->dop)) return true;
-    if (a >= p->leaves && b >= r->leaves) {
-        const uint32_t i = p->piece[a - p->leaves], j = r->piece[b - r->leaves];
-        if (!sunder_i_step()) return false;
-        const sunder_i_square_position where = position_to_subsum(q, i, j);
-        if (where == SUNDER_I_OUTSIDE) return true;
-        q->held = where == SUNDER_I_WITHIN;
-        q->holder[0] = i;
-        q->holder[1] = j;
-        if (q->held) return false;
-        if (q->pairs == most || !sunder_i_reserve(&q->pair, &q->pairs_capacity, q->pairs + 1, sizeof *q->pair))
-            return false;
-        q->pair[q->pairs][0] = i;
-        q->pair[q->pairs++][1] = j;
-        return true;
-    }
-    uint32_t part[2][2];
-    open_nodes(q, a, b, part);
-    return gather(q, part[0][0], part[0][1], most) && gather(q, part[1][0], part[1][1], most);
-}
-
-bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t most)
-{
-    double less[4];
-    query_to_hold(q, at, less);
-    q->dop = sunder_i_dop_query(q->g, at, q->gap);
-    q->pairs = 0;
-    q->held = false;
-    return gather(q, 1, 1, most);
 }

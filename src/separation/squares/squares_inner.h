@@ -55,6 +55,9 @@ typedef enum sunder_i_square_position { SUNDER_I_OUTSIDE, SUNDER_I_ACROSS, SUNDE
 sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *squares, const double square[4], uint32_t i,
                                                    uint32_t j);
 
+/* Takes a square for the one at hand: sets the query, and `at` to `less`, the square less what sums grow by. */
+void sunder_i_squares_query(sunder_i_squares *squares, const double square[4], double less[4]);
+
 /* Does the sum of a box inside P and one inside -Q hold the square? */
 bool sunder_i_squares_boxes_hold(sunder_i_squares *squares, const double square[4]);
 

@@ -1,0 +1,103 @@
+/* Are the nearest doubles of a translation free as well? A double is an integer over a power of two on the lattice;
+ * where both fit 128 bits the sides of the subsums are asked in these, else in big integers, and doubles first. */
+#include "separation/penetration/search.h"
+
+#include "predicate/vector.h"
+#include "separation/answer/answer.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct dyadic {
+    double ax, ay; /* in units */
+    bool native;   /* the integers below hold it */
+    sunder_i_i128 x, y;
+    unsigned bits;           /* x / 2^bits, y / 2^bits */
+    sunder_i_big bx, by, bw; /* else: bx / bw, by / bw */
+} dyadic;
+
+/* Native: v = m 2^f lattice units with |m| < 2^53. */
+static bool native_units(double v, long exponent, int64_t *m, long *f)
+{
+    int e;
+    *m = (int64_t)ldexp(frexp(v, &e), 53);
+    *f = e - 53 - exponent;
+    if (*m == 0) {
+        *f = 0;
+        return true;
+    }
+    const int z = __builtin_ctzll((uint64_t)(*m < 0 ? -*m : *m));
+    *m /= (int64_t)1 << z;
+    *f += z;
+    return *f > -64 && *f < 64;
+}
+
+static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    dyadic d;
+    memset(&d, 0, sizeof d);
+    int64_t mx, my;
+    long fx, fy;
+    if (l->small && l->approx_shift == 0 && native_units(dx, l->exponent, &mx, &fx) &&
+        native_units(dy, l->exponent, &my, &fy)) {
+        const long low = fx < fy ? fx < 0 ? fx : 0 : fy < 0 ? fy : 0;
+        if (fx - low < 70 && fy - low < 70) {
+            d.native = true;
+            d.bits = (unsigned)-low;
+            d.x = mx * ((sunder_i_i128)1 << (fx - low));
+            d.y = my * ((sunder_i_i128)1 << (fy - low));
+            d.ax = ldexp((double)mx, (int)fx);
+            d.ay = ldexp((double)my, (int)fy);
+            return d;
+        }
+    }
+    sunder_i_vector_doubles(g, dx, dy, &d.bx, &d.by, &d.bw);
+    d.ax = sunder_i_big_ratio(&l->arena, d.bx, d.bw, -l->approx_shift);
+    d.ay = sunder_i_big_ratio(&l->arena, d.by, d.bw, -l->approx_shift);
+    return d;
+}
+
+/* Side of the point to side k of the subsum. Exact. */
+static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_subsum *s, uint32_t k)
+{
+    sunder_i_lattice *l = &g->placed.lattice;
+    l->counts.orientation_tests++;
+    l->counts.exact_fallbacks++;
+    if (d->native && sunder_i_point_is_plain(s->corner[k]) && sunder_i_point_is_plain(s->side[k])) {
+        /* |corner| < 2^61 and bits < 64, so differences stay below 2^126. */
+        const sunder_i_i128 one = (sunder_i_i128)1 << d->bits;
+        const sunder_i_i128 x = d->x - s->corner[k].x * one, y = d->y - s->corner[k].y * one;
+        return sunder_i_cmp_products(s->side[k].x, y, s->side[k].y, x);
+    }
+    if (l->arena.failed) return 0;
+    const sunder_i_mark mark = sunder_i_lattice_begin(l);
+    sunder_i_arena *m = &l->scratch;
+    sunder_i_vector at = {d->bx, d->by, d->bw};
+    if (d->native)
+        at = (sunder_i_vector){sunder_i_big_i128(m, d->x), sunder_i_big_i128(m, d->y),
+                               sunder_i_big_shl(m, sunder_i_big_i64(m, 1), d->bits)};
+    const sunder_i_vector v = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, s->corner[k]));
+    const int sign = sunder_i_big_sign(sunder_i_vector_cross(m, sunder_i_vector_get(m, l, s->side[k]), v));
+    sunder_i_lattice_end(l, mark);
+    return sign;
+}
+
+bool sunder_i_doubles_free(sunder_i_operands *g, double dx, double dy)
+{
+    if (!isfinite(dx) || !isfinite(dy)) return false;
+    const dyadic d = dyadic_of(g, dx, dy);
+    const double e = g->error;
+    for (size_t n = 0; n < g->subsums; n++) {
+        sunder_i_subsum *s = g->subsum + n;
+        if (d.ax < s->box[0] - e || d.ax > s->box[2] + e || d.ay < s->box[1] - e || d.ay > s->box[3] + e) continue;
+        if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
+        bool inside = true;
+        for (uint32_t k = 0; k < s->sides && inside; k++) {
+            const double v = s->sx[k] * (d.ay - s->cy[k]) - s->sy[k] * (d.ax - s->cx[k]);
+            inside = v > s->bound[k] || (v >= -s->bound[k] && dyadic_side(g, &d, s, k) > 0);
+        }
+        if (inside) return false;
+    }
+    return true;
+}
