@@ -1,6 +1,7 @@
 #include "separation/gap/search.h"
 
 #include "base/sort.h"
+#include "separation/squares/squares.h"
 
 #include <math.h>
 #include <string.h>
@@ -112,9 +113,9 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-/* So many pairs of pieces are searched by squares: those with many corners cut up, and whole ones. */
+/* So many pairs of pieces, those with many corners cut up, are searched by squares: fewer than without a gap, for here
+ * a point is asked of all subsums that are listed, and arcs are crossed with each other. */
 #define SQUARES_FROM 4096
-#define SQUARES_WHOLE 64
 
 /* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
 static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
@@ -131,8 +132,7 @@ static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options
 {
     const sunder_i_operands *g = p->operands;
     if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false; /* boxes are on a narrow one only */
-    return o->force_squares || ((uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SQUARES_WHOLE &&
-                                sunder_i_operands_parts(g) >= SQUARES_FROM);
+    return o->force_squares || sunder_i_squares_worth(g, SQUARES_FROM);
 }
 
 static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_places *places,

@@ -255,11 +255,12 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bo
     return SUNDER_OK;
 }
 
-/* Operands of so many pairs of pieces are searched square by square. Where that is not the way, most of their pairs may
- * still be far off, as of neighbouring countries, and would fill the memory: so the search begins in a small disc then,
- * and in a larger one where that holds no free point. */
-#define WIDEN_FROM 16384 /* pairs of pieces, those with many corners cut up; */
-#define WIDEN_WHOLE 64   /* and of whole ones */
+/* Operands of so many pairs of pieces, those with many corners cut up, are searched square by square; with fewer their
+ * pairs are listed before the trees for squares are made. */
+#define SQUARES_FROM 16384
+/* Where squares are not the way, most of the pairs may still be far off, as of neighbouring countries, and would fill
+ * the memory: so the search begins in a small disc then, and in one so many times as wide where that holds no free
+ * point, and so on, so many times. Countries that overlap by a sliver are parted within the first, 8^-4 of the way out. */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 
@@ -279,8 +280,7 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *g, double limit, su
                                           sunder_error *err)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const bool many =
-        (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= WIDEN_WHOLE && sunder_i_operands_parts(g) >= WIDEN_FROM;
+    const bool many = sunder_i_squares_worth(g, SQUARES_FROM);
     if (many) {
         bool done = false;
         const sunder_status status = by_parts(g, limit, &done, out, err);

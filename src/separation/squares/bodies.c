@@ -3,11 +3,10 @@
 #include "separation/squares/bodies.h"
 
 #include "base/watch.h"
+#include "separation/squares/tuning.h"
 
 #include <math.h>
 #include <string.h>
-
-#define BOXES_LEAST 64 /* boxes, and as many as a quarter of the pieces: the largest */
 
 /* ---- Corners ---- */
 

@@ -11,18 +11,12 @@
  * All in doubles or floats and one-sided: held is certain, and a pair that is not listed stays off by more than the
  * error. */
 #include "separation/squares/squares_inner.h"
+#include "separation/squares/tuning.h"
 
 #include "base/watch.h"
 
 #include <math.h>
 #include <string.h>
-
-#define MOST_TRIES 1000 /* pairs of boxes that are looked at to hold one square */
-/* Nodes are taken by how deep the square is in the sum of their chiefs, and by this much of how deep it can be in any
- * by their extents. Those about the pair that held nearly the square that this is a quarter of, so many levels up, come
- * along with the roots. By measurement on stars; nothing of it matters much. */
-#define DEEP 0.25f
-#define LEVELS 2
 
 /* ---- Boxes ---- */
 
@@ -37,7 +31,7 @@ static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const doubl
     const int32_t u = q->quadtree[0].child[a], v = q->quadtree[1].child[b];
     if (u == SUNDER_I_QUADTREE_REST || v == SUNDER_I_QUADTREE_REST) return false;
     if (u == SUNDER_I_QUADTREE_FULL && v == SUNDER_I_QUADTREE_FULL) return true;
-    if (++q->tries > MOST_TRIES) return false;
+    if (++q->tries > MOST_BOX_PAIRS) return false;
     const bool of_p =
         v == SUNDER_I_QUADTREE_FULL || (u != SUNDER_I_QUADTREE_FULL && abox[2] - abox[0] >= bbox[2] - bbox[0]);
     for (int k = 0; k < 4; k++) {
@@ -57,10 +51,12 @@ bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
 /* ---- Bodies ---- */
 
 /* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
- * that if the sum itself holds what is left of the square, so much smaller. */
+ * that if the sum itself holds what is left of the square, so much smaller; somewhat less than that, for rounding. */
+#define SQUARE_IN_DISC 0.70
+
 void sunder_i_squares_query(sunder_i_squares *q, const double at[4], double less[4])
 {
-    const double by = 0.70 * q->gap;
+    const double by = SQUARE_IN_DISC * q->gap;
     for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
     q->query = sunder_i_bodies_query(q->g, less);
     q->at = less;
@@ -122,7 +118,7 @@ static sunder_i_holding open_pair(sunder_i_squares *q, const sunder_i_node_pair 
         }
         const float out = b[0].node[part.node[0]].reach + b[1].node[part.node[1]].reach;
         if (part.in + out <= 0) continue;
-        part.key = part.in + DEEP * depth;
+        part.key = part.in + EXTENTS_COUNT * depth;
         if (!push_node(q, part)) return SUNDER_I_HOLDING_NO_MEMORY;
     }
     return SUNDER_I_HOLDING_NONE;
@@ -143,7 +139,7 @@ static sunder_i_holding search_nodes(sunder_i_squares *q, const uint32_t first[2
     q->nodes = 0;
     if (holds(q, first, &near.in) || holds(q, remembered(q), &all.in) || holds(q, all.node, &all.in))
         return SUNDER_I_HOLDING_FOUND;
-    for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS ? q->best[k] >> LEVELS : 1;
+    for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS_UP ? q->best[k] >> LEVELS_UP : 1;
     if ((near.node[0] > 1 || near.node[1] > 1) && holds(q, near.node, &near.in)) return SUNDER_I_HOLDING_FOUND;
     near.key = near.in;
     all.key = all.in;

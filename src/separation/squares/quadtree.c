@@ -1,14 +1,13 @@
+/* The operand's box is quartered as long as boundary passes through the parts. A box that none passes through is inside
+ * if one of its points is, and then all of it is, with room to spare: edges are widened by the error. Lists of the
+ * edges and pieces that come near go down with the boxes, so that each box asks only those of its parent. */
 #include "separation/squares/quadtree.h"
 
 #include "base/watch.h"
+#include "separation/squares/tuning.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Boxes are quartered as long as boundary passes through them, but not so far that these are more than so many for each
- * edge: many edges that are long beside the operand, as of a star, pass through nearly all. */
-#define DEEPEST 14
-#define BOXES_EACH 16
 
 typedef struct item {
     double box[4];
@@ -23,7 +22,7 @@ typedef struct builder {
     int side, deepest;
     uint32_t *edges, *pieces; /* lists of the boxes on the stack, one after the other */
     size_t edges_n, edges_capacity, pieces_n, pieces_capacity;
-    item stack[3 * DEEPEST + 4];
+    item stack[3 * DEEPEST_BOX + 4];
     int stack_n;
 } builder;
 
@@ -47,12 +46,12 @@ static bool meets(const builder *b, uint32_t piece, const double box[4])
     return p[0] <= box[2] && p[2] >= box[0] && p[1] <= box[3] && p[3] >= box[1];
 }
 
-/* Is a certain point of the box in the piece for certain? Off its middle, where sides of pieces often pass. */
+/* Is a certain point of the box in the piece for certain? */
 static bool has_point(const builder *b, uint32_t piece, const double box[4])
 {
     const sunder_i_operand_piece c = sunder_i_operands_piece(b->g, b->side, piece);
     const double *xy = b->g->xy[b->side], e = 4 * b->g->error, fixed = 8 * b->g->magnitude * b->g->coarse;
-    const double x = box[0] + 0.4142 * (box[2] - box[0]), y = box[1] + 0.2679 * (box[3] - box[1]);
+    const double x = box[0] + ASK_X * (box[2] - box[0]), y = box[1] + ASK_Y * (box[3] - box[1]);
     for (uint32_t k = 0; k < c.n; k++) {
         const double *p = xy + 2 * (size_t)c.corner[k], *q = xy + 2 * (size_t)sunder_i_piece_next(&c, k);
         const double dx = q[0] - p[0], dy = q[1] - p[1];
@@ -161,7 +160,7 @@ static int depth_for(const sunder_i_operands *g, int side)
     }
     const double boxes = length / fmax(all[2] - all[0], all[3] - all[1]); /* that are as large as the operand */
     int depth = 3;
-    while (depth < DEEPEST && ldexp(boxes, depth + 1) <= BOXES_EACH * (double)s->vertices) depth++;
+    while (depth < DEEPEST_BOX && ldexp(boxes, depth + 1) <= BOXES_EACH * (double)s->vertices) depth++;
     return depth;
 }
 

@@ -2,28 +2,12 @@
  * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
  * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
 #include "separation/squares/squares_inner.h"
+#include "separation/squares/tuning.h"
 
 #include "base/watch.h"
 
 #include <math.h>
 #include <string.h>
-
-/* With so few pairs a square is searched as it is; with twice as many after each halving from a certain one on, as many
- * may truly meet in one point. */
-#define FEW_PAIRS 32
-#define PATIENT 8
-/* So many sums are tried to hold a square: twice as many after each halving from a certain one on, where there may be
- * one that does among thousands that nearly do. */
-#define HOLD_TRIES 16
-#define HOLD_PATIENT 5
-#define HOLD_MOST 18 /* doublings */
-#define DEEPEST 28   /* for tries to be numbered; by then a square holds nothing but rounding */
-#define ORIGIN_TRIES 1024
-/* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
- * microseconds, and what else could be done takes all pairs of pieces. */
-#define MOST_SQUARES 20000
-#define MOST_EACH 8
-#define MOST_PAIRS 32
 
 /* ---- The heap ---- */
 
@@ -109,7 +93,7 @@ sunder_i_square_state sunder_i_squares_look(sunder_i_squares *q, const sunder_i_
 
 bool sunder_i_squares_too_many(const sunder_i_squares *q, const sunder_i_square *s)
 {
-    return q->seen > q->most || s->depth > DEEPEST;
+    return q->seen > q->most || s->depth > DEEPEST_SQUARE;
 }
 
 sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *q, double limit, double box[4], sunder_i_mark *mark,
@@ -142,6 +126,12 @@ static bool make_tables(sunder_i_squares *q, int side)
         for (uint32_t k = 0; k < p.n; k++) q->first_piece[side][p.corner[k]] = i;
     }
     return true;
+}
+
+bool sunder_i_squares_worth(const sunder_i_operands *g, uint64_t pairs)
+{
+    return (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SUNDER_I_SQUARES_WHOLE &&
+           sunder_i_operands_parts(g) >= pairs;
 }
 
 sunder_i_squares *sunder_i_squares_new(sunder_i_operands *g, double reach, double gap)

@@ -15,6 +15,9 @@ typedef enum sunder_i_squares_next {
     SUNDER_I_SQUARES_NO_MEMORY
 } sunder_i_squares_next;
 
+/* Are these operands of so many pieces, those with many corners cut up, that they make `pairs` pairs? */
+bool sunder_i_squares_worth(const sunder_i_operands *operands, uint64_t pairs);
+
 /* Of all translations with coordinates up to `reach`, with subsums grown by a disc of radius `gap`. NULL if memory is
  * out. */
 sunder_i_squares *sunder_i_squares_new(sunder_i_operands *operands, double reach, double gap);
