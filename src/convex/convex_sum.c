@@ -5,25 +5,10 @@
 #include "convex/merge.h"
 #include "predicate/predicate.h"
 
-static bool is_one(sunder_i_big w) { return w.size == 1 && w.limb[0] == 1; }
-
-/* a + b; where both have denominators the product of these is the sum's, not reduced. */
-static void add_corners(sunder_i_arena *arena, const sunder_i_corner *a, const sunder_i_corner *b, sunder_i_big out[3])
-{
-    const bool whole_a = is_one(a->w), whole_b = is_one(b->w);
-    const sunder_i_big ax = whole_b ? a->x : sunder_i_big_mul(arena, a->x, b->w);
-    const sunder_i_big ay = whole_b ? a->y : sunder_i_big_mul(arena, a->y, b->w);
-    const sunder_i_big bx = whole_a ? b->x : sunder_i_big_mul(arena, b->x, a->w);
-    const sunder_i_big by = whole_a ? b->y : sunder_i_big_mul(arena, b->y, a->w);
-    out[0] = sunder_i_big_add(arena, ax, bx);
-    out[1] = sunder_i_big_add(arena, ay, by);
-    out[2] = whole_a ? b->w : whole_b ? a->w : sunder_i_big_mul(arena, a->w, b->w);
-}
-
 static bool make_room(sunder_i_arena *arena, uint32_t most, sunder_i_convex_sum *s)
 {
     s->corners = 0;
-    s->xyw = sunder_i_arena_alloc(arena, most, sizeof *s->xyw);
+    s->at = sunder_i_arena_alloc(arena, most, sizeof *s->at);
     s->along = sunder_i_arena_alloc(arena, most, sizeof *s->along);
     s->of_p = sunder_i_arena_alloc(arena, most, sizeof *s->of_p);
     s->of_q = sunder_i_arena_alloc(arena, most, sizeof *s->of_q);
@@ -45,7 +30,7 @@ bool sunder_i_convex_sum_of(sunder_i_lattice *l, const sunder_i_decomposition *p
         const uint32_t k = s.corners++;
         s.of_p[k] = p->piece_corner[pf + m.a];
         s.of_q[k] = q->piece_corner[qf + m.b];
-        add_corners(arena, &p->corner[s.of_p[k]], &q->corner[s.of_q[k]], s.xyw[k]);
+        s.at[k] = sunder_i_rational_add(arena, p->corner[s.of_p[k]].at, q->corner[s.of_q[k]].at);
         s.side_p[k] = m.of_a;
         s.side_q[k] = m.of_b;
         s.along[k] = m.of_a ? p->along[pf + m.a] : q->along[qf + m.b];

@@ -10,8 +10,7 @@
  * corner of_q[k] of q's; the side from it to the next has the direction along[k]. */
 typedef struct sunder_i_convex_sum {
     uint32_t corners;
-    sunder_i_big (
-        *xyw)[3]; /* [corners] (x / w, y / w), w > 0, on the lattice of both; w is 1 where neither is a Steiner point */
+    sunder_i_rational_point *at; /* [corners] on the lattice of both; w is 1 where neither is a Steiner point */
     sunder_i_point *along; /* [corners] a lattice vector, as in the pieces */
     uint32_t *of_p, *of_q; /* [corners] */
     bool *side_p,

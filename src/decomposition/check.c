@@ -2,26 +2,10 @@
 #include "decomposition/decomposition.h"
 
 #include "predicate/predicate.h"
-#include "predicate/vector.h"
 
-/* A rational num / den, den > 0. */
-typedef struct rational {
-    sunder_i_big num, den;
-} rational;
-
-static rational reduce(sunder_i_arena *a, rational v)
+static sunder_i_ratio add(sunder_i_arena *a, sunder_i_ratio u, sunder_i_ratio v)
 {
-    const sunder_i_big g = sunder_i_big_gcd(a, v.num, v.den);
-    if (g.size == 0) return v;
-    return (rational){sunder_i_big_div_floor(a, v.num, g), sunder_i_big_div_floor(a, v.den, g)};
-}
-
-static rational add(sunder_i_arena *a, rational u, rational v)
-{
-    if (sunder_i_big_cmp(u.den, v.den) == 0) return reduce(a, (rational){sunder_i_big_add(a, u.num, v.num), u.den});
-    return reduce(a,
-                  (rational){sunder_i_big_add(a, sunder_i_big_mul(a, u.num, v.den), sunder_i_big_mul(a, v.num, u.den)),
-                             sunder_i_big_mul(a, u.den, v.den)});
+    return sunder_i_ratio_reduced(a, sunder_i_ratio_add(a, u, v));
 }
 
 static sunder_i_big determinant(sunder_i_arena *a, sunder_i_big p, sunder_i_big q, sunder_i_big r, sunder_i_big s)
@@ -30,27 +14,30 @@ static sunder_i_big determinant(sunder_i_arena *a, sunder_i_big p, sunder_i_big 
 }
 
 /* Twice the area of piece i. */
-static rational piece_area(sunder_i_arena *a, const sunder_i_decomposition *d, uint32_t i)
+static sunder_i_ratio piece_area(sunder_i_arena *a, const sunder_i_decomposition *d, uint32_t i)
 {
-    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
+    sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
     const uint32_t first = sunder_i_piece_first(d, i), end = d->piece_end[i];
     for (uint32_t k = first; k < end; k++) {
         const sunder_i_corner *c = &d->corner[d->piece_corner[k]];
         const sunder_i_corner *e = &d->corner[d->piece_corner[k + 1 < end ? k + 1 : first]];
-        sum = add(a, sum, (rational){determinant(a, c->x, c->y, e->x, e->y), sunder_i_big_mul(a, c->w, e->w)});
+        sum = add(a, sum,
+                  (sunder_i_ratio){determinant(a, c->at.x, c->at.y, e->at.x, e->at.y),
+                                   sunder_i_big_mul(a, c->at.w, e->at.w)});
     }
     return sum;
 }
 
 /* Twice the area of a ring. */
-static rational ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
-                          uint32_t hi)
+static sunder_i_ratio ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
+                                uint32_t hi)
 {
     sunder_i_arena *a = &l->arena;
-    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
+    sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
     for (uint32_t v = lo; v < hi; v++) {
-        const sunder_i_vector p = sunder_i_vector_get(a, l, at[v]), q = sunder_i_vector_get(a, l, at[s->next[v]]);
-        sum = add(a, sum, (rational){sunder_i_vector_cross(a, p, q), sunder_i_big_mul(a, p.w, q.w)});
+        const sunder_i_rational_point p = sunder_i_rational_get(a, l, at[v]),
+                                      q = sunder_i_rational_get(a, l, at[s->next[v]]);
+        sum = add(a, sum, (sunder_i_ratio){sunder_i_rational_cross(a, p, q), sunder_i_big_mul(a, p.w, q.w)});
     }
     return sum;
 }
@@ -59,8 +46,9 @@ static rational ring_area(sunder_i_lattice *l, const sunder_shape *s, const sund
 static bool agrees(sunder_i_lattice *l, const sunder_i_corner *c, const sunder_i_corner *e, sunder_i_point along)
 {
     sunder_i_arena *a = &l->arena;
-    const sunder_i_big dx = determinant(a, e->x, e->w, c->x, c->w), dy = determinant(a, e->y, e->w, c->y, c->w);
-    const sunder_i_vector v = sunder_i_vector_get(a, l, along);
+    const sunder_i_big dx = determinant(a, e->at.x, e->at.w, c->at.x, c->at.w),
+                       dy = determinant(a, e->at.y, e->at.w, c->at.y, c->at.w);
+    const sunder_i_rational_point v = sunder_i_rational_get(a, l, along);
     const sunder_i_big x = v.x, y = v.y;
     return sunder_i_big_sign(determinant(a, dx, dy, x, y)) == 0 &&
            sunder_i_big_sign(sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y))) > 0;
@@ -87,13 +75,13 @@ static const char *check_corner(sunder_i_lattice *l, const sunder_shape *s, cons
 {
     sunder_i_arena *a = &l->arena;
     const sunder_i_corner *c = &d->corner[i];
-    const sunder_i_big g = sunder_i_big_gcd(a, sunder_i_big_gcd(a, c->x, c->y), c->w);
-    if (sunder_i_big_sign(c->w) <= 0 || sunder_i_big_cmp(g, sunder_i_big_i64(a, 1)))
+    const sunder_i_big g = sunder_i_big_gcd(a, sunder_i_big_gcd(a, c->at.x, c->at.y), c->at.w);
+    if (sunder_i_big_sign(c->at.w) <= 0 || sunder_i_big_cmp(g, sunder_i_big_i64(a, 1)))
         return "a corner is not in lowest terms";
     if (i >= s->vertices) return c->vertex != UINT32_MAX ? "a Steiner point is not said as one" : NULL;
-    const sunder_i_vector v = sunder_i_vector_get(a, l, at[i]);
-    if (c->vertex != i || sunder_i_big_sign(determinant(a, c->x, c->w, v.x, v.w)) != 0 ||
-        sunder_i_big_sign(determinant(a, c->y, c->w, v.y, v.w)) != 0)
+    const sunder_i_rational_point v = sunder_i_rational_get(a, l, at[i]);
+    if (c->vertex != i || sunder_i_big_sign(determinant(a, c->at.x, c->at.w, v.x, v.w)) != 0 ||
+        sunder_i_big_sign(determinant(a, c->at.y, c->at.w, v.y, v.w)) != 0)
         return "a vertex does not stand where the shape has it";
     return NULL;
 }
@@ -103,14 +91,13 @@ static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const 
                               const sunder_i_decomposition *d, uint32_t polygon, uint32_t *i)
 {
     sunder_i_arena *a = &l->arena;
-    rational sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
-    rational want = sum;
+    sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
+    sunder_i_ratio want = sum;
     const uint32_t ring_lo = polygon ? s->poly_end[polygon - 1] : 0;
     for (uint32_t r = ring_lo; r < s->poly_end[polygon]; r++)
         want = add(a, want, ring_area(l, s, at, r ? s->ring_end[r - 1] : 0, s->ring_end[r]));
     for (; *i < d->pieces && d->member[*i] == polygon; ++*i) sum = add(a, sum, piece_area(a, d, *i));
-    if (sunder_i_big_sign(determinant(a, sum.num, sum.den, want.num, want.den)) != 0)
-        return "the pieces of a member do not have its area";
+    if (sunder_i_ratio_cmp(a, sum, want) != 0) return "the pieces of a member do not have its area";
     return NULL;
 }
 

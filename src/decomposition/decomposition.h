@@ -12,14 +12,15 @@
 #ifndef SUNDER_I_DECOMPOSITION_H
 #define SUNDER_I_DECOMPOSITION_H
 
+#include "predicate/rational_point.h"
 #include "shape/shape.h"
 
 #define SUNDER_I_OPTIMAL_MOST 500 /* vertices of a member that OPTIMAL and MIXED solve; else Hertel-Mehlhorn */
 
-/* The point (x / w, y / w) on the lattice that the shape was placed on, w > 0, in lowest terms (w is 1 for vertices
+/* A point on the lattice that the shape was placed on, in lowest terms (w is 1 for vertices
  * of the shape that are no crossings, and for points that happen to be lattice points). */
 typedef struct sunder_i_corner {
-    sunder_i_big x, y, w;
+    sunder_i_rational_point at;
     uint32_t vertex; /* of the shape; UINT32_MAX: a Steiner point */
 } sunder_i_corner;
 

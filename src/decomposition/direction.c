@@ -7,7 +7,7 @@
  * vertex too. */
 #include "decomposition/maker.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 
@@ -22,7 +22,7 @@ double sunder_i_direction_unit(sunder_i_lattice *l, sunder_i_point u, double uni
         y = (double)u.y;
     } else if (!l->arena.failed) {
         const sunder_i_mark mark = sunder_i_lattice_begin(l);
-        const sunder_i_vector v = sunder_i_vector_get(&l->scratch, l, u);
+        const sunder_i_rational_point v = sunder_i_rational_get(&l->scratch, l, u);
         const unsigned long nx = sunder_i_big_bits(v.x), ny = sunder_i_big_bits(v.y), nw = sunder_i_big_bits(v.w);
         *exponent = (long)(nx > ny ? nx : ny) - (long)nw;
         x = sunder_i_big_ratio(&l->scratch, v.x, v.w, -*exponent);

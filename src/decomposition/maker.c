@@ -1,7 +1,5 @@
 #include "decomposition/maker.h"
 
-#include "predicate/vector.h"
-
 #include <string.h>
 
 /* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the
@@ -141,8 +139,7 @@ uint32_t sunder_i_maker_add_steiner(sunder_i_maker *m, sunder_i_point a, sunder_
         return 0;
     }
     const sunder_i_hpoint p = sunder_i_hpoint_at(m->lattice, a, b, t);
-    sunder_i_big *const to = m->steiner[m->steiner_n];
-    sunder_i_hpoint_big(m->lattice, &p, &to[0], &to[1], &to[2]);
+    m->steiner[m->steiner_n] = sunder_i_hpoint_read(&m->lattice->arena, m->lattice, &p);
     return m->shape->vertices + m->steiner_n++;
 }
 
@@ -155,14 +152,12 @@ static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size
 }
 
 /* A Steiner point, or a corner that is a crossing, in lowest terms. */
-static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, const sunder_i_big xyw[3])
+static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, sunder_i_rational_point at)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(scratch);
-    const sunder_i_big g = sunder_i_big_gcd(scratch, sunder_i_big_gcd(scratch, xyw[0], xyw[1]), xyw[2]);
-    sunder_i_big v[3] = {{NULL, 0}, {NULL, 0}, {NULL, 0}};
-    for (int k = 0; k < 3 && g.size; k++) v[k] = sunder_i_big_copy(arena, sunder_i_big_div_floor(scratch, xyw[k], g));
+    const sunder_i_corner c = {sunder_i_rational_copy(arena, sunder_i_rational_reduced(scratch, at)), UINT32_MAX};
     if (!scratch->failed) sunder_i_arena_release(scratch, mark);
-    return (sunder_i_corner){v[0], v[1], v[2], UINT32_MAX};
+    return c;
 }
 
 bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
@@ -183,12 +178,10 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
         sunder_i_corner *c = &out->corner[i];
         const sunder_i_point at = m->rings.at[i];
         if (sunder_i_point_is_plain(at)) {
-            *c = (sunder_i_corner){sunder_i_big_i64(arena, at.x), sunder_i_big_i64(arena, at.y), {&one, 1}, i};
+            *c = (sunder_i_corner){{sunder_i_big_i64(arena, at.x), sunder_i_big_i64(arena, at.y), {&one, 1}}, i};
             continue;
         }
-        const sunder_i_vector v = sunder_i_vector_get(&m->scratch, m->lattice, at);
-        const sunder_i_big xyw[3] = {v.x, v.y, v.w};
-        *c = reduced(arena, &m->scratch, xyw);
+        *c = reduced(arena, &m->scratch, sunder_i_rational_get(&m->scratch, m->lattice, at));
         c->vertex = i;
     }
     for (uint32_t i = 0; i < m->steiner_n && !arena->failed; i++)

@@ -26,7 +26,7 @@ typedef struct sunder_i_maker {
     uint32_t pieces, sides, steiner_n;
     uint32_t *piece_end, *piece_corner, *member;
     sunder_i_point *along;
-    sunder_i_big (*steiner)[3]; /* on the lattice's arena, not yet reduced */
+    sunder_i_rational_point *steiner; /* on the lattice's arena, not yet reduced */
     size_t pieces_room, member_room, corner_room, along_room, steiner_room;
 } sunder_i_maker;
 

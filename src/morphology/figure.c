@@ -1,7 +1,7 @@
 /* Shapes and sums as figures, and shapes as probes: the same numbers, taken off their lattice. */
 #include "morphology/morphology.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 void sunder_i_figure_free(sunder_i_figure *figure)
 {
@@ -20,13 +20,10 @@ static bool make_room(sunder_i_figure *f, size_t corners, size_t sides, size_t r
 }
 
 /* A lattice point, in the arena of the figure. */
-static void read_point(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point at, sunder_i_xyw out)
+static sunder_i_rational_point read_point(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point at)
 {
-    if (lattice->arena.failed) return;
-    const sunder_i_vector v = sunder_i_vector_get(arena, lattice, at);
-    out[0] = sunder_i_big_copy(arena, v.x);
-    out[1] = sunder_i_big_copy(arena, v.y);
-    out[2] = sunder_i_big_copy(arena, v.w);
+    if (lattice->arena.failed) return (sunder_i_rational_point){{NULL, 0}, {NULL, 0}, {NULL, 0}};
+    return sunder_i_rational_copy(arena, sunder_i_rational_get(arena, lattice, at));
 }
 
 bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
@@ -36,7 +33,7 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
     if (make_room(&f, shape->vertices, shape->vertices, shape->rings)) {
         for (uint32_t v = 0; v < shape->vertices; v++) {
             f.ring[v] = v;
-            read_point(&f.arena, lattice, at[v], f.at[v]);
+            f.at[v] = read_point(&f.arena, lattice, at[v]);
         }
         for (uint32_t r = 0; r < shape->rings; r++) f.ring_end[r] = shape->ring_end[r];
     }
@@ -52,7 +49,7 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
 static void read_corners(sunder_i_figure *f, size_t corner, const sunder_sum *sum, const uint32_t *vertex, size_t n)
 {
     for (size_t i = 0; i < n; i++)
-        sunder_i_hpoint_read(&f->arena, &sum->lattice, &sum->vertex[vertex[i]], f->at[corner + i]);
+        f->at[corner + i] = sunder_i_hpoint_read(&f->arena, &sum->lattice, &sum->vertex[vertex[i]]);
 }
 
 /* Numbers first, first + 1, ... in the arena. */
@@ -94,17 +91,11 @@ void sunder_i_probe_free(sunder_i_probe *probe)
 }
 
 /* The middle of the triangle of its first three corners, which are not collinear: a point inside the piece. */
-static void find_inner(sunder_i_probe *p, size_t first, sunder_i_xyw inner)
+static sunder_i_rational_point inner_point(sunder_i_arena *m, const sunder_i_rational_point *corner)
 {
-    sunder_i_arena *m = &p->arena;
-    sunder_i_xyw *c = p->corner + first;
-    sunder_i_big w[3]; /* of the other two */
-    for (int i = 0; i < 3; i++) w[i] = sunder_i_times(m, c[(i + 1) % 3][2], c[(i + 2) % 3][2]);
-    for (int k = 0; k < 2; k++) {
-        inner[k] = sunder_i_times(m, c[0][k], w[0]);
-        for (int i = 1; i < 3; i++) inner[k] = sunder_i_big_add(m, inner[k], sunder_i_times(m, c[i][k], w[i]));
-    }
-    inner[2] = sunder_i_big_mul(m, sunder_i_big_i64(m, 3), sunder_i_times(m, c[0][2], w[0]));
+    sunder_i_rational_point sum = sunder_i_rational_add(m, sunder_i_rational_add(m, corner[0], corner[1]), corner[2]);
+    sum.w = sunder_i_big_mul(m, sunder_i_big_i64(m, 3), sum.w);
+    return sum;
 }
 
 bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
@@ -118,19 +109,14 @@ bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shap
     p.side = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.side);
     p.inner = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.inner);
     for (size_t i = 0; i < corners && !arena->failed; i++) {
-        read_point(arena, lattice, at[shape->piece_vertex[i]], p.corner[i]);
-        for (int k = 0; k < 2 && reflected; k++) /* a half turn: still counter-clockwise */
-            p.corner[i][k] = sunder_i_big_neg(p.corner[i][k]);
+        p.corner[i] = read_point(arena, lattice, at[shape->piece_vertex[i]]);
+        if (reflected) p.corner[i] = sunder_i_rational_neg(p.corner[i]); /* a half turn: still counter-clockwise */
     }
     for (uint32_t j = 0; j < p.pieces && !arena->failed; j++) {
         const size_t first = j ? p.end[j - 1] : 0, end = p.end[j] = shape->piece_end[j];
-        for (size_t i = first; i < end; i++) {
-            const sunder_i_big *a = p.corner[i], *b = p.corner[i + 1 < end ? i + 1 : first];
-            for (int k = 0; k < 2; k++)
-                p.side[i][k] = sunder_i_big_sub(arena, sunder_i_times(arena, b[k], a[2]),
-                                                sunder_i_times(arena, a[k], b[2]));
-        }
-        find_inner(&p, first, p.inner[j]);
+        for (size_t i = first; i < end; i++)
+            p.side[i] = sunder_i_rational_sub(arena, p.corner[i + 1 < end ? i + 1 : first], p.corner[i]);
+        p.inner[j] = inner_point(arena, p.corner + first);
     }
     const bool ok = !arena->failed && !lattice->arena.failed;
     if (ok)

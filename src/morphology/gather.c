@@ -58,11 +58,10 @@ static bool read_parts(gathering *g)
         const sunder_sum *s = g->part[i];
         g->first[i] = g->out->vertices;
         for (uint32_t v = 0; v < s->vertices; v++) {
-            sunder_i_big xyw[3];
             const sunder_i_mark mark = sunder_i_arena_mark(&arena);
-            sunder_i_hpoint_read(&arena, &s->lattice, &s->vertex[v], xyw);
+            const sunder_i_rational_point at = sunder_i_hpoint_read(&arena, &s->lattice, &s->vertex[v]);
             if (arena.failed) break;
-            g->out->vertex[g->out->vertices++] = sunder_i_hpoint_make(&g->out->lattice, xyw[0], xyw[1], xyw[2]);
+            g->out->vertex[g->out->vertices++] = sunder_i_hpoint_make(&g->out->lattice, at);
             sunder_i_arena_release(&arena, mark);
         }
         for (size_t k = 0; k < s->polygons; k++) g->polygon[polygons++] = (source){(uint32_t)i, (uint32_t)k};

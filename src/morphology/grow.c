@@ -24,10 +24,10 @@
  * with the figure, only with what its own corners were made from.
  *
  * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
+#include "base/random.h"
 #include "minkowski/minkowski.h"
 #include "morphology/morphology.h"
-#include "base/random.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 #include "sum/from_map.h"
 
 typedef struct growth {
@@ -114,49 +114,35 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
 
 /* ---- Bands ---- */
 
-/* a b - c d. */
-static sunder_i_big minor(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big c, sunder_i_big d)
-{
-    return sunder_i_big_sub(arena, sunder_i_big_mul(arena, a, b), sunder_i_big_mul(arena, c, d));
-}
-
 /* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
-static bool is_far(sunder_i_arena *arena, const sunder_i_big u[2], const sunder_i_big side[2])
+static bool is_far(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point side)
 {
-    const int turn = sunder_i_big_sign(minor(arena, u[0], side[1], u[1], side[0]));
-    if (turn) return turn > 0;
-    return sunder_i_big_sign(minor(arena, u[0], side[0], u[1], sunder_i_big_neg(side[1]))) > 0;
-}
-
-static void put_corner(sunder_i_arena *arena, const sunder_i_xyw at, const sunder_i_xyw c, sunder_i_xyw out)
-{
-    for (int k = 0; k < 2; k++)
-        out[k] = sunder_i_big_add(arena, sunder_i_times(arena, at[k], c[2]), sunder_i_big_mul(arena, at[2], c[k]));
-    out[2] = sunder_i_times(arena, at[2], c[2]);
+    const int turn = sunder_i_big_sign(sunder_i_rational_cross(arena, u, side));
+    return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u, side)) > 0;
 }
 
 /* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A
  * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows. */
-static size_t make_band(growth *g, const sunder_i_xyw a, const sunder_i_xyw b, size_t first, size_t end,
-                        sunder_i_xyw *out)
+static size_t make_band(growth *g, sunder_i_rational_point a, sunder_i_rational_point b, size_t first, size_t end,
+                        sunder_i_rational_point *out)
 {
     sunder_i_arena *s = &g->scratch;
     const sunder_i_probe *p = g->probe;
-    const sunder_i_big u[2] = {minor(s, b[0], a[2], a[0], b[2]), minor(s, b[1], a[2], a[1], b[2])};
+    const sunder_i_rational_point u = sunder_i_rational_sub(s, b, a);
     size_t n = 0;
     bool before = is_far(s, u, p->side[end - 1]);
     for (size_t i = first; i < end; i++) {
         const bool after = is_far(s, u, p->side[i]);
-        put_corner(s, before ? b : a, p->corner[i], out[n++]);
-        if (after != before) put_corner(s, after ? b : a, p->corner[i], out[n++]);
+        out[n++] = sunder_i_rational_add(s, before ? b : a, p->corner[i]);
+        if (after != before) out[n++] = sunder_i_rational_add(s, after ? b : a, p->corner[i]);
         before = after;
     }
     return n;
 }
 
-static size_t make_spot(growth *g, const sunder_i_xyw at, size_t first, size_t end, sunder_i_xyw *out)
+static size_t make_spot(growth *g, sunder_i_rational_point at, size_t first, size_t end, sunder_i_rational_point *out)
 {
-    for (size_t i = first; i < end; i++) put_corner(&g->scratch, at, g->probe->corner[i], out[i - first]);
+    for (size_t i = first; i < end; i++) out[i - first] = sunder_i_rational_add(&g->scratch, at, g->probe->corner[i]);
     return end - first;
 }
 
@@ -168,7 +154,7 @@ static sunder_status add_band(growth *g, const uint32_t *next, uint64_t k, sunde
     const uint64_t piece = k % p->pieces, i = k / p->pieces;
     const size_t first = piece ? p->end[piece - 1] : 0, end = p->end[piece];
     const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
-    sunder_i_xyw *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
+    sunder_i_rational_point *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
     if (!corner) return sunder_i_no_memory(err);
     size_t n;
     if (i < f->sides) {
@@ -181,8 +167,7 @@ static sunder_status add_band(growth *g, const uint32_t *next, uint64_t k, sunde
     } else
         n = make_spot(g, f->at[f->point[i - f->sides - f->segments]], first, end, corner);
     if (g->scratch.failed) return sunder_i_no_memory(err);
-    const sunder_status status =
-        sunder_i_planar_map_unite_polygon(g->bands, (const sunder_i_xyw *)corner, NULL, n, err);
+    const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);
     return status;
 }
@@ -210,11 +195,10 @@ static sunder_status is_inside(growth *g, uint32_t vertex, bool *in, sunder_erro
     sunder_status status = SUNDER_OK;
     *in = g->solid && g->shrink;
     for (uint32_t j = 0; g->solid && j < g->probe->pieces && *in == g->shrink && status == SUNDER_OK; j++) {
-        const sunder_i_big *v = sunder_i_planar_map_vertex_xyw(g->bands, vertex), *c = g->probe->inner[j];
         const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
         sunder_i_arena *s = &g->scratch;
-        const sunder_i_xyw at = {minor(s, v[0], c[2], c[0], v[2]), minor(s, v[1], c[2], c[1], v[2]),
-                                 sunder_i_big_mul(s, v[2], c[2])};
+        const sunder_i_rational_point at =
+            sunder_i_rational_sub(s, *sunder_i_planar_map_vertex_point(g->bands, vertex), g->probe->inner[j]);
         if (s->failed) return sunder_i_no_memory(err);
         sunder_i_location where;
         status = sunder_i_planar_map_locate(g->solid, at, &where, err);

@@ -18,7 +18,7 @@
  * points without area. All arrays live in the arena. */
 typedef struct sunder_i_figure {
     sunder_i_arena arena;
-    sunder_i_xyw *at; /* corners, by number */
+    sunder_i_rational_point *at; /* corners, by number */
     uint32_t *ring;   /* corner numbers of all rings, one after the other */
     size_t *ring_end; /* [rings] */
     size_t rings, sides;
@@ -40,9 +40,9 @@ typedef struct sunder_i_probe {
     sunder_i_arena arena;
     uint32_t pieces;
     size_t *end; /* [pieces] index past the last corner of each */
-    sunder_i_xyw *corner;
-    sunder_i_big (*side)[2]; /* from each corner to the next of its piece, times something positive */
-    sunder_i_xyw *inner;     /* [pieces] */
+    sunder_i_rational_point *corner;
+    sunder_i_rational_point *side;  /* from each corner to the next of its piece */
+    sunder_i_rational_point *inner; /* [pieces] */
 } sunder_i_probe;
 
 /* The pieces of a shape, or of its reflection. */

@@ -90,19 +90,13 @@ static sunder_i_place_at meeting(sunder_i_lattice *l, const sunder_i_place_at *v
                                  const sunder_i_place_at *b)
 {
     sunder_i_arena *m = &l->arena;
-    const sunder_i_big rise = sunder_i_big_sub(m, sunder_i_big_mul(m, v->y, a->w), sunder_i_big_mul(m, a->y, v->w));
-    sunder_i_big dy = sunder_i_big_sub(m, sunder_i_big_mul(m, b->y, a->w), sunder_i_big_mul(m, a->y, b->w));
-    sunder_i_big dx = sunder_i_big_sub(m, sunder_i_big_mul(m, b->x, a->w), sunder_i_big_mul(m, a->x, b->w));
-    if (sunder_i_big_sign(dy) < 0) {
-        dx = sunder_i_big_neg(dx);
-        dy = sunder_i_big_neg(dy);
-    }
-    /* x = a.x / a.w + (rise dx) / (dy v.w a.w) */
-    const sunder_i_big w = sunder_i_big_mul(m, sunder_i_big_mul(m, dy, v->w), a->w);
-    const sunder_i_big x =
-        sunder_i_big_add(m, sunder_i_big_mul(m, sunder_i_big_mul(m, a->x, dy), v->w), sunder_i_big_mul(m, rise, dx));
-    const sunder_i_big y = sunder_i_big_mul(m, sunder_i_big_mul(m, v->y, dy), a->w);
-    return sunder_i_place_make(l, x, y, w);
+    const sunder_i_rational_point rise = sunder_i_rational_sub(m, v->at, a->at);
+    sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
+    if (sunder_i_big_sign(d.y) < 0) d = sunder_i_rational_neg(d);
+    /* a + (rise.y / d.y) d; d's own denominator drops out. */
+    const sunder_i_rational_point along = {sunder_i_big_mul(m, rise.y, d.x), sunder_i_big_mul(m, rise.y, d.y),
+                                           sunder_i_big_mul(m, rise.w, d.y)};
+    return sunder_i_place_make(l, sunder_i_rational_add(m, a->at, along));
 }
 
 /* Between which x the stretch meets the horizontal through v, in doubles; false if it does not reach its height. */

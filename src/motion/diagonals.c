@@ -2,7 +2,7 @@
 
 #include "base/sort.h"
 #include "predicate/predicate.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 #include <string.h>
@@ -108,17 +108,17 @@ static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_po
     if (l->arena.failed) return u;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector a = sunder_i_vector_get(m, l, u);
-    const sunder_i_vector uv = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, v), a);
-    const sunder_i_vector uw = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, w), a);
+    const sunder_i_rational_point a = sunder_i_rational_get(m, l, u);
+    const sunder_i_rational_point uv = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, v), a);
+    const sunder_i_rational_point uw = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, w), a);
     /* From u: (uv (2^j - 1) + 2 uw) / 2^(j + 1), over the denominators of both. */
     const sunder_i_big part = sunder_i_big_sub(m, sunder_i_big_shl(m, uw.w, j), uw.w);
     const sunder_i_big twice = sunder_i_big_shl(m, uv.w, 1);
     const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, uv.x, part), sunder_i_big_mul(m, uw.x, twice));
     const sunder_i_big y = sunder_i_big_add(m, sunder_i_big_mul(m, uv.y, part), sunder_i_big_mul(m, uw.y, twice));
     const sunder_i_big den = sunder_i_big_shl(m, sunder_i_big_mul(m, uv.w, uw.w), j + 1);
-    const sunder_i_vector from_u = {sunder_i_big_neg(x), sunder_i_big_neg(y), den};
-    const sunder_i_point at = sunder_i_vector_put(l, sunder_i_vector_sub(m, a, from_u));
+    const sunder_i_rational_point from_u = {sunder_i_big_neg(x), sunder_i_big_neg(y), den};
+    const sunder_i_point at = sunder_i_rational_put(l, sunder_i_rational_sub(m, a, from_u));
     sunder_i_lattice_end(l, mark);
     return at;
 }

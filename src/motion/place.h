@@ -1,7 +1,7 @@
 /* Exact places on a lattice of sums: the corners of free space, and whatever start, goal or rounded vertex a user
  * names, with numerators and denominators of any size.
  *
- * A place is (x / w, y / w) on the lattice, w > 0, big integers in an arena; ax, ay are close to its coordinates in the
+ * A place is a point on the lattice, its big integers in an arena; ax, ay are close to its coordinates in the
  * units of sunder_i_approx(). Questions are answered in doubles where the error bound allows it, else in big integers.
  */
 #ifndef SUNDER_I_PLACE_AT_H
@@ -10,7 +10,7 @@
 #include "sum/sum.h"
 
 typedef struct sunder_i_place_at {
-    sunder_i_big x, y, w;
+    sunder_i_rational_point at;
     double ax, ay;
 } sunder_i_place_at;
 
@@ -20,13 +20,13 @@ typedef struct sunder_i_ground {
     double error;
 } sunder_i_ground;
 
-/* From its integers, w > 0, in the lattice's arena. */
-sunder_i_place_at sunder_i_place_make(sunder_i_lattice *lattice, sunder_i_big x, sunder_i_big y, sunder_i_big w);
+/* From its integers in the lattice's arena. */
+sunder_i_place_at sunder_i_place_make(sunder_i_lattice *lattice, sunder_i_rational_point at);
 /* Of a vertex of the sum. Memory in the lattice's arena, whose `failed` tells. */
 sunder_i_place_at sunder_i_place_of_vertex(sunder_i_lattice *lattice, const sunder_i_hpoint *vertex);
-/* Of the rational coordinates num[k] / den[k], den > 0. */
-sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice,
-                                             const sunder_i_big num[2], const sunder_i_big den[2]);
+/* Of rational coordinates. */
+sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *lattice, sunder_i_ratio x,
+                                             sunder_i_ratio y);
 sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_lattice *lattice, const double xy[2]);
 
 /* Lexicographic, x first; and by x or y alone. */

@@ -5,30 +5,26 @@
  * leg is free of the part when no t is left. */
 #include "motion/space.h"
 
-#include "predicate/vector.h"
-
 #include <math.h>
 
 /* cross(b - a, c - a) times the positive w of c and a positive number of the side's own. */
 static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c)
 {
     sunder_i_arena *m = &l->arena;
-    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
-    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
-    const sunder_i_big vx = sunder_i_big_sub(m, sunder_i_times(m, c->x, o.w), sunder_i_big_mul(m, o.x, c->w));
-    const sunder_i_big vy = sunder_i_big_sub(m, sunder_i_times(m, c->y, o.w), sunder_i_big_mul(m, o.y, c->w));
-    return sunder_i_big_sub(m, sunder_i_big_mul(m, u.x, vy), sunder_i_big_mul(m, u.y, vx));
+    const sunder_i_rational_point o = sunder_i_rational_get(m, l, a);
+    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, b), o);
+    const sunder_i_rational_point v = {
+        sunder_i_big_sub(m, sunder_i_times(m, c->at.x, o.w), sunder_i_big_mul(m, o.x, c->at.w)),
+        sunder_i_big_sub(m, sunder_i_times(m, c->at.y, o.w), sunder_i_big_mul(m, o.y, c->at.w)), c->at.w};
+    return sunder_i_rational_cross(m, u, v);
 }
 
 typedef struct bound {
-    sunder_i_big num, den; /* den > 0 */
+    sunder_i_ratio at;
     bool open;
 } bound;
 
-static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b)
-{
-    return sunder_i_big_cmp(sunder_i_big_mul(m, a->num, b->den), sunder_i_big_mul(m, b->num, a->den));
-}
+static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b) { return sunder_i_ratio_cmp(m, a->at, b->at); }
 
 /* Is some point of the closed segment strictly left of every side? */
 static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
@@ -38,19 +34,19 @@ static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_
     const sunder_i_pieces *c = &s->part;
     const uint32_t first = sunder_i_pieces_first(c, part), end = c->end[part];
     const sunder_i_big one = sunder_i_big_i64(m, 1);
-    bound low = {sunder_i_big_i64(m, 0), one, false}, high = {one, one, false};
+    bound low = {{sunder_i_big_i64(m, 0), one}, false}, high = {{one, one}, false};
     for (uint32_t k = first; k < end; k++) {
         const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
         /* Over one denominator p.w q.w: f(p) and f(q). */
-        const sunder_i_big fp = sunder_i_big_mul(m, height(l, a, b, p), q->w);
-        const sunder_i_big fq = sunder_i_big_mul(m, height(l, a, b, q), p->w);
+        const sunder_i_big fp = sunder_i_big_mul(m, height(l, a, b, p), q->at.w);
+        const sunder_i_big fq = sunder_i_big_mul(m, height(l, a, b, q), p->at.w);
         const int sp = sunder_i_big_sign(fp), sq = sunder_i_big_sign(fq);
         if (sp <= 0 && sq <= 0) return false;
         if (sp > 0 && sq > 0) continue;
         /* f(t) = 0 at t = fp / (fp - fq). One of the two is positive, the other is not. */
         const sunder_i_big d = sunder_i_big_sub(m, fp, fq);
-        const bound at =
-            sunder_i_big_sign(d) > 0 ? (bound){fp, d, true} : (bound){sunder_i_big_neg(fp), sunder_i_big_neg(d), true};
+        const bound at = sunder_i_big_sign(d) > 0 ? (bound){{fp, d}, true}
+                                                  : (bound){{sunder_i_big_neg(fp), sunder_i_big_neg(d)}, true};
         if (sp > 0) { /* from p to the crossing */
             if (bound_cmp(m, &at, &high) <= 0) high = at;
         } else if (bound_cmp(m, &at, &low) >= 0) {

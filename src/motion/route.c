@@ -28,25 +28,19 @@ static sunder_status read_place(sunder_i_space *space, const sunder_place *place
                                 sunder_i_place_at *out, sunder_error *err)
 {
     sunder_i_lattice *l = space->ground.lattice;
-    sunder_i_big num[2], den[2];
+    sunder_i_ratio at[2];
     for (int k = 0; k < 2; k++) {
         if (place->text[k]) {
-            if (!sunder_i_big_parse_ratio(&l->arena, place->text[k], &num[k], &den[k]))
+            if (!sunder_i_ratio_parse(&l->arena, place->text[k], &at[k]))
                 return sunder_i_fail(err, SUNDER_EARG, "%s: %.60s is neither a whole number nor a fraction of two", which,
                                      place->text[k]);
             continue;
         }
         if (!isfinite(place->xy[k])) return sunder_i_fail(err, SUNDER_EARG, "%s is not finite", which);
-        int e;
-        num[k] = sunder_i_big_double(&l->arena, place->xy[k], &e);
-        den[k] = sunder_i_big_i64(&l->arena, 1);
-        if (e >= 0)
-            num[k] = sunder_i_big_shl(&l->arena, num[k], (unsigned long)e);
-        else
-            den[k] = sunder_i_big_shl(&l->arena, den[k], (unsigned long)-(long)e);
+        at[k] = sunder_i_ratio_double(&l->arena, place->xy[k]);
     }
     if (l->arena.failed) return sunder_i_no_memory(err);
-    *out = sunder_i_place_of_rational(space->sum, l, num, den);
+    *out = sunder_i_place_of_rational(space->sum, l, at[0], at[1]);
     if (l->arena.failed) return sunder_i_no_memory(err);
     const double size = fmax(fabs(out->ax), fabs(out->ay));
     if (!(size < 0x1p900)) return sunder_i_fail(err, SUNDER_ERANGE, "%s is too far away", which);
@@ -83,13 +77,12 @@ static bool collides(sunder_route *r, const sunder_i_place_at *at, sunder_route_
 
 static sunder_status take_stop(sunder_route *r, const sunder_i_place_at *at, sunder_error *err)
 {
-    const sunder_i_big xyw[3] = {at->x, at->y, at->w};
     sunder_i_arena arena = {0};
     stop *s = &r->stop[r->n];
-    sunder_status status = sunder_i_sum_texts(&arena, r->space.sum, xyw, &s->text[0], &s->text[1], err);
+    sunder_status status = sunder_i_sum_texts(&arena, r->space.sum, at->at, &s->text[0], &s->text[1], err);
     if (status == SUNDER_OK) {
         r->n++;
-        for (int k = 0; k < 2; k++) s->xy[k] = sunder_i_sum_double(&arena, r->space.sum, k, xyw[k], xyw[2]);
+        sunder_i_sum_doubles(&arena, r->space.sum, at->at, s->xy);
         if (arena.failed) status = sunder_i_no_memory(err);
     }
     sunder_i_arena_free(&arena);

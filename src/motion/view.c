@@ -27,8 +27,8 @@ static void take_places(sunder_i_view *view, const sunder_i_big origin[2])
     const sunder_i_corners *c = view->corners;
     sunder_i_lattice *l = view->space->ground.lattice;
     for (uint32_t v = 0; v < c->vertices + 2; v++) {
-        view->at[v][0] = from_origin(l, c->place[v].x, c->place[v].w, origin[0]);
-        view->at[v][1] = from_origin(l, c->place[v].y, c->place[v].w, origin[1]);
+        view->at[v][0] = from_origin(l, c->place[v].at.x, c->place[v].at.w, origin[0]);
+        view->at[v][1] = from_origin(l, c->place[v].at.y, c->place[v].at.w, origin[1]);
     }
 }
 
@@ -113,8 +113,8 @@ bool sunder_i_view_init(sunder_i_view *view, const sunder_i_space *space, const 
     sunder_i_arena *m = &l->arena;
     const sunder_i_place_at *start = &corners->place[corners->vertices];
     const sunder_i_big one = sunder_i_big_i64(m, 1);
-    const sunder_i_big origin[2] = {sunder_i_big_div_floor(m, start->x, start->w),
-                                    sunder_i_big_div_floor(m, start->y, start->w)};
+    const sunder_i_big origin[2] = {sunder_i_big_div_floor(m, start->at.x, start->at.w),
+                                    sunder_i_big_div_floor(m, start->at.y, start->at.w)};
     for (int k = 0; k < 2; k++) view->from[k] = sunder_i_big_ratio(m, origin[k], one, -l->approx_shift);
     if (m->failed) return false;
     take_places(view, origin);

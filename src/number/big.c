@@ -392,7 +392,7 @@ char *sunder_i_big_ratio_text(sunder_i_arena *arena, sunder_i_big num, sunder_i_
 
 /* ---- From text ---- */
 
-static bool parse_integer(sunder_i_arena *arena, const char *text, size_t n, sunder_i_big *out)
+bool sunder_i_big_parse(sunder_i_arena *arena, const char *text, size_t n, sunder_i_big *out)
 {
     const bool negative = n && *text == '-';
     if (n && (*text == '-' || *text == '+')) text++, n--;
@@ -416,18 +416,4 @@ static bool parse_integer(sunder_i_arena *arena, const char *text, size_t n, sun
     if (!arena->failed) *out = make(limb, used, 1);
     if (negative) *out = sunder_i_big_neg(*out);
     return true;
-}
-
-bool sunder_i_big_parse_ratio(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den)
-{
-    const char *slash = strchr(text, '/');
-    if (!parse_integer(arena, text, slash ? (size_t)(slash - text) : strlen(text), num)) return false;
-    *den = sunder_i_big_i64(arena, 1);
-    if (!slash) return true;
-    if (!parse_integer(arena, slash + 1, strlen(slash + 1), den)) return false;
-    if (sunder_i_big_sign(*den) < 0) {
-        *num = sunder_i_big_neg(*num);
-        *den = sunder_i_big_neg(*den);
-    }
-    return arena->failed || sunder_i_big_sign(*den) > 0;
 }

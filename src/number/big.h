@@ -46,6 +46,7 @@ sunder_i_big sunder_i_big_gcd(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
 
 int sunder_i_big_sign(sunder_i_big a);
 int sunder_i_big_cmp(sunder_i_big a, sunder_i_big b);
+static inline bool sunder_i_big_is_one(sunder_i_big a) { return a.size == 1 && a.limb[0] == 1; }
 /* Number of bits of |a|; 0 for zero. */
 unsigned long sunder_i_big_bits(sunder_i_big a);
 /* Number of trailing zero bits; a != 0. */
@@ -63,7 +64,7 @@ double sunder_i_big_ratio_up(sunder_i_arena *arena, sunder_i_big num, sunder_i_b
  * sunder_i_alloc(), NULL if memory is out. */
 char *sunder_i_big_ratio_text(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent);
 
-/* "num" or "num/den", both integers in decimal. False if the text is none of these, or den is zero. */
-bool sunder_i_big_parse_ratio(sunder_i_arena *arena, const char *text, sunder_i_big *num, sunder_i_big *den);
+/* The integer that n characters say in decimal; false if they are none. */
+bool sunder_i_big_parse(sunder_i_arena *arena, const char *text, size_t n, sunder_i_big *out);
 
 #endif

@@ -135,7 +135,7 @@ int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunde
         lattice->arena.failed = true;
         return 0;
     }
-    lattice->pool[lattice->pool_n] = (sunder_i_ratio){num, den, value};
+    lattice->pool[lattice->pool_n] = (sunder_i_pooled){{num, den}, value};
     return INT64_MIN + (int64_t)lattice->pool_n++;
 }
 
@@ -193,8 +193,8 @@ int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o)
 
 sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, int64_t n)
 {
-    if (sunder_i_is_plain(n)) return (sunder_i_ratio){sunder_i_big_i64(arena, n), one, 0};
-    return lattice->pool[n - INT64_MIN];
+    if (sunder_i_is_plain(n)) return (sunder_i_ratio){sunder_i_big_i64(arena, n), one};
+    return lattice->pool[n - INT64_MIN].ratio;
 }
 
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n)

@@ -20,8 +20,7 @@
 #ifndef SUNDER_I_LATTICE_H
 #define SUNDER_I_LATTICE_H
 
-#include "number/big.h"
-#include "base/memory.h"
+#include "number/ratio.h"
 #include "sunder.h"
 
 #define SUNDER_I_NARROW_BITS 60 /* |coordinate| and |sum of two operands' coordinates| < 2^60 on a narrow lattice */
@@ -31,11 +30,11 @@ typedef struct sunder_i_point {
     int64_t x, y; /* plain, or handles */
 } sunder_i_point;
 
-/* num / den, den > 0, in any terms. value is the nearest double in the units of sunder_i_approx(). */
-typedef struct sunder_i_ratio {
-    sunder_i_big num, den;
+/* A ratio of the pool, and the nearest double in the units of sunder_i_approx(). */
+typedef struct sunder_i_pooled {
+    sunder_i_ratio ratio;
     double value;
-} sunder_i_ratio;
+} sunder_i_pooled;
 
 typedef struct sunder_i_lattice {
     bool narrow; /* all numbers are plain */
@@ -46,7 +45,7 @@ typedef struct sunder_i_lattice {
     int approx_shift;       /* sunder_i_approx() divides by 2^approx_shift; 0 on a narrow lattice */
     sunder_i_arena arena;   /* pool and results; arena.failed is the sticky error of everything on it */
     sunder_i_arena scratch; /* of one predicate or construction at a time */
-    sunder_i_ratio *pool;   /* by handle */
+    sunder_i_pooled *pool;  /* by handle */
     size_t pool_n, pool_capacity;
     sunder_counts counts;
 } sunder_i_lattice;
@@ -85,7 +84,7 @@ int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v);
 int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den);
 /* A handle of num / den, den > 0, even where that is a plain number. */
 int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den, double value);
-/* A number as a ratio; plain ones are made on that arena. The lattice stays as it is. The value is not set. */
+/* A number as a ratio; plain ones are made on that arena. The lattice stays as it is. */
 sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, int64_t n);
 /* A number that is an integer, on the lattice's arena. */
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n);

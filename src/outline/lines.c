@@ -2,7 +2,7 @@
 
 #include "base/watch.h"
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <string.h>
 
@@ -39,14 +39,14 @@ static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_po
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector u = sunder_i_vector_get(m, l, a);
-    sunder_i_big num = sunder_i_vector_cross(m, sunder_i_vector_get(m, l, d), u), den = u.w;
-    if (!sunder_i_is_one(den)) {
+    const sunder_i_rational_point u = sunder_i_rational_get(m, l, a);
+    sunder_i_big num = sunder_i_rational_cross(m, sunder_i_rational_get(m, l, d), u), den = u.w;
+    if (!sunder_i_big_is_one(den)) {
         const sunder_i_big g = sunder_i_big_gcd(m, num, den);
         num = sunder_i_big_div_floor(m, num, g);
         den = sunder_i_big_div_floor(m, den, g);
     }
-    k->pooled = !sunder_i_is_one(den) || sunder_i_big_bits(num) > 126;
+    k->pooled = !sunder_i_big_is_one(den) || sunder_i_big_bits(num) > 126;
     if (k->pooled) {
         k->offset = sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, num), sunder_i_big_copy(&l->arena, den), 0);
         hash = mix_big(mix_big(hash, num), den);

@@ -57,7 +57,7 @@ static const char *check_edge(sunder_i_planar_map *map, uint32_t e)
 static const char *check_vertex(sunder_i_planar_map *map, uint32_t v, size_t *n)
 {
     const sunder_i_map_vertex *vertex = &map->vertex[v];
-    REQUIRE(sunder_i_big_sign(vertex->site.at[2]) > 0, "a vertex at infinity");
+    REQUIRE(sunder_i_big_sign(vertex->site.at.w) > 0, "a vertex at infinity");
     const uint32_t first = vertex->out;
     size_t to_right = 0, to_left = 0;
     if (first != NOWHERE) {
@@ -160,17 +160,13 @@ static const char *check_history(sunder_i_planar_map *map, uint32_t t)
     sunder_i_arena *s = &map->scratch;
     const sunder_i_mark mark = sunder_i_arena_mark(s);
     const sunder_i_big one = sunder_i_big_i64(s, 1), none = sunder_i_big_i64(s, 0);
-    sunder_i_xyw p = {none, none, one};
+    sunder_i_rational_point p = {none, none, one};
     if (z->left != NOWHERE && z->right != NOWHERE) {
-        const sunder_i_big *a = map->vertex[z->left].site.at, *b = map->vertex[z->right].site.at;
-        for (int i = 0; i < 2; i++)
-            p[i] = sunder_i_big_add(s, sunder_i_big_mul(s, a[i], b[2]), sunder_i_big_mul(s, b[i], a[2]));
-        p[2] = sunder_i_big_shl(s, sunder_i_big_mul(s, a[2], b[2]), 1);
+        p = sunder_i_rational_add(s, map->vertex[z->left].site.at, map->vertex[z->right].site.at);
+        p.w = sunder_i_big_shl(s, p.w, 1);
     } else if (z->left != NOWHERE || z->right != NOWHERE) {
-        const sunder_i_big *a = map->vertex[z->left != NOWHERE ? z->left : z->right].site.at;
-        p[0] = z->left != NOWHERE ? sunder_i_big_add(s, a[0], a[2]) : sunder_i_big_sub(s, a[0], a[2]);
-        p[1] = a[1];
-        p[2] = a[2];
+        p = map->vertex[z->left != NOWHERE ? z->left : z->right].site.at;
+        p.x = z->left != NOWHERE ? sunder_i_big_add(s, p.x, p.w) : sunder_i_big_sub(s, p.x, p.w);
     }
     const sunder_i_site site = sunder_i_site_of(map, p);
     const char *wrong = NULL;

@@ -161,8 +161,8 @@ bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_si
 static uint32_t vertex_at_stop(sunder_i_planar_map *map, stop *s)
 {
     if (s->kind == AT_VERTEX) return s->id;
-    if (!s->done) /* a crossing; the target's numbers stay anyway */
-        for (int i = 0; i < 3; i++) s->site.at[i] = sunder_i_big_copy(&map->arena, s->site.at[i]);
+    if (!s->done)
+        s->site = sunder_i_site_copy(&s->site, &map->arena); /* a crossing; the target's numbers stay anyway */
     if (sunder_i_map_broken(map)) return NOWHERE;
     const uint32_t last = map->crossed.item[map->crossed.n - 1];
     return s->kind == ON_EDGE ? sunder_i_edge_split(map, s->id, &s->site, last)
@@ -210,7 +210,7 @@ uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_
     return v;
 }
 
-sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, const sunder_i_xyw at, uint32_t below,
+sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, sunder_i_rational_point at, uint32_t below,
                                                uint32_t *vertex, sunder_error *err)
 {
     sunder_i_map_drop_faces(map);
@@ -223,9 +223,9 @@ sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, const s
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, const sunder_i_xyw a, const sunder_i_xyw b,
-                                                 uint32_t left, uint32_t right, uint32_t *first, uint32_t *last,
-                                                 sunder_error *err)
+sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, sunder_i_rational_point a,
+                                                 sunder_i_rational_point b, uint32_t left, uint32_t right,
+                                                 uint32_t *first, uint32_t *last, sunder_error *err)
 {
     sunder_i_map_drop_faces(map);
     map->marked = false;

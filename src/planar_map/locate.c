@@ -1,7 +1,7 @@
 /* Point location for users of the map. */
 #include "planar_map/map.h"
 
-sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, const sunder_i_xyw at, sunder_i_location *out,
+sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, sunder_i_rational_point at, sunder_i_location *out,
                                          sunder_error *err)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);

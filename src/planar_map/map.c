@@ -85,21 +85,17 @@ bool sunder_i_map_push(sunder_i_planar_map *map, sunder_i_list *list, uint32_t i
     return true;
 }
 
-/* Of three numbers in an arena. */
-static size_t bytes_of(const sunder_i_big n[3])
+/* Of a number in an arena. */
+static size_t bytes_of(sunder_i_big n)
 {
-    size_t bytes = 0;
-    for (int i = 0; i < 3; i++) {
-        const size_t limbs = (size_t)(n[i].size < 0 ? -n[i].size : n[i].size);
-        bytes += (limbs * sizeof(mp_limb_t) + 15) & ~(size_t)15;
-    }
-    return bytes;
+    const size_t limbs = (size_t)(n.size < 0 ? -n.size : n.size);
+    return (limbs * sizeof(mp_limb_t) + 15) & ~(size_t)15;
 }
 
 uint32_t sunder_i_map_new_vertex(sunder_i_planar_map *map, const sunder_i_site *site)
 {
     const uint32_t v = map->vertices++;
-    map->number_bytes += bytes_of(site->at);
+    map->number_bytes += bytes_of(site->at.x) + bytes_of(site->at.y) + bytes_of(site->at.w);
     map->vertex[v] =
         (sunder_i_map_vertex){.site = *site, .out = NOWHERE, .left = NOWHERE, .right = NOWHERE, .alive = true};
     return v;
@@ -152,7 +148,7 @@ uint32_t sunder_i_map_new_line(sunder_i_planar_map *map, const sunder_i_map_line
         return NOWHERE;
     }
     map->line[map->lines] = *line;
-    map->number_bytes += bytes_of(line->abc);
+    for (int i = 0; i < 3; i++) map->number_bytes += bytes_of(line->abc[i]);
     return map->lines++;
 }
 
@@ -183,9 +179,9 @@ uint32_t sunder_i_planar_map_vertex_end(const sunder_i_planar_map *map) { return
 
 bool sunder_i_planar_map_vertex_alive(const sunder_i_planar_map *map, uint32_t v) { return map->vertex[v].alive; }
 
-const sunder_i_big *sunder_i_planar_map_vertex_xyw(const sunder_i_planar_map *map, uint32_t v)
+const sunder_i_rational_point *sunder_i_planar_map_vertex_point(const sunder_i_planar_map *map, uint32_t v)
 {
-    return map->vertex[v].site.at;
+    return &map->vertex[v].site.at;
 }
 
 int sunder_i_planar_map_vertex_cmp(sunder_i_planar_map *map, uint32_t v, uint32_t w)

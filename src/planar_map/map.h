@@ -41,7 +41,7 @@
 /* A point with the nearest doubles to its coordinates (divided by 2^approx_shift of the lattice). */
 typedef struct sunder_i_site {
     double ax, ay;
-    sunder_i_xyw at;
+    sunder_i_rational_point at;
 } sunder_i_site;
 
 /* A x + B y + C w, 0 on the line and positive above it (left of it as it goes to the lexicographically greater): B > 0,
@@ -141,7 +141,7 @@ int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, con
 sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g,
                                      sunder_i_arena *arena);
 /* The site of a point; its numbers stay where they are. */
-sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at);
+sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, sunder_i_rational_point at);
 /* The line through p and q, p < q, its numbers in the arena given; with along != NULL its direction is that of the
  * lattice vector or its reverse. */
 sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
@@ -261,8 +261,8 @@ bool sunder_i_map_remove_covered(sunder_i_planar_map *map);
 
 /* insert_polygon(), for unite_polygon(): the map is clean and counts are right. Then a polygon that a covered face
  * contains is left out, and map->ring is empty; else it holds the polygon's boundary. */
-sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along,
-                                   size_t n, bool unite, sunder_error *err);
+sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
+                                   const sunder_i_point *along, size_t n, bool unite, sunder_error *err);
 /* What lies across walls from t, and across edges where t is the leftmost one along them: n of at most 6. step[i] is
  * covered(to[i]) - covered(t) as the sides say. With stop != 0, edges of that stamp are not crossed. */
 size_t sunder_i_map_around(const sunder_i_planar_map *map, uint32_t t, uint32_t stop, uint32_t to[6], int64_t step[6]);

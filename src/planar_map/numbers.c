@@ -13,7 +13,7 @@
  * out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
 #include "planar_map/map.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -81,22 +81,24 @@ static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunde
     return sign;
 }
 
-static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, sunder_i_big pn, sunder_i_big pw,
-                          sunder_i_big qn, sunder_i_big qw)
+static int coordinate_cmp(sunder_i_planar_map *map, double p, double q, const sunder_i_site *s, const sunder_i_site *t,
+                          int axis)
 {
     if (p != q) return p < q ? -1 : 1;
     map->lattice->counts.exact_fallbacks++;
-    const sunder_i_big a[2] = {pn, sunder_i_big_neg(qn)}, b[2] = {qw, pw};
+    const sunder_i_big a[2] = {sunder_i_rational_axis(&s->at, axis),
+                               sunder_i_big_neg(sunder_i_rational_axis(&t->at, axis))};
+    const sunder_i_big b[2] = {t->at.w, s->at.w};
     return dot_sign(map, a, b, 2);
 }
 
 int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q)
 {
-    if (p->at[0].limb == q->at[0].limb && p->at[1].limb == q->at[1].limb && p->at[2].limb == q->at[2].limb &&
-        p->at[0].size == q->at[0].size && p->at[1].size == q->at[1].size)
+    if (p->at.x.limb == q->at.x.limb && p->at.y.limb == q->at.y.limb && p->at.w.limb == q->at.w.limb &&
+        p->at.x.size == q->at.x.size && p->at.y.size == q->at.y.size)
         return 0; /* the very same numbers */
-    const int c = coordinate_cmp(map, p->ax, q->ax, p->at[0], p->at[2], q->at[0], q->at[2]);
-    return c ? c : coordinate_cmp(map, p->ay, q->ay, p->at[1], p->at[2], q->at[1], q->at[2]);
+    const int c = coordinate_cmp(map, p->ax, q->ax, p, q, 0);
+    return c ? c : coordinate_cmp(map, p->ay, q->ay, p, q, 1);
 }
 
 /* The filter. With u = 2^-53: the site's doubles and the reference's are off by at most u times their magnitude; the
@@ -115,7 +117,8 @@ int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, 
     if (det > bound) return 1;
     if (det < -bound) return -1;
     map->lattice->counts.exact_fallbacks++;
-    return dot_sign(map, line->abc, p->at, 3);
+    const sunder_i_big at[3] = {p->at.x, p->at.y, p->at.w};
+    return dot_sign(map, line->abc, at, 3);
 }
 
 /* The direction of a line is (B, -A). The filter: each double off by u, products and the difference round once: 4 u. */
@@ -135,16 +138,15 @@ int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, con
 static void approximate(sunder_i_planar_map *map, sunder_i_site *s)
 {
     s->ax = s->ay = 0;
-    if (sunder_i_map_broken(map) || s->at[2].size == 0) return;
+    if (sunder_i_map_broken(map) || s->at.w.size == 0) return;
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
-    s->ax = sunder_i_big_ratio(&map->scratch, s->at[0], s->at[2], -(long)map->lattice->approx_shift);
-    s->ay = sunder_i_big_ratio(&map->scratch, s->at[1], s->at[2], -(long)map->lattice->approx_shift);
+    sunder_i_rational_doubles(&map->scratch, s->at, -(long)map->lattice->approx_shift, &s->ax, &s->ay);
     sunder_i_arena_release(&map->scratch, mark);
 }
 
-sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, const sunder_i_xyw at)
+sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, sunder_i_rational_point at)
 {
-    sunder_i_site s = {.at = {at[0], at[1], at[2]}};
+    sunder_i_site s = {.at = at};
     approximate(map, &s);
     return s;
 }
@@ -167,12 +169,10 @@ sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_ma
 {
     map->lattice->counts.segment_intersections++;
     const sunder_i_big *p = f->abc, *q = g->abc;
-    sunder_i_site s;
-    s.at[0] = minor(map, arena, p[1], q[2], p[2], q[1]);
-    s.at[1] = minor(map, arena, p[2], q[0], p[0], q[2]);
-    s.at[2] = minor(map, arena, p[0], q[1], p[1], q[0]);
-    if (sunder_i_big_sign(s.at[2]) < 0)
-        for (int i = 0; i < 3; i++) s.at[i] = sunder_i_big_neg(s.at[i]);
+    sunder_i_site s = {.at = {minor(map, arena, p[1], q[2], p[2], q[1]), minor(map, arena, p[2], q[0], p[0], q[2]),
+                              minor(map, arena, p[0], q[1], p[1], q[0])}};
+    if (sunder_i_big_sign(s.at.w) < 0)
+        s.at = (sunder_i_rational_point){sunder_i_big_neg(s.at.x), sunder_i_big_neg(s.at.y), sunder_i_big_neg(s.at.w)};
     approximate(map, &s);
     return s;
 }
@@ -190,21 +190,20 @@ sunder_i_map_line sunder_i_line_through(sunder_i_planar_map *map, const sunder_i
     sunder_i_big abc[3];
     if (along) {
         /* Direction (dx, dy) through p: A = -dy w, B = dx w, C = dy x - dx y. */
-        const sunder_i_vector d = sunder_i_vector_get(s, map->lattice, *along);
+        const sunder_i_rational_point d = sunder_i_rational_get(s, map->lattice, *along);
         const sunder_i_big dx = d.x, dy = d.y;
-        abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at[2]));
-        abc[1] = sunder_i_big_mul(s, dx, p->at[2]);
-        abc[2] = minor(map, s, dy, p->at[0], dx, p->at[1]);
+        abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at.w));
+        abc[1] = sunder_i_big_mul(s, dx, p->at.w);
+        abc[2] = minor(map, s, dy, p->at.x, dx, p->at.y);
     } else {
-        abc[0] = minor(map, s, p->at[1], q->at[2], q->at[1], p->at[2]);
-        abc[1] = minor(map, s, q->at[0], p->at[2], p->at[0], q->at[2]);
-        abc[2] = minor(map, s, p->at[0], q->at[1], q->at[0], p->at[1]);
+        abc[0] = minor(map, s, p->at.y, q->at.w, q->at.y, p->at.w);
+        abc[1] = minor(map, s, q->at.x, p->at.w, p->at.x, q->at.w);
+        abc[2] = minor(map, s, p->at.x, q->at.y, q->at.x, p->at.y);
     }
     const int b = sunder_i_big_sign(abc[1]);
     if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
         for (int i = 0; i < 3; i++) abc[i] = sunder_i_big_neg(abc[i]);
-    if (sunder_i_big_bits(p->at[2]) > 1 ||
-        (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at[2]) > 1)) {
+    if (sunder_i_big_bits(p->at.w) > 1 || (along ? !sunder_i_point_is_plain(*along) : sunder_i_big_bits(q->at.w) > 1)) {
         const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
         if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
             for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);
@@ -230,6 +229,6 @@ sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_are
 sunder_i_site sunder_i_site_copy(const sunder_i_site *from, sunder_i_arena *arena)
 {
     sunder_i_site site = *from;
-    for (int i = 0; i < 3; i++) site.at[i] = sunder_i_big_copy(arena, from->at[i]);
+    site.at = sunder_i_rational_copy(arena, from->at);
     return site;
 }

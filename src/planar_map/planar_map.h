@@ -31,14 +31,11 @@
 #ifndef SUNDER_I_PLANAR_MAP_H
 #define SUNDER_I_PLANAR_MAP_H
 
-#include "number/lattice.h"
+#include "predicate/rational_point.h"
 
 #define SUNDER_I_NOWHERE UINT32_MAX /* no vertex, no half-edge, no face */
 
 typedef struct sunder_i_planar_map sunder_i_planar_map;
-
-/* The point (xyw[0] / xyw[2], xyw[1] / xyw[2]), xyw[2] > 0; need not be in lowest terms. */
-typedef sunder_i_big sunder_i_xyw[3];
 
 /* ---- Making and freeing ---- */
 
@@ -56,18 +53,18 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map);
  *         work, and keeps the numbers small where corners are Steiner points (sunder_i_convex_sum.along).
  * The ids of older vertices stay; older edges may be split (the part with the smaller end keeps the id).
  * Cost    Expected logarithmic to find the first corner, then the trapezoids that the boundary runs through. */
-sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                  const sunder_i_point *along, size_t n, sunder_error *err);
 
 /* Adds the segment from a to b (a != b), with so many regions on its left and right that have it on their boundary.
  * `below` of the vertices in its relative interior grows by the count on its lower side, that of its ends does not.
  * On success *first and *last (may be NULL) are the vertices at a and b. */
-sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, const sunder_i_xyw a, const sunder_i_xyw b,
-                                                 uint32_t left, uint32_t right, uint32_t *first, uint32_t *last,
-                                                 sunder_error *err);
+sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, sunder_i_rational_point a,
+                                                 sunder_i_rational_point b, uint32_t left, uint32_t right,
+                                                 uint32_t *first, uint32_t *last, sunder_error *err);
 /* Adds a point as a vertex (isolated, or splitting the edge that it lies on), with so many more regions below it that
  * have it on their boundary. */
-sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, const sunder_i_xyw at, uint32_t below,
+sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, sunder_i_rational_point at, uint32_t below,
                                                uint32_t *vertex, sunder_error *err);
 
 /* Adds all edges and isolated vertices of `other`, with their counts, in random order. Both maps stand on one
@@ -91,7 +88,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
  * be clean (empty, or only clean() and unite_polygon() since). What lies inside the polygon goes, and so do those parts
  * of its boundary that lie inside the union so far. Counts of faces are kept, so no mark() is needed before or after.
  * Cost    As insert_polygon(), and the trapezoids inside the polygon, which vanish. */
-sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                 const sunder_i_point *along, size_t n, sunder_error *err);
 
 /* ---- Removal by hand ---- */
@@ -111,8 +108,8 @@ sunder_status sunder_i_planar_map_merge_vertex(sunder_i_planar_map *map, uint32_
 
 uint32_t sunder_i_planar_map_vertex_end(const sunder_i_planar_map *map);
 bool sunder_i_planar_map_vertex_alive(const sunder_i_planar_map *map, uint32_t v);
-/* Lent: x, y, w > 0; in lowest terms unless the point came in otherwise. */
-const sunder_i_big *sunder_i_planar_map_vertex_xyw(const sunder_i_planar_map *map, uint32_t v);
+/* Lent; in lowest terms unless the point came in otherwise. */
+const sunder_i_rational_point *sunder_i_planar_map_vertex_point(const sunder_i_planar_map *map, uint32_t v);
 /* Lexicographic order of two vertices. */
 int sunder_i_planar_map_vertex_cmp(sunder_i_planar_map *map, uint32_t v, uint32_t w);
 /* A half-edge out of v: the first in counter-clockwise order from straight down; NOWHERE if v is isolated. */
@@ -176,7 +173,7 @@ typedef struct sunder_i_location {
 } sunder_i_location;
 
 /* Where a point lies. Expected logarithmic. */
-sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, const sunder_i_xyw at, sunder_i_location *out,
+sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, sunder_i_rational_point at, sunder_i_location *out,
                                          sunder_error *err);
 
 /* ---- Size and soundness ---- */

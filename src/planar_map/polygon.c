@@ -19,7 +19,8 @@ static size_t step(const boundary *b, bool upper, size_t i, size_t *side)
     return j;
 }
 
-static bool prepare(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along, boundary *b)
+static bool prepare(sunder_i_planar_map *map, const sunder_i_rational_point *corner, const sunder_i_point *along,
+                    boundary *b)
 {
     b->site = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->site);
     b->line = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->line);
@@ -99,8 +100,8 @@ static bool draw(sunder_i_planar_map *map, boundary *b, uint32_t t)
     return v != NOWHERE && walk_chain(map, b, false, v) && walk_chain(map, b, true, v);
 }
 
-sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner, const sunder_i_point *along,
-                                   size_t n, bool unite, sunder_error *err)
+sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
+                                   const sunder_i_point *along, size_t n, bool unite, sunder_error *err)
 {
     sunder_i_map_drop_faces(map);
     map->ring.n = 0;
@@ -119,7 +120,7 @@ sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_xyw 
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                  const sunder_i_point *along, size_t n, sunder_error *err)
 {
     return sunder_i_map_polygon(map, corner, along, n, false, err);

@@ -70,7 +70,7 @@ static bool clean_ring(sunder_i_planar_map *map)
     return true;
 }
 
-sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                 const sunder_i_point *along, size_t n, sunder_error *err)
 {
     assert(map->marked);

@@ -2,7 +2,6 @@
  * points elsewhere); comparing two fractions has degree 4 (256 bits). A fraction with handles among the points that it
  * is made of is a ratio of the pool: den is 0 and num its handle. */
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
 
 #include <math.h>
 
@@ -45,11 +44,12 @@ sunder_i_fraction sunder_i_crossing(sunder_i_lattice *l, sunder_i_point a, sunde
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector p = sunder_i_vector_get(m, l, a), q = sunder_i_vector_get(m, l, c);
-    const sunder_i_vector w = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, d), q);
-    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), p), v = sunder_i_vector_sub(m, q, p);
-    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_vector_cross(m, v, w), u.w),
-                                                sunder_i_times(m, sunder_i_vector_cross(m, u, w), v.w));
+    const sunder_i_rational_point p = sunder_i_rational_get(m, l, a), q = sunder_i_rational_get(m, l, c);
+    const sunder_i_rational_point w = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, d), q);
+    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, b), p),
+                                  v = sunder_i_rational_sub(m, q, p);
+    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_rational_cross(m, v, w), u.w),
+                                                sunder_i_times(m, sunder_i_rational_cross(m, u, w), v.w));
     sunder_i_lattice_end(l, mark);
     return f;
 }
@@ -64,7 +64,7 @@ sunder_i_fraction sunder_i_along(sunder_i_lattice *l, sunder_i_point a, sunder_i
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector u = sunder_i_vector_diff(m, l, b, a), v = sunder_i_vector_diff(m, l, c, a);
+    const sunder_i_rational_point u = sunder_i_rational_diff(m, l, b, a), v = sunder_i_rational_diff(m, l, c, a);
     const bool by_x = sunder_i_big_sign(u.x) != 0;
     const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, by_x ? v.x : v.y, u.w),
                                                 sunder_i_times(m, by_x ? u.x : u.y, v.w));
@@ -80,9 +80,9 @@ sunder_i_fraction sunder_i_foot(sunder_i_lattice *l, sunder_i_point a, sunder_i_
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector u = sunder_i_vector_diff(m, l, b, a), v = sunder_i_vector_diff(m, l, c, a);
-    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_vector_dot(m, v, u), u.w),
-                                                sunder_i_times(m, sunder_i_vector_dot(m, u, u), v.w));
+    const sunder_i_rational_point u = sunder_i_rational_diff(m, l, b, a), v = sunder_i_rational_diff(m, l, c, a);
+    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, sunder_i_rational_dot(m, v, u), u.w),
+                                                sunder_i_times(m, sunder_i_rational_dot(m, u, u), v.w));
     sunder_i_lattice_end(l, mark);
     return f;
 }
@@ -93,23 +93,16 @@ sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *l, int n)
     return (sunder_i_fraction){n, 1, n};
 }
 
-void sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_fraction *t,
-                            sunder_i_big *num, sunder_i_big *den)
+sunder_i_ratio sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_fraction *t)
 {
-    if (t->den != 0) {
-        *num = sunder_i_big_i128(arena, t->num);
-        *den = sunder_i_big_i128(arena, t->den);
-        return;
-    }
-    const sunder_i_ratio r = sunder_i_lattice_read(arena, l, (int64_t)t->num);
-    *num = r.num;
-    *den = r.den;
+    if (t->den == 0) return sunder_i_lattice_read(arena, l, (int64_t)t->num);
+    return (sunder_i_ratio){sunder_i_big_i128(arena, t->num), sunder_i_big_i128(arena, t->den)};
 }
 
 int sunder_i_fraction_sign(const sunder_i_lattice *l, const sunder_i_fraction *t)
 {
     if (t->den != 0) return sunder_i_i128_sign(t->num);
-    return sunder_i_big_sign(l->pool[(int64_t)t->num - INT64_MIN].num);
+    return sunder_i_big_sign(l->pool[(int64_t)t->num - INT64_MIN].ratio.num);
 }
 
 int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const sunder_i_fraction *t)
@@ -123,10 +116,7 @@ int sunder_i_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s, const
     if (s->den != 0 && t->den != 0) return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_big sn, sd, tn, td;
-    sunder_i_fraction_read(m, l, s, &sn, &sd);
-    sunder_i_fraction_read(m, l, t, &tn, &td);
-    const int c = sunder_i_big_cmp(sunder_i_big_mul(m, sn, td), sunder_i_big_mul(m, tn, sd));
+    const int c = sunder_i_ratio_cmp(m, sunder_i_fraction_read(m, l, s), sunder_i_fraction_read(m, l, t));
     sunder_i_lattice_end(l, mark);
     return c;
 }

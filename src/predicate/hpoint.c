@@ -1,7 +1,6 @@
 /* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
  * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
 
 #include <assert.h>
 #include <float.h>
@@ -21,7 +20,7 @@ static sunder_i_hpoint native(const sunder_i_lattice *l, sunder_i_i256 x, sunder
 }
 
 /* From the scratch arena. */
-static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_rational_point v)
 {
     sunder_i_hpoint p;
     memset(&p, 0, sizeof p);
@@ -29,11 +28,10 @@ static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_big x, sunder_i_big 
         p.w = 1;
         return p;
     }
-    p.ax = sunder_i_big_ratio(&l->scratch, x, w, -l->approx_shift);
-    p.ay = sunder_i_big_ratio(&l->scratch, y, w, -l->approx_shift);
-    const sunder_i_big d = sunder_i_big_copy(&l->arena, w);
-    p.x.limb[0] = (uint64_t)sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, x), d, p.ax);
-    p.y.limb[0] = (uint64_t)sunder_i_lattice_pool(l, sunder_i_big_copy(&l->arena, y), d, p.ay);
+    sunder_i_rational_doubles(&l->scratch, v, -l->approx_shift, &p.ax, &p.ay);
+    const sunder_i_rational_point kept = sunder_i_rational_copy(&l->arena, v);
+    p.x.limb[0] = (uint64_t)sunder_i_lattice_pool(l, kept.x, kept.w, p.ax);
+    p.y.limb[0] = (uint64_t)sunder_i_lattice_pool(l, kept.y, kept.w, p.ay);
     return p;
 }
 
@@ -47,16 +45,16 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *l, sunder_i_point a, sunder
     /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less where w = v. */
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
-    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
-    sunder_i_big num, den;
-    sunder_i_fraction_read(m, l, t, &num, &den);
+    const sunder_i_rational_point o = sunder_i_rational_get(m, l, a);
+    const sunder_i_rational_point u = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, b), o);
+    const sunder_i_ratio f = sunder_i_fraction_read(m, l, t);
     const bool same = sunder_i_big_cmp(o.w, u.w) == 0;
-    if (!same) num = sunder_i_times(m, num, o.w);
-    const sunder_i_big by = same ? den : sunder_i_times(m, den, u.w);
+    const sunder_i_big num = same ? f.num : sunder_i_times(m, f.num, o.w);
+    const sunder_i_big by = same ? f.den : sunder_i_times(m, f.den, u.w);
     const sunder_i_hpoint p = pooled(
-        l, sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
-        sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)), sunder_i_times(m, by, o.w));
+        l, (sunder_i_rational_point){sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
+                                     sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)),
+                                     sunder_i_times(m, by, o.w)});
     sunder_i_lattice_end(l, mark);
     return p;
 }
@@ -74,10 +72,10 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
         return (sunder_i_hpoint){narrow_i256(a.x), narrow_i256(a.y), 1, sunder_i_approx(l, a.x),
                                  sunder_i_approx(l, a.y)};
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_vector v = sunder_i_vector_get(&l->scratch, l, a);
+    const sunder_i_rational_point v = sunder_i_rational_get(&l->scratch, l, a);
     sunder_i_hpoint p;
-    if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) && l->pool[a.x - INT64_MIN].den.limb == v.w.limb &&
-        l->pool[a.y - INT64_MIN].den.limb == v.w.limb) {
+    if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) && l->pool[a.x - INT64_MIN].ratio.den.limb == v.w.limb &&
+        l->pool[a.y - INT64_MIN].ratio.den.limb == v.w.limb) {
         /* The point's own handles will do. */
         memset(&p, 0, sizeof p);
         p.ax = sunder_i_approx(l, a.x);
@@ -85,7 +83,7 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *l, sunder_i_point a)
         p.x.limb[0] = (uint64_t)a.x;
         p.y.limb[0] = (uint64_t)a.y;
     } else {
-        p = pooled(l, v.x, v.y, v.w);
+        p = pooled(l, v);
     }
     sunder_i_lattice_end(l, mark);
     return p;
@@ -100,45 +98,31 @@ static sunder_i_i256 big_i256(sunder_i_big a)
     return r;
 }
 
-static bool is_native(const sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+static bool is_native(const sunder_i_lattice *l, sunder_i_rational_point p)
 {
-    return l->narrow || (!l->pooled && sunder_i_big_bits(x) < 256 && sunder_i_big_bits(y) < 256 &&
-                         sunder_i_big_bits(w) < 127);
+    return l->narrow ||
+           (!l->pooled && sunder_i_big_bits(p.x) < 256 && sunder_i_big_bits(p.y) < 256 && sunder_i_big_bits(p.w) < 127);
 }
 
-sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *l, sunder_i_rational_point v)
 {
-    if (is_native(l, x, y, w)) {
-        const sunder_i_i256 d = big_i256(w);
-        return native(l, big_i256(x), big_i256(y), (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
+    if (is_native(l, v)) {
+        const sunder_i_i256 d = big_i256(v.w);
+        return native(l, big_i256(v.x), big_i256(v.y), (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_hpoint p = pooled(l, x, y, w);
+    const sunder_i_hpoint p = pooled(l, v);
     sunder_i_lattice_end(l, mark);
     return p;
 }
 
-void sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_hpoint *p,
-                          sunder_i_big xyw[3])
+sunder_i_rational_point sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *l, const sunder_i_hpoint *p)
 {
-    if (p->w != 0) {
-        xyw[0] = sunder_i_big_i256(arena, p->x);
-        xyw[1] = sunder_i_big_i256(arena, p->y);
-        xyw[2] = sunder_i_big_i128(arena, p->w);
-        return;
-    }
+    if (p->w != 0)
+        return (sunder_i_rational_point){sunder_i_big_i256(arena, p->x), sunder_i_big_i256(arena, p->y),
+                                         sunder_i_big_i128(arena, p->w)};
     const sunder_i_ratio x = sunder_i_lattice_read(arena, l, (int64_t)p->x.limb[0]);
-    xyw[0] = x.num;
-    xyw[1] = sunder_i_lattice_read(arena, l, (int64_t)p->y.limb[0]).num;
-    xyw[2] = x.den;
-}
-
-void sunder_i_hpoint_big(sunder_i_lattice *l, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
-                         sunder_i_big *w)
-{
-    sunder_i_big xyw[3];
-    sunder_i_hpoint_read(&l->arena, l, p, xyw);
-    *x = xyw[0], *y = xyw[1], *w = xyw[2];
+    return (sunder_i_rational_point){x.num, sunder_i_lattice_read(arena, l, (int64_t)p->y.limb[0]).num, x.den};
 }
 
 /* By the coordinate k, x or y, where the filter did not tell. */
@@ -151,12 +135,8 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const s
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_big p[3], q[3];
-    sunder_i_hpoint_read(m, l, a, p);
-    sunder_i_hpoint_read(m, l, b, q);
-    const bool same = p[2].limb == q[2].limb;
-    const int c = same ? sunder_i_big_cmp(p[k], q[k])
-                       : sunder_i_big_cmp(sunder_i_times(m, p[k], q[2]), sunder_i_times(m, q[k], p[2]));
+    const sunder_i_rational_point p = sunder_i_hpoint_read(m, l, a), q = sunder_i_hpoint_read(m, l, b);
+    const int c = sunder_i_rational_cmp(m, &p, &q, k);
     sunder_i_lattice_end(l, mark);
     return c;
 }
@@ -214,11 +194,10 @@ uint64_t sunder_i_hpoint_hash(sunder_i_lattice *l, const sunder_i_hpoint *p)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_big xyw[3];
+    const sunder_i_rational_point at = sunder_i_hpoint_read(m, l, p);
     uint64_t h = 0;
-    sunder_i_hpoint_read(m, l, p, xyw);
     for (int k = 0; k < 2; k++) {
-        const sunder_i_big v = sunder_i_big_div_floor(m, sunder_i_big_shl(m, xyw[k], 64), xyw[2]);
+        const sunder_i_big v = sunder_i_big_div_floor(m, sunder_i_big_shl(m, sunder_i_rational_axis(&at, k), 64), at.w);
         for (long i = 0; i < labs(v.size); i++) h = mix(h, v.limb[i]);
         h = mix(h, (uint64_t)v.size);
     }
@@ -236,11 +215,8 @@ int sunder_i_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
     l->counts.exact_fallbacks++;
-    sunder_i_big xyw[3];
-    sunder_i_hpoint_read(m, l, c, xyw);
-    const sunder_i_vector o = sunder_i_vector_get(m, l, a), p = {xyw[0], xyw[1], xyw[2]};
-    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o), v = sunder_i_vector_sub(m, p, o);
-    s = sunder_i_big_sign(sunder_i_vector_cross(m, u, v));
+    s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
+                                 sunder_i_hpoint_read(m, l, c));
     sunder_i_lattice_end(l, mark);
     return s;
 }

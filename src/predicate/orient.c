@@ -5,7 +5,7 @@
  * are believed as far as the bounds derived below reach; then big integers decide, over the operands' own
  * denominators. */
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 
@@ -73,9 +73,9 @@ static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_po
     if (l->arena.failed) return (sunder_i_point){0, 0};
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_vector v = sunder_i_vector_get(m, l, b);
-    if (sign > 0) v = (sunder_i_vector){sunder_i_big_neg(v.x), sunder_i_big_neg(v.y), v.w};
-    const sunder_i_point r = sunder_i_vector_put(l, sunder_i_vector_sub(m, sunder_i_vector_get(m, l, a), v));
+    const sunder_i_rational_point u = sunder_i_rational_get(m, l, a), v = sunder_i_rational_get(m, l, b);
+    const sunder_i_point r =
+        sunder_i_rational_put(l, sign > 0 ? sunder_i_rational_add(m, u, v) : sunder_i_rational_sub(m, u, v));
     sunder_i_lattice_end(l, mark);
     return r;
 }
@@ -93,7 +93,7 @@ sunder_i_point sunder_i_point_sub(sunder_i_lattice *l, sunder_i_point a, sunder_
 static int64_t negated(sunder_i_lattice *l, int64_t n)
 {
     if (sunder_i_is_plain(n)) return -n;
-    const sunder_i_ratio r = l->pool[n - INT64_MIN];
+    const sunder_i_ratio r = l->pool[n - INT64_MIN].ratio;
     return sunder_i_lattice_ratio(l, sunder_i_big_neg(r.num), r.den);
 }
 
@@ -112,9 +112,8 @@ void sunder_i_point_difference(sunder_i_lattice *l, sunder_i_point a, sunder_i_p
         return;
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    const sunder_i_vector u = sunder_i_vector_diff(&l->scratch, l, a, b);
-    *dx = sunder_i_big_ratio(&l->scratch, u.x, u.w, -l->approx_shift);
-    *dy = sunder_i_big_ratio(&l->scratch, u.y, u.w, -l->approx_shift);
+    const sunder_i_rational_point u = sunder_i_rational_diff(&l->scratch, l, a, b);
+    sunder_i_rational_doubles(&l->scratch, u, -l->approx_shift, dx, dy);
     sunder_i_lattice_end(l, mark);
 }
 
@@ -146,10 +145,8 @@ int sunder_i_orient(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sun
     l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector o = sunder_i_vector_get(m, l, a);
-    const sunder_i_vector u = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, b), o);
-    const sunder_i_vector v = sunder_i_vector_sub(m, sunder_i_vector_get(m, l, c), o);
-    s = sunder_i_big_sign(sunder_i_vector_cross(m, u, v));
+    s = sunder_i_rational_orient(m, sunder_i_rational_get(m, l, a), sunder_i_rational_get(m, l, b),
+                                 sunder_i_rational_get(m, l, c));
     sunder_i_lattice_end(l, mark);
     return s;
 }
@@ -161,8 +158,8 @@ static int exact_product(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v
     l->counts.exact_fallbacks++;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector p = sunder_i_vector_get(m, l, u), q = sunder_i_vector_get(m, l, v);
-    const int s = sunder_i_big_sign(cross ? sunder_i_vector_cross(m, p, q) : sunder_i_vector_dot(m, p, q));
+    const sunder_i_rational_point p = sunder_i_rational_get(m, l, u), q = sunder_i_rational_get(m, l, v);
+    const int s = sunder_i_big_sign(cross ? sunder_i_rational_cross(m, p, q) : sunder_i_rational_dot(m, p, q));
     sunder_i_lattice_end(l, mark);
     return s;
 }
@@ -190,7 +187,7 @@ int sunder_i_dot_sign(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v)
 
 static int number_sign(const sunder_i_lattice *l, int64_t n)
 {
-    return sunder_i_is_plain(n) ? (n > 0) - (n < 0) : sunder_i_big_sign(l->pool[n - INT64_MIN].num);
+    return sunder_i_is_plain(n) ? (n > 0) - (n < 0) : sunder_i_big_sign(l->pool[n - INT64_MIN].ratio.num);
 }
 
 int sunder_i_half_plane(sunder_i_lattice *l, sunder_i_point u)

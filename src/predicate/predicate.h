@@ -9,7 +9,7 @@
 #ifndef SUNDER_I_PREDICATE_H
 #define SUNDER_I_PREDICATE_H
 
-#include "number/lattice.h"
+#include "predicate/rational_point.h"
 
 /* ---- Order and orientation: degree 1 and 2 ---- */
 
@@ -52,9 +52,9 @@ sunder_i_fraction sunder_i_foot(sunder_i_lattice *lattice, sunder_i_point a, sun
 /* The fraction n / 1, n small. */
 sunder_i_fraction sunder_i_fraction_int(sunder_i_lattice *lattice, int n);
 int sunder_i_fraction_sign(const sunder_i_lattice *lattice, const sunder_i_fraction *t);
-/* Its integers, den > 0; those of native ones on that arena. The lattice stays as it is. */
-void sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, const sunder_i_fraction *t,
-                            sunder_i_big *num, sunder_i_big *den);
+/* Its integers, those of native ones on that arena. The lattice stays as it is. */
+sunder_i_ratio sunder_i_fraction_read(sunder_i_arena *arena, const sunder_i_lattice *lattice,
+                                      const sunder_i_fraction *t);
 int sunder_i_fraction_cmp(sunder_i_lattice *lattice, const sunder_i_fraction *s, const sunder_i_fraction *t);
 
 /* ---- Intersection points: homogeneous, degree 3 over 2, compared in degree 5 ---- */
@@ -70,9 +70,9 @@ typedef struct sunder_i_hpoint {
 sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b,
                                    const sunder_i_fraction *t);
 sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a);
-/* From its integers, which are copied; w > 0. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings; on
+/* From its integers, which are copied. On a narrow lattice x, y < 2^255 and w < 2^127, as of crossings; on
  * another one that is so stays native too. */
-sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_big x, sunder_i_big y, sunder_i_big w);
+sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_rational_point p);
 /* Lexicographic. */
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b);
 /* By y alone. */
@@ -83,12 +83,9 @@ bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, 
 uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *a);
 /* Side of c to line ab. Degree 4. */
 int sunder_i_orient_hpoint(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c);
-/* The three integers, in that arena: the lattice stays as it is, and threads may ask at once. */
-void sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, const sunder_i_hpoint *p,
-                          sunder_i_big xyw[3]);
-/* The same in the lattice's arena. */
-void sunder_i_hpoint_big(sunder_i_lattice *lattice, const sunder_i_hpoint *p, sunder_i_big *x, sunder_i_big *y,
-                         sunder_i_big *w);
+/* Its integers, in that arena: the lattice stays as it is, and threads may ask at once. */
+sunder_i_rational_point sunder_i_hpoint_read(sunder_i_arena *arena, const sunder_i_lattice *lattice,
+                                             const sunder_i_hpoint *p);
 
 /* ---- Segments: every degenerate form by name ---- */
 

@@ -1,6 +1,6 @@
 /* Two segments: how they meet, and how far apart they are. */
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 /* Is c, known to lie on the line ab (or a == b), on the closed segment ab? */
 static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
@@ -74,22 +74,22 @@ static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_poi
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    const sunder_i_vector at = sunder_i_vector_get(m, l, p), u = sunder_i_vector_diff(m, l, b, a);
-    const sunder_i_vector ap = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, a));
-    const sunder_i_vector bp = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, b));
+    const sunder_i_rational_point at = sunder_i_rational_get(m, l, p), u = sunder_i_rational_diff(m, l, b, a);
+    const sunder_i_rational_point ap = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, a));
+    const sunder_i_rational_point bp = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, b));
     const sunder_i_ratio g = sunder_i_lattice_read(m, l, gap);
     sunder_i_big square, over; /* square / over is the square of the distance */
-    if (sunder_i_big_sign(sunder_i_vector_dot(m, ap, u)) <= 0) {
-        square = sunder_i_vector_dot(m, ap, ap);
+    if (sunder_i_big_sign(sunder_i_rational_dot(m, ap, u)) <= 0) {
+        square = sunder_i_rational_dot(m, ap, ap);
         over = sunder_i_big_mul(m, ap.w, ap.w);
-    } else if (sunder_i_big_sign(sunder_i_vector_dot(m, bp, u)) >= 0) {
-        square = sunder_i_vector_dot(m, bp, bp);
+    } else if (sunder_i_big_sign(sunder_i_rational_dot(m, bp, u)) >= 0) {
+        square = sunder_i_rational_dot(m, bp, bp);
         over = sunder_i_big_mul(m, bp.w, bp.w);
     } else {
         /* u's own denominator drops out. */
-        const sunder_i_big cross = sunder_i_vector_cross(m, u, ap);
+        const sunder_i_big cross = sunder_i_rational_cross(m, u, ap);
         square = sunder_i_big_mul(m, cross, cross);
-        over = sunder_i_big_mul(m, sunder_i_vector_dot(m, u, u), sunder_i_big_mul(m, ap.w, ap.w));
+        over = sunder_i_big_mul(m, sunder_i_rational_dot(m, u, u), sunder_i_big_mul(m, ap.w, ap.w));
     }
     const int c = sunder_i_big_cmp(sunder_i_times(m, square, sunder_i_big_mul(m, g.den, g.den)),
                                    sunder_i_big_mul(m, sunder_i_big_mul(m, g.num, g.num), over));

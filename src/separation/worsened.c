@@ -5,25 +5,25 @@
  * they differ by more than they can be off; else the rationals are compared. */
 #include "separation/separation.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 #include "separation/least.h"
 #include "separation/operands/operands.h"
 
 #include <math.h>
 
-/* num / den * 2^exponent, den > 0. */
+/* value * 2^exponent. */
 typedef struct square {
-    sunder_i_big num, den;
+    sunder_i_ratio value;
     long exponent;
 } square;
 
 static bool is_less(sunder_i_arena *a, const square *p, const square *q)
 {
-    sunder_i_big u = sunder_i_big_mul(a, p->num, q->den), v = sunder_i_big_mul(a, q->num, p->den);
+    sunder_i_ratio u = p->value, v = q->value;
     const long shift = p->exponent - q->exponent;
-    if (shift > 0) u = sunder_i_big_shl(a, u, (unsigned long)shift);
-    if (shift < 0) v = sunder_i_big_shl(a, v, (unsigned long)-shift);
-    return sunder_i_big_cmp(u, v) < 0;
+    if (shift > 0) u.num = sunder_i_big_shl(a, u.num, (unsigned long)shift);
+    if (shift < 0) v.num = sunder_i_big_shl(a, v.num, (unsigned long)-shift);
+    return sunder_i_ratio_cmp(a, u, v) < 0;
 }
 
 /* ---- Disjoint: distances ---- */
@@ -33,22 +33,22 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
 {
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_arena *m = &l->arena;
-    if (m->failed) return (square){{NULL, 0}, {NULL, 0}, 0};
-    const sunder_i_vector c = sunder_i_vector_get(m, l, g->at[side][v]);
-    const sunder_i_vector a = sunder_i_vector_get(m, l, g->at[1 - side][edge]);
-    const sunder_i_vector b = sunder_i_vector_get(m, l, g->at[1 - side][g->shape[1 - side]->next[edge]]);
-    const sunder_i_vector e = sunder_i_vector_sub(m, b, a), u = sunder_i_vector_sub(m, c, a);
-    const sunder_i_vector w = sunder_i_vector_sub(m, c, b);
-    const bool beyond_a = sunder_i_big_sign(sunder_i_vector_dot(m, u, e)) > 0;
-    const bool beyond_b = beyond_a && sunder_i_big_sign(sunder_i_vector_dot(m, w, e)) >= 0;
+    if (m->failed) return (square){{{NULL, 0}, {NULL, 0}}, 0};
+    const sunder_i_rational_point c = sunder_i_rational_get(m, l, g->at[side][v]);
+    const sunder_i_rational_point a = sunder_i_rational_get(m, l, g->at[1 - side][edge]);
+    const sunder_i_rational_point b = sunder_i_rational_get(m, l, g->at[1 - side][g->shape[1 - side]->next[edge]]);
+    const sunder_i_rational_point e = sunder_i_rational_sub(m, b, a), u = sunder_i_rational_sub(m, c, a);
+    const sunder_i_rational_point w = sunder_i_rational_sub(m, c, b);
+    const bool beyond_a = sunder_i_big_sign(sunder_i_rational_dot(m, u, e)) > 0;
+    const bool beyond_b = beyond_a && sunder_i_big_sign(sunder_i_rational_dot(m, w, e)) >= 0;
     if (beyond_a && !beyond_b) {
         /* e's own denominator drops out. */
-        const sunder_i_big cross = sunder_i_vector_cross(m, e, u);
-        const sunder_i_big den = sunder_i_big_mul(m, sunder_i_vector_dot(m, e, e), sunder_i_big_mul(m, u.w, u.w));
-        return (square){sunder_i_big_mul(m, cross, cross), den, 2 * l->exponent};
+        const sunder_i_big cross = sunder_i_rational_cross(m, e, u);
+        const sunder_i_big den = sunder_i_big_mul(m, sunder_i_rational_dot(m, e, e), sunder_i_big_mul(m, u.w, u.w));
+        return (square){{sunder_i_big_mul(m, cross, cross), den}, 2 * l->exponent};
     }
-    const sunder_i_vector *d = beyond_b ? &w : &u;
-    return (square){sunder_i_vector_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w), 2 * l->exponent};
+    const sunder_i_rational_point *d = beyond_b ? &w : &u;
+    return (square){{sunder_i_rational_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w)}, 2 * l->exponent};
 }
 
 /* All ends against all edges: the least in doubles first, then exactly the least of those that it may be. A coordinate
@@ -57,7 +57,7 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
 static square least_square(sunder_i_operands *g)
 {
     double least = INFINITY;
-    square best = {{NULL, 0}, {NULL, 0}, 0};
+    square best = {{{NULL, 0}, {NULL, 0}}, 0};
     bool any = false;
     for (int pass = 0; pass < 2; pass++) {
         const double most = least + 2 * (8 * g->error + 0x1p-48 * g->magnitude);
@@ -120,9 +120,8 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
 {
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    square a = {{NULL, 0}, {NULL, 0}, 0}, b = a;
-    const bool read =
-        sunder_i_big_parse_ratio(&arena, was, &a.num, &a.den) && sunder_i_big_parse_ratio(&arena, is, &b.num, &b.den);
+    square a = {{{NULL, 0}, {NULL, 0}}, 0}, b = a;
+    const bool read = sunder_i_ratio_parse(&arena, was, &a.value) && sunder_i_ratio_parse(&arena, is, &b.value);
     *worse = read && is_less(&arena, &a, &b);
     const bool failed = arena.failed || !read;
     sunder_i_arena_free(&arena);

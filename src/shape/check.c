@@ -3,7 +3,7 @@
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 #include <string.h>
@@ -130,9 +130,9 @@ static void add_area(checker *c, const uint32_t *list, uint32_t first, uint32_t 
     sunder_i_arena *arena = &c->arena;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t j = i + 1 < n ? i + 1 : 0;
-        const sunder_i_vector p = sunder_i_vector_get(arena, c->l, c->at[list ? list[i] : first + i]);
-        const sunder_i_vector q = sunder_i_vector_get(arena, c->l, c->at[list ? list[j] : first + j]);
-        const sunder_i_big cross = sunder_i_vector_cross(arena, p, q);
+        const sunder_i_rational_point p = sunder_i_rational_get(arena, c->l, c->at[list ? list[i] : first + i]);
+        const sunder_i_rational_point q = sunder_i_rational_get(arena, c->l, c->at[list ? list[j] : first + j]);
+        const sunder_i_big cross = sunder_i_rational_cross(arena, p, q);
         add_term(arena, s, factor < 0 ? sunder_i_big_neg(cross) : cross, sunder_i_big_mul(arena, p.w, q.w));
     }
 }

@@ -1,6 +1,6 @@
 /* Area and anchor of a shape with corners that are no doubles. */
 #include "predicate/kernel.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 #include "shape/shape.h"
 
 /* ---- Area ---- */
@@ -9,10 +9,10 @@
 static sunder_i_big edge_area(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
                               unsigned long bits, int64_t *lost)
 {
-    const sunder_i_vector u = sunder_i_vector_get(arena, l, a), v = sunder_i_vector_get(arena, l, b);
+    const sunder_i_rational_point u = sunder_i_rational_get(arena, l, a), v = sunder_i_rational_get(arena, l, b);
     const sunder_i_big den = sunder_i_times(arena, u.w, v.w);
-    const sunder_i_big term = sunder_i_big_shl(arena, sunder_i_vector_cross(arena, u, v), bits);
-    if (sunder_i_is_one(den)) return term;
+    const sunder_i_big term = sunder_i_big_shl(arena, sunder_i_rational_cross(arena, u, v), bits);
+    if (sunder_i_big_is_one(den)) return term;
     ++*lost;
     return sunder_i_big_div_floor(arena, term, den);
 }
@@ -59,13 +59,13 @@ static common over_one(sunder_i_arena *arena, const sunder_i_lattice *l, const s
     common c = {sunder_i_arena_alloc(arena, n, sizeof *c.xy), sunder_i_big_i64(arena, 1)};
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
         if (sunder_i_point_is_plain(at[corner[i]])) continue;
-        const sunder_i_big w = sunder_i_vector_get(arena, l, at[corner[i]]).w;
+        const sunder_i_big w = sunder_i_rational_get(arena, l, at[corner[i]]).w;
         const sunder_i_big g = sunder_i_big_gcd(arena, c.den, w);
         if (!arena->failed) c.den = sunder_i_big_mul(arena, c.den, sunder_i_big_div_floor(arena, w, g));
     }
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
-        const sunder_i_vector v = sunder_i_vector_get(arena, l, at[corner[i]]);
-        const sunder_i_big factor = sunder_i_is_one(v.w) ? c.den : sunder_i_big_div_floor(arena, c.den, v.w);
+        const sunder_i_rational_point v = sunder_i_rational_get(arena, l, at[corner[i]]);
+        const sunder_i_big factor = sunder_i_big_is_one(v.w) ? c.den : sunder_i_big_div_floor(arena, c.den, v.w);
         c.xy[i][0] = sunder_i_big_mul(arena, v.x, factor);
         c.xy[i][1] = sunder_i_big_mul(arena, v.y, factor);
     }

@@ -60,12 +60,17 @@ static bool sum_is_exact(double x, double d)
     return isfinite(s) && (x - (s - back)) + (d - back) == 0;
 }
 
+static sunder_i_rational_point point_of(const sunder_i_exact *at)
+{
+    return (sunder_i_rational_point){at->num[0], at->num[1], at->den};
+}
+
 /* A corner that is a pair of doubles, moved to where there is none. */
 static sunder_i_exact exact_of_doubles(sunder_i_arena *arena, const double xy[2], const double d[2])
 {
-    const sunder_i_big zero[2] = {{NULL, 0}, {NULL, 0}};
-    const sunder_i_exact at = sunder_i_exact_make(arena, zero, sunder_i_big_i64(arena, 1), 0, xy);
-    return sunder_i_exact_make(arena, at.num, at.den, at.exponent, d);
+    const sunder_i_rational_point origin = {{NULL, 0}, {NULL, 0}, sunder_i_big_i64(arena, 1)};
+    const sunder_i_exact at = sunder_i_exact_make(arena, origin, 0, xy);
+    return sunder_i_exact_make(arena, point_of(&at), at.exponent, d);
 }
 
 /* A rational shape's numbers moved by d into the copy c. Corners as given stay doubles, crossings need not. */
@@ -79,7 +84,7 @@ static bool move_rational(const sunder_shape *shape, const double d[2], sunder_s
         exact[v] = *from;
         double *xy = c->xy + 2 * (size_t)v;
         if (from->den.size)
-            exact[v] = sunder_i_exact_make(&arena, from->num, from->den, from->exponent, d);
+            exact[v] = sunder_i_exact_make(&arena, point_of(from), from->exponent, d);
         else if (!sum_is_exact(xy[0], d[0]) || !sum_is_exact(xy[1], d[1]))
             exact[v] = exact_of_doubles(&arena, xy, d);
         else

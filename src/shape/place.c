@@ -7,7 +7,7 @@
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <float.h>
 #include <limits.h>
@@ -114,7 +114,7 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *l, const sunder_i_exact *c
         at[k] = sunder_i_big_shl(m, corner->num[k], (unsigned long)(corner->exponent - unit));
         at[k] = sunder_i_big_add(m, at[k], sunder_i_big_mul(m, add, corner->den));
     }
-    const sunder_i_point p = sunder_i_vector_put(l, (sunder_i_vector){at[0], at[1], den});
+    const sunder_i_point p = sunder_i_rational_put(l, (sunder_i_rational_point){at[0], at[1], den});
     sunder_i_lattice_end(l, mark);
     return p;
 }

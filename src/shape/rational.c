@@ -24,10 +24,10 @@ static unsigned long common_twos(const sunder_i_big num[2])
     return least == ULONG_MAX ? 0 : least;
 }
 
-sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, const sunder_i_big num[2], sunder_i_big den, long exponent,
-                                   const double add[2])
+sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, sunder_i_rational_point u, long exponent, const double add[2])
 {
-    sunder_i_exact r = {{num[0], num[1]}, den, exponent};
+    const sunder_i_big den = u.w;
+    sunder_i_exact r = {{u.x, u.y}, den, exponent};
     for (int k = 0; k < 2; k++) add_double(arena, r.num, k, den, add[k], &r.exponent);
     const sunder_i_big g = sunder_i_big_gcd(arena, sunder_i_big_gcd(arena, r.num[0], r.num[1]), den);
     if (arena->failed) return r;

@@ -2,10 +2,11 @@
 #ifndef SUNDER_I_RATIONAL_H
 #define SUNDER_I_RATIONAL_H
 
+#include "predicate/rational_point.h"
 #include "shape/shape.h"
 
-/* (num[0], num[1]) / den * 2^exponent + (add[0], add[1]), den > 0, in lowest terms. */
-sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, const sunder_i_big num[2], sunder_i_big den, long exponent,
+/* u * 2^exponent + (add[0], add[1]), in lowest terms. */
+sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, sunder_i_rational_point u, long exponent,
                                    const double add[2]);
 /* Is it a pair of doubles after all? */
 bool sunder_i_exact_is_double(sunder_i_arena *arena, const sunder_i_exact *corner);

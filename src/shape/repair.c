@@ -78,9 +78,7 @@ static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const doub
                        sunder_i_made_points *made, double xy[2], sunder_i_arena *arena)
 {
     if (!sunder_i_reserve(&made->point, &made->capacity, made->n + 1, sizeof *made->point)) return false;
-    sunder_i_big xyw[3];
-    sunder_i_hpoint_read(arena, l, h, xyw);
-    const sunder_i_exact m = sunder_i_exact_make(arena, xyw, xyw[2], l->exponent, origin);
+    const sunder_i_exact m = sunder_i_exact_make(arena, sunder_i_hpoint_read(arena, l, h), l->exponent, origin);
     if (arena->failed) return false;
     for (int k = 0; k < 2; k++) xy[k] = sunder_i_big_ratio(arena, m.num[k], m.den, m.exponent);
     made->rational |= !sunder_i_exact_is_double(arena, &m);

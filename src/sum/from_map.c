@@ -324,13 +324,9 @@ static bool reduced(sunder_i_lattice *lattice, sunder_i_arena *arena, const sund
                     sunder_i_hpoint *out)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const sunder_i_big *at = sunder_i_planar_map_vertex_xyw(map, v);
-    sunder_i_big xyw[3] = {at[0], at[1], at[2]};
-    const sunder_i_big g = sunder_i_big_gcd(arena, sunder_i_big_gcd(arena, at[0], at[2]), at[1]);
-    if (!arena->failed && sunder_i_big_bits(g) > 1)
-        for (int i = 0; i < 3; i++) xyw[i] = sunder_i_big_div_floor(arena, xyw[i], g);
+    const sunder_i_rational_point at = sunder_i_rational_reduced(arena, *sunder_i_planar_map_vertex_point(map, v));
     if (arena->failed) return false;
-    *out = sunder_i_hpoint_make(lattice, xyw[0], xyw[1], xyw[2]);
+    *out = sunder_i_hpoint_make(lattice, at);
     sunder_i_arena_release(arena, mark);
     return !lattice->arena.failed;
 }

@@ -97,17 +97,16 @@ size_t sunder_map_faces(const sunder_map *map) { return map->faces; }
 
 void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2])
 {
-    const sunder_i_big *xyw = sunder_i_planar_map_vertex_xyw(map->map, map->vertex[vertex]);
     sunder_i_arena arena = {0};
-    for (int k = 0; k < 2; k++) xy[k] = sunder_i_sum_double(&arena, map->sum, k, xyw[k], xyw[2]);
+    sunder_i_sum_doubles(&arena, map->sum, *sunder_i_planar_map_vertex_point(map->map, map->vertex[vertex]), xy);
     sunder_i_arena_free(&arena);
 }
 
 sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y, sunder_error *err)
 {
     sunder_i_arena arena = {0};
-    const sunder_i_big *xyw = sunder_i_planar_map_vertex_xyw(map->map, map->vertex[vertex]);
-    const sunder_status status = sunder_i_sum_texts(&arena, map->sum, xyw, x, y, err);
+    const sunder_i_rational_point *at = sunder_i_planar_map_vertex_point(map->map, map->vertex[vertex]);
+    const sunder_status status = sunder_i_sum_texts(&arena, map->sum, *at, x, y, err);
     sunder_i_arena_free(&arena);
     return status;
 }

@@ -118,11 +118,9 @@ static void big_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, s
 static void big_vertex(sunder_i_arena *arena, const sunder_sum *sum, const sunder_i_hpoint *p, double xy[2],
                        double off[2])
 {
-    const sunder_i_lattice *l = &sum->lattice;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    sunder_i_big xyw[3];
-    sunder_i_hpoint_read(arena, l, p, xyw);
-    for (int k = 0; k < 2; k++) big_double(arena, sum, k, xyw[k], xyw[2], &xy[k], &off[k]);
+    const sunder_i_rational_point at = sunder_i_hpoint_read(arena, &sum->lattice, p);
+    for (int k = 0; k < 2; k++) big_double(arena, sum, k, sunder_i_rational_axis(&at, k), at.w, &xy[k], &off[k]);
     sunder_i_arena_release(arena, mark);
 }
 

@@ -26,9 +26,9 @@ struct sunder_sum {
  * arena is the caller's and not the lattice's, so that a const sum stays so and threads may ask at once. */
 long sunder_i_sum_coordinate(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d,
                              sunder_i_big *num, sunder_i_big *den);
-/* Such a coordinate as the nearest double (NaN if memory is out), and a point's two as texts. */
-double sunder_i_sum_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d);
-sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, const sunder_i_big xyw[3], char **x,
+/* A point's coordinates as the nearest doubles (NaN if memory is out), and as texts. */
+void sunder_i_sum_doubles(sunder_i_arena *arena, const sunder_sum *sum, sunder_i_rational_point at, double xy[2]);
+sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, sunder_i_rational_point at, char **x,
                                  char **y, sunder_error *err);
 
 #endif

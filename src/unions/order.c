@@ -22,9 +22,10 @@
 static void offset(sunder_i_uniting *u, const sunder_i_convex_sum *s, uint32_t k, double xy[2])
 {
     const long shift = -(long)u->lattice->approx_shift;
-    for (int i = 0; i < 2; i++)
-        xy[i] = sunder_i_big_ratio(&u->arena, s->xyw[k][i], s->xyw[k][2], shift) -
-                sunder_i_big_ratio(&u->arena, s->xyw[0][i], s->xyw[0][2], shift);
+    double first[2];
+    sunder_i_rational_doubles(&u->arena, s->at[0], shift, &first[0], &first[1]);
+    sunder_i_rational_doubles(&u->arena, s->at[k], shift, &xy[0], &xy[1]);
+    for (int i = 0; i < 2; i++) xy[i] -= first[i];
 }
 
 static double fatness_of(sunder_i_uniting *u, uint32_t subsum)

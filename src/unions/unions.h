@@ -50,7 +50,7 @@ bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n);
 bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out);
 
 /* Makes each of n subsums in turn and puts it into the map: inserted as it is, or united with what is there. */
-typedef sunder_status (*sunder_i_add_polygon)(sunder_i_planar_map *map, const sunder_i_xyw *corner,
+typedef sunder_status (*sunder_i_add_polygon)(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                               const sunder_i_point *along, size_t n, sunder_error *err);
 sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_t n, sunder_i_add_polygon add,
                             sunder_i_planar_map *map, sunder_error *err);

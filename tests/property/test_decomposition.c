@@ -341,8 +341,8 @@ static void load_corners(subject *s)
     s->corner = test_alloc(s->d.corners, sizeof *s->corner);
     for (uint32_t i = 0; i < s->d.corners; i++) {
         qpoint_init(&s->corner[i]);
-        set_ratio(s->corner[i].x, s->d.corner[i].x, s->d.corner[i].w);
-        set_ratio(s->corner[i].y, s->d.corner[i].y, s->d.corner[i].w);
+        set_ratio(s->corner[i].x, s->d.corner[i].at.x, s->d.corner[i].at.w);
+        set_ratio(s->corner[i].y, s->d.corner[i].at.y, s->d.corner[i].at.w);
     }
 }
 

@@ -238,18 +238,16 @@ static void close_world(world *w)
 
 /* ---- The same in the map's numbers ---- */
 
-static void corners_of(world *w, const polygon *p, sunder_i_xyw *out)
+static void corners_of(world *w, const polygon *p, sunder_i_rational_point *out)
 {
-    for (int i = 0; i < p->n; i++) {
-        out[i][0] = sunder_i_big_i64(&w->arena, p->x[i]);
-        out[i][1] = sunder_i_big_i64(&w->arena, p->y[i]);
-        out[i][2] = sunder_i_big_i64(&w->arena, p->w);
-    }
+    for (int i = 0; i < p->n; i++)
+        out[i] = (sunder_i_rational_point){sunder_i_big_i64(&w->arena, p->x[i]), sunder_i_big_i64(&w->arena, p->y[i]),
+                                           sunder_i_big_i64(&w->arena, p->w)};
 }
 
 static void insert(world *w, sunder_i_planar_map *map, int i, bool unite)
 {
-    sunder_i_xyw corner[MOST_CORNERS];
+    sunder_i_rational_point corner[MOST_CORNERS];
     sunder_i_point along[MOST_CORNERS];
     const polygon *p = &w->p[i];
     corners_of(w, p, corner);
@@ -257,7 +255,7 @@ static void insert(world *w, sunder_i_planar_map *map, int i, bool unite)
         along[k] = (sunder_i_point){p->x[(k + 1) % p->n] - p->x[k], p->y[(k + 1) % p->n] - p->y[k]};
     const bool by_direction = w->lattice.narrow && rng_once_in(&w->g, 2);
     const sunder_status s = (unite ? sunder_i_planar_map_unite_polygon : sunder_i_planar_map_insert_polygon)(
-        map, (const sunder_i_xyw *)corner, by_direction ? along : NULL, (size_t)p->n, NULL);
+        map, corner, by_direction ? along : NULL, (size_t)p->n, NULL);
     assert_int_equal(s, SUNDER_OK);
 }
 
@@ -279,15 +277,15 @@ static void coordinate(mpq_t out, sunder_i_big n, sunder_i_big w)
 
 static sunder_i_location locate(world *w, sunder_i_planar_map *map, const point *p)
 {
-    sunder_i_xyw at;
+    sunder_i_rational_point at;
     mpz_t n;
     mpz_init(n);
     mpz_mul(n, mpq_numref(p->x), mpq_denref(p->y));
-    at[0] = big_from_mpz(&w->arena, n);
+    at.x = big_from_mpz(&w->arena, n);
     mpz_mul(n, mpq_numref(p->y), mpq_denref(p->x));
-    at[1] = big_from_mpz(&w->arena, n);
+    at.y = big_from_mpz(&w->arena, n);
     mpz_mul(n, mpq_denref(p->x), mpq_denref(p->y));
-    at[2] = big_from_mpz(&w->arena, n);
+    at.w = big_from_mpz(&w->arena, n);
     mpz_clear(n);
     sunder_i_location l;
     assert_int_equal(sunder_i_planar_map_locate(map, at, &l, NULL), SUNDER_OK);
@@ -296,9 +294,9 @@ static sunder_i_location locate(world *w, sunder_i_planar_map *map, const point 
 
 static void vertex_point(const sunder_i_planar_map *map, uint32_t v, point *out)
 {
-    const sunder_i_big *at = sunder_i_planar_map_vertex_xyw(map, v);
-    coordinate(out->x, at[0], at[2]);
-    coordinate(out->y, at[1], at[2]);
+    const sunder_i_rational_point *at = sunder_i_planar_map_vertex_point(map, v);
+    coordinate(out->x, at->x, at->w);
+    coordinate(out->y, at->y, at->w);
 }
 
 /* Every vertex and edge against the polygons. Where the map is clean (united) covered counts are 0 or 1 and all that

@@ -45,27 +45,23 @@ static result look(sunder_i_operands *g, bool squares)
 }
 
 /* The integers of the point found, on an arena. */
-static void read_point(sunder_i_arena *arena, sunder_i_operands *g, const sunder_i_free_point *found,
-                       sunder_i_big xyw[3])
+static sunder_i_rational_point read_point(sunder_i_arena *arena, sunder_i_operands *g, const sunder_i_free_point *found)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_hpoint point = sunder_i_hpoint_at(l, found->line.a, found->line.b, &found->t);
-    sunder_i_hpoint_read(arena, l, &point, xyw);
+    return sunder_i_hpoint_read(arena, l, &point);
 }
 
 /* Each lattice has numbers of its own; their units are the same. */
 static bool same_point(sunder_i_operands *g, const sunder_i_free_point *a, sunder_i_operands *h,
                        const sunder_i_free_point *b)
 {
-    sunder_i_big x[3], y[3];
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
-    read_point(&l->scratch, g, a, x);
-    read_point(&l->scratch, h, b, y);
-    bool same = true;
-    for (int k = 0; k < 2; k++)
-        same = same && sunder_i_big_cmp(sunder_i_big_mul(&l->scratch, x[k], y[2]),
-                                        sunder_i_big_mul(&l->scratch, y[k], x[2])) == 0;
+    const sunder_i_rational_point p = read_point(&l->scratch, g, a), q = read_point(&l->scratch, h, b);
+    const bool same =
+        sunder_i_big_cmp(sunder_i_big_mul(&l->scratch, p.x, q.w), sunder_i_big_mul(&l->scratch, q.x, p.w)) == 0 &&
+        sunder_i_big_cmp(sunder_i_big_mul(&l->scratch, p.y, q.w), sunder_i_big_mul(&l->scratch, q.y, p.w)) == 0;
     sunder_i_lattice_end(l, mark);
     return same;
 }

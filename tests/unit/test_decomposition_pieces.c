@@ -191,8 +191,10 @@ static double perimeters(sunder_i_lattice *l, const sunder_i_decomposition *d)
         for (uint32_t k = first; k < end; k++) {
             const sunder_i_corner *a = &d->corner[d->piece_corner[k]];
             const sunder_i_corner *b = &d->corner[d->piece_corner[k + 1 < end ? k + 1 : first]];
-            sum += hypot(sunder_i_big_ratio(&l->arena, a->x, a->w, 0) - sunder_i_big_ratio(&l->arena, b->x, b->w, 0),
-                         sunder_i_big_ratio(&l->arena, a->y, a->w, 0) - sunder_i_big_ratio(&l->arena, b->y, b->w, 0));
+            sum += hypot(sunder_i_big_ratio(&l->arena, a->at.x, a->at.w, 0) -
+                             sunder_i_big_ratio(&l->arena, b->at.x, b->at.w, 0),
+                         sunder_i_big_ratio(&l->arena, a->at.y, a->at.w, 0) -
+                             sunder_i_big_ratio(&l->arena, b->at.y, b->at.w, 0));
         }
     }
     return sum;
@@ -309,15 +311,15 @@ static void check_sum(const sunder_i_decomposition *p, uint32_t i, const sunder_
     const uint32_t qf = sunder_i_piece_first(q, j), qe = q->piece_end[j];
     assert_in_range(s->corners, 3, pe - pf + qe - qf);
     qpoint *c = test_alloc(s->corners, sizeof *c);
-    for (uint32_t k = 0; k < s->corners; k++) load(&c[k], s->xyw[k][0], s->xyw[k][1], s->xyw[k][2]);
+    for (uint32_t k = 0; k < s->corners; k++) load(&c[k], s->at[k].x, s->at[k].y, s->at[k].w);
     for (uint32_t k = 0; k < s->corners; k++)
         assert_true(side(&c[k], &c[(k + 1) % s->corners], &c[(k + 2) % s->corners]) > 0);
     for (uint32_t a = pf; a < pe; a++)
         for (uint32_t b = qf; b < qe; b++) {
             const sunder_i_corner *u = &p->corner[p->piece_corner[a]], *v = &q->corner[q->piece_corner[b]];
             qpoint x, y;
-            load(&x, u->x, u->y, u->w);
-            load(&y, v->x, v->y, v->w);
+            load(&x, u->at.x, u->at.y, u->at.w);
+            load(&y, v->at.x, v->at.y, v->at.w);
             mpq_add(x.x, x.x, y.x);
             mpq_add(x.y, x.y, y.y);
             for (uint32_t k = 0; k < s->corners; k++) {

@@ -41,11 +41,10 @@ static void close_bed(bed *b)
     sunder_i_arena_free(&b->arena);
 }
 
-static void set(bed *b, sunder_i_xyw p, long x, long y, long w)
+static void set(bed *b, sunder_i_rational_point *p, long x, long y, long w)
 {
-    p[0] = sunder_i_big_i64(&b->arena, x);
-    p[1] = sunder_i_big_i64(&b->arena, y);
-    p[2] = sunder_i_big_i64(&b->arena, w);
+    *p = (sunder_i_rational_point){sunder_i_big_i64(&b->arena, x), sunder_i_big_i64(&b->arena, y),
+                                   sunder_i_big_i64(&b->arena, w)};
 }
 
 static void check(bed *b)
@@ -56,9 +55,9 @@ static void check(bed *b)
 
 static void segment(bed *b, long ax, long ay, long bx, long by, uint32_t left, uint32_t right)
 {
-    sunder_i_xyw p, q;
-    set(b, p, ax, ay, 1);
-    set(b, q, bx, by, 1);
+    sunder_i_rational_point p, q;
+    set(b, &p, ax, ay, 1);
+    set(b, &q, bx, by, 1);
     uint32_t first, last;
     assert_int_equal(sunder_i_planar_map_insert_segment(b->map, p, q, left, right, &first, &last, NULL), SUNDER_OK);
     assert_int_equal(sunder_i_planar_map_vertex_cmp(b->map, first, last), ax < bx || (ax == bx && ay < by) ? -1 : 1);
@@ -67,11 +66,11 @@ static void segment(bed *b, long ax, long ay, long bx, long by, uint32_t left, u
 
 static void polygon(bed *b, size_t n, const long (*xy)[2], bool unite)
 {
-    sunder_i_xyw corner[8];
-    for (size_t i = 0; i < n; i++) set(b, corner[i], xy[i][0], xy[i][1], 1);
-    assert_int_equal((unite ? sunder_i_planar_map_unite_polygon
-                            : sunder_i_planar_map_insert_polygon)(b->map, (const sunder_i_xyw *)corner, NULL, n, NULL),
-                     SUNDER_OK);
+    sunder_i_rational_point corner[8];
+    for (size_t i = 0; i < n; i++) set(b, &corner[i], xy[i][0], xy[i][1], 1);
+    assert_int_equal(
+        (unite ? sunder_i_planar_map_unite_polygon : sunder_i_planar_map_insert_polygon)(b->map, corner, NULL, n, NULL),
+        SUNDER_OK);
     check(b);
 }
 
@@ -83,8 +82,8 @@ static void box(bed *b, long x, long y, long w, long h, bool unite)
 
 static sunder_i_location locate(bed *b, long x, long y, long w)
 {
-    sunder_i_xyw p;
-    set(b, p, x, y, w);
+    sunder_i_rational_point p;
+    set(b, &p, x, y, w);
     sunder_i_location l;
     assert_int_equal(sunder_i_planar_map_locate(b->map, p, &l, NULL), SUNDER_OK);
     return l;
@@ -329,8 +328,8 @@ static void test_faces(void **state)
     box(&b, 10, 10, 5, 5, false);
     segment(&b, 0, 10, 3, 10, 0, 0); /* an antenna */
     segment(&b, 16, 2, 18, 4, 0, 0); /* a piece of its own */
-    sunder_i_xyw p;
-    set(&b, p, 17, 17, 1);
+    sunder_i_rational_point p;
+    set(&b, &p, 17, 17, 1);
     uint32_t v;
     assert_int_equal(sunder_i_planar_map_insert_point(b.map, p, 0, &v, NULL), SUNDER_OK);
     mark(&b);
@@ -373,12 +372,11 @@ static void test_large_numbers(void **state)
         rng g = rng_start(test_seed(), 7);
         for (int i = 0; i < 30; i++) {
             const long x = rng_int(&g, 0, 3), y = rng_int(&g, 0, 3), big = 0x1ffffffffffffffL;
-            sunder_i_xyw corner[3];
-            set(&b, corner[0], x * 5 + big, y * 5 - big, big - i % 5);
-            set(&b, corner[1], x * 5 + 7 + big, y * 5 - big, big - i % 5);
-            set(&b, corner[2], x * 5 + 3 + big, y * 5 + 4 - big, big - i % 5);
-            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)corner, NULL, 3, NULL),
-                             SUNDER_OK);
+            sunder_i_rational_point corner[3];
+            set(&b, &corner[0], x * 5 + big, y * 5 - big, big - i % 5);
+            set(&b, &corner[1], x * 5 + 7 + big, y * 5 - big, big - i % 5);
+            set(&b, &corner[2], x * 5 + 3 + big, y * 5 + 4 - big, big - i % 5);
+            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, corner, NULL, 3, NULL), SUNDER_OK);
             check(&b);
         }
         mark(&b);
@@ -405,20 +403,18 @@ static void test_wide_lattice(void **state)
     for (int i = 0; i < 7; i++)
         for (int j = 0; j < 7; j++) {
             const double s = size[i], t = size[j], x[4] = {0, s, s, 0}, y[4] = {0, 0, t, t};
-            sunder_i_xyw at[4];
+            sunder_i_rational_point at[4];
             sunder_i_point along[4];
             sunder_i_point n[4];
             for (int k = 0; k < 4; k++) {
                 n[k].x = sunder_i_lattice_int(&b.lattice, x[k], 0);
                 n[k].y = sunder_i_lattice_int(&b.lattice, y[k], 0);
-                at[k][0] = sunder_i_lattice_get(&b.lattice, n[k].x);
-                at[k][1] = sunder_i_lattice_get(&b.lattice, n[k].y);
-                at[k][2] = sunder_i_big_i64(&b.arena, 1);
+                at[k] =
+                    (sunder_i_rational_point){sunder_i_lattice_get(&b.lattice, n[k].x),
+                                              sunder_i_lattice_get(&b.lattice, n[k].y), sunder_i_big_i64(&b.arena, 1)};
             }
             for (int k = 0; k < 4; k++) along[k] = sunder_i_point_sub(&b.lattice, n[(k + 1) % 4], n[k]);
-            assert_int_equal(
-                sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)at, i & 1 ? along : NULL, 4, NULL),
-                SUNDER_OK);
+            assert_int_equal(sunder_i_planar_map_insert_polygon(b.map, at, i & 1 ? along : NULL, 4, NULL), SUNDER_OK);
             check(&b);
         }
     mark(&b);
@@ -440,14 +436,13 @@ static bool whole_run(void *context)
               sunder_i_planar_map_new(&b.lattice, 2, &other, NULL) == SUNDER_OK;
     for (long i = 0; ok && i < 3; i++) {
         const long xy[4][2] = {{i, i}, {i + 3, i + 1}, {i + 3, i + 4}, {i, i + 2}};
-        sunder_i_xyw corner[4];
-        for (int k = 0; k < 4; k++) set(&b, corner[k], xy[k][0], xy[k][1], 1 + i);
-        ok = !b.arena.failed &&
-             sunder_i_planar_map_insert_polygon(b.map, (const sunder_i_xyw *)corner, NULL, 4, NULL) == SUNDER_OK &&
-             sunder_i_planar_map_unite_polygon(other, (const sunder_i_xyw *)corner, NULL, 4, NULL) == SUNDER_OK;
+        sunder_i_rational_point corner[4];
+        for (int k = 0; k < 4; k++) set(&b, &corner[k], xy[k][0], xy[k][1], 1 + i);
+        ok = !b.arena.failed && sunder_i_planar_map_insert_polygon(b.map, corner, NULL, 4, NULL) == SUNDER_OK &&
+             sunder_i_planar_map_unite_polygon(other, corner, NULL, 4, NULL) == SUNDER_OK;
     }
-    sunder_i_xyw p;
-    if (ok) set(&b, p, 1, 1, 1);
+    sunder_i_rational_point p;
+    if (ok) set(&b, &p, 1, 1, 1);
     sunder_i_location l;
     ok = ok && sunder_i_planar_map_mark(b.map, NULL) == SUNDER_OK &&
          sunder_i_planar_map_clean(b.map, NULL) == SUNDER_OK &&

@@ -57,13 +57,13 @@ static sunder_i_site site_of(bed *b, const spot *s)
     mpz_inits(n, d, NULL);
     mpz_mul(d, mpq_denref(s->x), mpq_denref(s->y));
     mpz_mul_ui(d, d, (unsigned long)rng_int(&b->g, 1, 5));
-    sunder_i_xyw at;
-    at[2] = big_from_mpz(&b->arena, d);
+    sunder_i_rational_point at;
+    at.w = big_from_mpz(&b->arena, d);
     for (int i = 0; i < 2; i++) {
         mpq_srcptr q = i ? s->y : s->x;
         mpz_divexact(n, d, mpq_denref(q));
         mpz_mul(n, n, mpq_numref(q));
-        at[i] = big_from_mpz(&b->arena, n);
+        *(i ? &at.y : &at.x) = big_from_mpz(&b->arena, n);
     }
     mpz_clears(n, d, NULL);
     return sunder_i_site_of(b->map, at);
@@ -149,7 +149,7 @@ static void check_pair_of_lines(bed *b, const sunder_i_map_line *f, const sunder
     assert_int_equal(sunder_i_line_turn(b->map, &blind, g), turn);
     if (turn == 0) return;
     const sunder_i_site c = sunder_i_line_crossing(b->map, f, g, &b->arena);
-    assert_true(sunder_i_big_sign(c.at[2]) > 0);
+    assert_true(sunder_i_big_sign(c.at.w) > 0);
     if (fabs(c.ax) > 0x1p501 || fabs(c.ay) > 0x1p501) return; /* far outside the lattice: no edge goes there */
     assert_int_equal(sunder_i_site_side(b->map, f, &c), 0);
     assert_int_equal(sunder_i_site_side(b->map, g, &c), 0);

@@ -159,11 +159,10 @@ static void test_vectors(void **state)
 
 static void fraction_exact(mpq_t r, bench *b, int k, const sunder_i_fraction *f)
 {
-    sunder_i_big num, den;
     if (k == 0) assert_true(f->den > 0);
-    sunder_i_fraction_read(&b->l[k].arena, &b->l[k], f, &num, &den);
-    mpz_from_big(mpq_numref(r), num);
-    mpz_from_big(mpq_denref(r), den);
+    const sunder_i_ratio v = sunder_i_fraction_read(&b->l[k].arena, &b->l[k], f);
+    mpz_from_big(mpq_numref(r), v.num);
+    mpz_from_big(mpq_denref(r), v.den);
     assert_int_equal(sunder_i_fraction_sign(&b->l[k], f), mpz_sgn(mpq_numref(r)));
     assert_true(mpz_sgn(mpq_denref(r)) > 0);
     mpq_canonicalize(r);
@@ -217,14 +216,13 @@ static void along_line(mpq_t r, int64_t a, int64_t b, const mpq_t t)
 
 static void check_hpoint(bench *b, int k, const sunder_i_hpoint *h, const mpq_t x, const mpq_t y)
 {
-    sunder_i_big bx, by, bw;
     mpq_t r;
     mpq_init(r);
-    sunder_i_hpoint_big(&b->l[k], h, &bx, &by, &bw);
-    assert_true(sunder_i_big_sign(bw) > 0);
+    const sunder_i_rational_point p = sunder_i_hpoint_read(&b->l[k].arena, &b->l[k], h);
+    assert_true(sunder_i_big_sign(p.w) > 0);
     for (int axis = 0; axis < 2; axis++) {
-        mpz_from_big(mpq_numref(r), axis ? by : bx);
-        mpz_from_big(mpq_denref(r), bw);
+        mpz_from_big(mpq_numref(r), axis ? p.y : p.x);
+        mpz_from_big(mpq_denref(r), p.w);
         mpq_canonicalize(r);
         assert_true(mpq_equal(r, axis ? y : x));
     }

@@ -3,7 +3,7 @@
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "predicate/predicate.h"
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -68,9 +68,10 @@ static void put(bench *b, spot *s)
     for (int k = 0; k < 2; k++) {
         sunder_i_arena *m = &b->l[k].arena;
         const sunder_i_big xd = big_from_mpz(m, mpq_denref(s->x)), yd = big_from_mpz(m, mpq_denref(s->y));
-        const sunder_i_vector v = {sunder_i_times(m, big_from_mpz(m, mpq_numref(s->x)), yd),
-                                   sunder_i_times(m, big_from_mpz(m, mpq_numref(s->y)), xd), sunder_i_times(m, xd, yd)};
-        s->at[k] = sunder_i_vector_put(&b->l[k], v);
+        const sunder_i_rational_point v = {sunder_i_times(m, big_from_mpz(m, mpq_numref(s->x)), yd),
+                                           sunder_i_times(m, big_from_mpz(m, mpq_numref(s->y)), xd),
+                                           sunder_i_times(m, xd, yd)};
+        s->at[k] = sunder_i_rational_put(&b->l[k], v);
     }
 }
 
@@ -215,12 +216,11 @@ static void check_crossing(bench *b, int k, const spot *truth, const mpq_t t)
     sunder_i_lattice *l = &b->l[k];
     const sunder_i_point p = b->s[0].at[k], q = b->s[1].at[k], r = b->s[2].at[k], s = b->s[3].at[k];
     const sunder_i_fraction f = sunder_i_crossing(l, p, q, r, s), g = sunder_i_crossing(l, r, s, p, q);
-    sunder_i_big num, den;
     mpq_t got;
     mpq_init(got);
-    sunder_i_fraction_read(&l->arena, l, &f, &num, &den);
-    mpz_from_big(mpq_numref(got), num);
-    mpz_from_big(mpq_denref(got), den);
+    const sunder_i_ratio v = sunder_i_fraction_read(&l->arena, l, &f);
+    mpz_from_big(mpq_numref(got), v.num);
+    mpz_from_big(mpq_denref(got), v.den);
     assert_true(mpz_sgn(mpq_denref(got)) > 0);
     mpq_canonicalize(got);
     assert_true(mpq_equal(got, t));
@@ -317,9 +317,9 @@ static bool run(void *context)
     sunder_i_point p[4];
     for (int64_t i = 0; i < 4; i++) {
         sunder_i_arena *m = &l.arena;
-        const sunder_i_vector v = {sunder_i_big_i64(m, 5 * i * i - 7), sunder_i_big_i64(m, 3 - 11 * i),
-                                   sunder_i_big_i64(m, 3 + 2 * i)};
-        p[i] = sunder_i_vector_put(&l, v);
+        const sunder_i_rational_point v = {sunder_i_big_i64(m, 5 * i * i - 7), sunder_i_big_i64(m, 3 - 11 * i),
+                                           sunder_i_big_i64(m, 3 + 2 * i)};
+        p[i] = sunder_i_rational_put(&l, v);
     }
     for (int i = 0; i < 10 && !l.arena.failed; i++) {
         const sunder_i_fraction f = sunder_i_crossing(&l, p[0], p[1], p[2], p[3]), g = sunder_i_foot(&l, p[0], p[1], p[3]);

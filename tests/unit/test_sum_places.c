@@ -30,7 +30,7 @@ static sunder_i_hpoint point(sunder_i_lattice *l, rng *r, int i, int64_t step)
     const int64_t k = rng_int(r, 1, 1000);
     const sunder_i_big x = sunder_i_big_i128(arena, (sunder_i_i128)(3 * FAR + i % SIDE * step) * k);
     const sunder_i_big y = sunder_i_big_i128(arena, (sunder_i_i128)(i / SIDE * step - 3 * FAR) * k);
-    return sunder_i_hpoint_make(l, x, y, sunder_i_big_i64(arena, 3 * k));
+    return sunder_i_hpoint_make(l, (sunder_i_rational_point){x, y, sunder_i_big_i64(arena, 3 * k)});
 }
 
 /* All places in a random order, then all again; the comparisons that took. */

@@ -246,9 +246,8 @@ static double area_of(fixture *f, uint32_t k)
     assert_true(sunder_i_make_subsum(&f->u, k, &s));
     for (uint32_t i = 0; i < s.corners; i++) {
         double c[4];
-        for (int j = 0; j < 4; j++)
-            c[j] = sunder_i_big_ratio(&f->u.arena, s.xyw[(i + (uint32_t)j / 2) % s.corners][j % 2],
-                                      s.xyw[(i + (uint32_t)j / 2) % s.corners][2], 0);
+        for (uint32_t j = 0; j < 2; j++)
+            sunder_i_rational_doubles(&f->u.arena, s.at[(i + j) % s.corners], 0, &c[2 * j], &c[2 * j + 1]);
         area += c[0] * c[3] - c[1] * c[2];
     }
     return area;

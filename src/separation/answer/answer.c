@@ -24,27 +24,16 @@ sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *g, const sunder_i_hp
         v.w = p->w;
         return v;
     }
-    sunder_i_hpoint_big(l, p, &v.bx, &v.by, &v.bw);
+    v.big = sunder_i_hpoint_read(&l->arena, l, p);
     return v;
 }
 
-sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder_i_big w)
+sunder_i_rational_point sunder_i_vector_point(sunder_i_operands *g, const sunder_i_vector_exact *v)
 {
-    sunder_i_vector_exact v;
-    memset(&v, 0, sizeof v);
-    v.bx = x;
-    v.by = y;
-    v.bw = w;
-    return v;
-}
-
-void sunder_i_vector_parts(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_i_big *x, sunder_i_big *y,
-                           sunder_i_big *w)
-{
-    sunder_i_lattice *l = &g->placed.lattice;
-    *x = v->small ? sunder_i_big_i128(&l->arena, v->x) : v->bx;
-    *y = v->small ? sunder_i_big_i128(&l->arena, v->y) : v->by;
-    *w = v->small ? sunder_i_big_i128(&l->arena, v->w) : v->bw;
+    sunder_i_arena *a = &g->placed.lattice.arena;
+    if (!v->small) return v->big;
+    return (sunder_i_rational_point){sunder_i_big_i128(a, v->x), sunder_i_big_i128(a, v->y),
+                                     sunder_i_big_i128(a, v->w)};
 }
 
 /* ---- Doubles ---- */
@@ -104,11 +93,9 @@ void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
         if (quick_root(n, v->w, e, &out->distance, &out->lower_bound)) return;
     }
-    sunder_i_big x, y, w;
-    sunder_i_vector_parts(g, v, &x, &y, &w);
-    out->dx = sunder_i_big_ratio(&l->arena, x, w, e);
-    out->dy = sunder_i_big_ratio(&l->arena, y, w, e);
-    slow_root(&l->arena, sunder_i_big_norm(&l->arena, x, y), w, e, &out->distance, &out->lower_bound);
+    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);
+    slow_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
 }
 
 /* ---- Doubles as vectors ---- */
@@ -126,16 +113,15 @@ static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
     return m;
 }
 
-void sunder_i_vector_doubles(sunder_i_operands *g, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
-                             sunder_i_big *w)
+sunder_i_rational_point sunder_i_vector_doubles(sunder_i_operands *g, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     unsigned long bx, by;
     const sunder_i_big u = in_units(l, dx, &bx), v = in_units(l, dy, &by);
     const unsigned long bits = bx > by ? bx : by;
-    *x = sunder_i_big_shl(&l->arena, u, bits - bx);
-    *y = sunder_i_big_shl(&l->arena, v, bits - by);
-    *w = sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits);
+    return (sunder_i_rational_point){sunder_i_big_shl(&l->arena, u, bits - bx),
+                                     sunder_i_big_shl(&l->arena, v, bits - by),
+                                     sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits)};
 }
 
 bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_vector_exact *v, double dx, double dy)
@@ -150,13 +136,12 @@ bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_vector_exact *v,
             return fma(ldexp(dx, (int)-l->exponent), w, -(double)(int64_t)v->x) == 0 &&
                    fma(ldexp(dy, (int)-l->exponent), w, -(double)(int64_t)v->y) == 0;
     }
-    sunder_i_big c[2], w;
-    sunder_i_vector_parts(g, v, &c[0], &c[1], &w);
+    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
     const double d[2] = {dx, dy};
     for (int k = 0; k < 2; k++) {
         unsigned long bits;
-        const sunder_i_big u = sunder_i_big_mul(&l->arena, in_units(l, d[k], &bits), w);
-        if (sunder_i_big_cmp(u, sunder_i_big_shl(&l->arena, c[k], bits))) return false;
+        const sunder_i_big u = sunder_i_big_mul(&l->arena, in_units(l, d[k], &bits), big.w);
+        if (sunder_i_big_cmp(u, sunder_i_big_shl(&l->arena, sunder_i_rational_axis(&big, k), bits))) return false;
     }
     return true;
 }

@@ -22,14 +22,12 @@ void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
 typedef struct sunder_i_vector_exact {
     bool small;
     sunder_i_i128 x, y, w;
-    sunder_i_big bx, by, bw;
+    sunder_i_rational_point big;
 } sunder_i_vector_exact;
 
 sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
-sunder_i_vector_exact sunder_i_vector_big(sunder_i_big x, sunder_i_big y, sunder_i_big w);
 /* As big integers. */
-void sunder_i_vector_parts(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_i_big *x,
-                           sunder_i_big *y, sunder_i_big *w);
+sunder_i_rational_point sunder_i_vector_point(sunder_i_operands *operands, const sunder_i_vector_exact *v);
 
 /* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
 void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out);
@@ -38,9 +36,8 @@ void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_vector_
 sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out,
                                     sunder_error *err);
 
-/* (dx, dy) in lattice units exactly: x / w, y / w. */
-void sunder_i_vector_doubles(sunder_i_operands *operands, double dx, double dy, sunder_i_big *x, sunder_i_big *y,
-                             sunder_i_big *w);
+/* (dx, dy) in lattice units, exactly. */
+sunder_i_rational_point sunder_i_vector_doubles(sunder_i_operands *operands, double dx, double dy);
 
 /* Are out->dx and out->dy exactly the vector? */
 bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_vector_exact *v, double dx, double dy);

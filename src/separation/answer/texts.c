@@ -105,9 +105,8 @@ static char *coordinate_text(sunder_i_operands *g, const sunder_i_vector_exact *
         char *text = quick_text(c < 0, sunder_i_i128_abs(c), (sunder_i_u128)v->w, l->exponent, &fit);
         if (fit) return text;
     }
-    sunder_i_big x, y, w;
-    sunder_i_vector_parts(g, v, &x, &y, &w);
-    return sunder_i_big_ratio_text(&l->arena, k ? y : x, w, l->exponent);
+    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_axis(&big, k), big.w, l->exponent);
 }
 
 static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
@@ -119,10 +118,9 @@ static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
         char *text = quick_text(false, n, (sunder_i_u128)(v->w * v->w), 2 * l->exponent, &fit);
         if (fit) return text;
     }
-    sunder_i_big x, y, w;
-    sunder_i_vector_parts(g, v, &x, &y, &w);
-    return sunder_i_big_ratio_text(&l->arena, sunder_i_big_norm(&l->arena, x, y), sunder_i_big_mul(&l->arena, w, w),
-                                   2 * l->exponent);
+    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_dot(&l->arena, big, big),
+                                   sunder_i_big_mul(&l->arena, big.w, big.w), 2 * l->exponent);
 }
 
 sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out,

@@ -83,8 +83,12 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
                            const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along);
 /* A vector of doubles of the caller's units. */
 sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *operands, double dx, double dy);
-sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_big x, sunder_i_big y,
-                                                 sunder_i_big w);
+sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_rational_point at);
+/* A rational spot's point. */
+static inline sunder_i_rational_point sunder_i_surd_point_of(const sunder_i_surd_point *at)
+{
+    return (sunder_i_rational_point){at->x.part[0], at->y.part[0], at->w};
+}
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact);
 
 typedef enum sunder_i_gap_nearest { SUNDER_I_GAP_NEAREST_CORNER, SUNDER_I_GAP_NEAREST_SIDE } sunder_i_gap_nearest;

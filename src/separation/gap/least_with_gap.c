@@ -52,8 +52,8 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
 {
     sunder_i_operands *g = p->operands;
     sunder_i_arena *a = &g->placed.lattice.arena;
-    const sunder_i_big zero = {NULL, 0};
-    const sunder_i_surd_point origin = sunder_i_surd_point_rational(g, zero, zero, sunder_i_big_i64(a, 1));
+    const sunder_i_rational_point zero = {{NULL, 0}, {NULL, 0}, sunder_i_big_i64(a, 1)};
+    const sunder_i_surd_point origin = sunder_i_surd_point_rational(g, zero);
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = g->subsum + k;
         const double r = p->gap_units + 2 * g->error;
@@ -99,7 +99,7 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
                           sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
-    const sunder_i_vector_exact v = sunder_i_vector_big(a->at.x.part[0], a->at.y.part[0], a->at.w);
+    const sunder_i_vector_exact v = {.big = sunder_i_surd_point_of(&a->at)};
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
     if (bound < out->lower_bound) out->lower_bound = bound;
@@ -172,11 +172,11 @@ static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem,
     const sunder_status status = sunder_i_operands_init(g, p, q, &options, err);
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
-    sunder_i_big zero, unit;
     *problem = (sunder_i_gap_problem){.operands = g, .over = sunder_i_big_i64(&l->arena, 1)};
-    sunder_i_vector_doubles(g, o->gap, 0, &problem->gap, &zero, &unit);
-    problem->gap_bits = sunder_i_big_bits(unit) - (l->arena.failed ? 0 : 1);
-    problem->gap_units = sunder_i_big_ratio(&l->arena, problem->gap, unit, -l->approx_shift);
+    const sunder_i_rational_point gap = sunder_i_vector_doubles(g, o->gap, 0);
+    problem->gap = gap.x;
+    problem->gap_bits = sunder_i_big_bits(gap.w) - (l->arena.failed ? 0 : 1);
+    problem->gap_units = sunder_i_big_ratio(&l->arena, gap.x, gap.w, -l->approx_shift);
     return SUNDER_OK;
 }
 

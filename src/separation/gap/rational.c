@@ -26,7 +26,7 @@
  *     side 2, not against it. */
 #include "separation/gap/search.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <float.h>
 #include <math.h>
@@ -45,7 +45,7 @@ static normal normal_of(sunder_i_gap_state *s, const sunder_i_surd_point *at, co
     sunder_i_arena *a = &l->arena;
     const sunder_i_subsum *m = s->g->subsum + c->of;
     const sunder_i_point p = c->flat ? m->side[c->at] : m->corner[c->at];
-    const sunder_i_vector v = sunder_i_vector_get(a, l, p);
+    const sunder_i_rational_point v = sunder_i_rational_get(a, l, p);
     if (c->flat) return (normal){sunder_i_surd_big(a, v.y), sunder_i_surd_big(a, sunder_i_big_neg(v.x)), v.w};
     return (normal){
         sunder_i_surd_sub(a, sunder_i_surd_scale(a, at->x, v.w), sunder_i_surd_big(a, sunder_i_big_mul(a, v.x, at->w))),
@@ -174,7 +174,8 @@ static void step_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, si
     const unsigned long shift = (unsigned long)(size + (long)bits);
     for (int k = 0; k < 2; k++)
         at[k] = sunder_i_big_add(a, at[k], sunder_i_big_shr(a, sunder_i_big_shl(a, u[k], shift), digits));
-    *out = sunder_i_surd_point_rational(s->g, at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits));
+    *out = sunder_i_surd_point_rational(
+        s->g, (sunder_i_rational_point){at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits)});
 }
 
 /* The same along the line between opposite contacts, the way that contact i turned left (turn 1) or right shows. */

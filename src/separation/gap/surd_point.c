@@ -5,7 +5,7 @@
  * nothing rational lies on a line of irrational length, since N n.x would be rational and C is not. */
 #include "separation/gap/gap.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <math.h>
 
@@ -22,7 +22,7 @@ static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder
     sunder_i_gap_problem q = *p;
     for (size_t i = 0; i < n && !m->failed; i++) {
         if (sunder_i_point_is_plain(point[i])) continue;
-        const sunder_i_big w = sunder_i_vector_get(m, &p->operands->placed.lattice, point[i]).w;
+        const sunder_i_big w = sunder_i_rational_get(m, &p->operands->placed.lattice, point[i]).w;
         const sunder_i_big g = sunder_i_big_gcd(m, q.over, w);
         if (!m->failed) q.over = sunder_i_big_mul(m, q.over, sunder_i_big_div_floor(m, w, g));
     }
@@ -34,8 +34,8 @@ static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
 {
     sunder_i_arena *m = arena_of(p);
     if (m->failed) return (vec){{NULL, 0}, {NULL, 0}};
-    const sunder_i_vector v = sunder_i_vector_get(m, &p->operands->placed.lattice, a);
-    if (sunder_i_is_one(p->over)) return (vec){v.x, v.y};
+    const sunder_i_rational_point v = sunder_i_rational_get(m, &p->operands->placed.lattice, a);
+    if (sunder_i_big_is_one(p->over)) return (vec){v.x, v.y};
     const sunder_i_big factor = sunder_i_big_div_floor(m, p->over, v.w);
     return (vec){sunder_i_big_mul(m, v.x, factor), sunder_i_big_mul(m, v.y, factor)};
 }
@@ -95,7 +95,7 @@ static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunde
 /* A coordinate of the lattice's units in those of the problem. */
 static sunder_i_surd in_units(const sunder_i_gap_problem *p, sunder_i_surd a)
 {
-    return sunder_i_is_one(p->over) ? a : scale(p, a, p->over);
+    return sunder_i_big_is_one(p->over) ? a : scale(p, a, p->over);
 }
 
 static sunder_i_surd sum(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
@@ -253,17 +253,15 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
 
 /* ---- Rational points ---- */
 
-sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *g, sunder_i_big x, sunder_i_big y, sunder_i_big w)
+sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *g, sunder_i_rational_point at)
 {
     sunder_i_arena *a = &g->placed.lattice.arena;
-    return (sunder_i_surd_point){{.n = 0}, sunder_i_surd_big(a, x), sunder_i_surd_big(a, y), w};
+    return (sunder_i_surd_point){{.n = 0}, sunder_i_surd_big(a, at.x), sunder_i_surd_big(a, at.y), at.w};
 }
 
 sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *g, double dx, double dy)
 {
-    sunder_i_big x, y, w;
-    sunder_i_vector_doubles(g, dx, dy, &x, &y, &w);
-    return sunder_i_surd_point_rational(g, x, y, w);
+    return sunder_i_surd_point_rational(g, sunder_i_vector_doubles(g, dx, dy));
 }
 
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *s) { return s->roots.n == 0; }

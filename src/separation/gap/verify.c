@@ -2,7 +2,7 @@
  * arithmetic with the search. Doubles say which sides and corners are near (errors as in gap/search.h). */
 #include "separation/gap/gap.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 typedef struct checking {
     const sunder_i_gap_problem *p;
     sunder_i_operands *g;
-    sunder_i_big x, y, w; /* the translation: (x / w, y / w) */
+    sunder_i_rational_point t; /* the translation */
     double at[2], gap, doubt;
 } checking;
 
@@ -61,12 +61,12 @@ static exact exactly(const checking *c, const side *s, const sunder_i_operand_pi
     sunder_i_lattice *l = &c->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
     const sunder_i_point sum = sunder_i_operands_add(c->g, s->a, c->g->at[q->side][q->corner[m]]);
-    const sunder_i_vector at = sunder_i_vector_get(a, l, sum), d = sunder_i_vector_get(a, l, s->d);
+    const sunder_i_rational_point at = sunder_i_rational_get(a, l, sum), d = sunder_i_rational_get(a, l, s->d);
     const sunder_i_big over = sunder_i_times(a, at.w, d.w);
     const sunder_i_big x =
-        sunder_i_big_sub(a, sunder_i_times(a, c->x, over), sunder_i_times(a, sunder_i_big_mul(a, at.x, c->w), d.w));
+        sunder_i_big_sub(a, sunder_i_times(a, c->t.x, over), sunder_i_times(a, sunder_i_big_mul(a, at.x, c->t.w), d.w));
     const sunder_i_big y =
-        sunder_i_big_sub(a, sunder_i_times(a, c->y, over), sunder_i_times(a, sunder_i_big_mul(a, at.y, c->w), d.w));
+        sunder_i_big_sub(a, sunder_i_times(a, c->t.y, over), sunder_i_times(a, sunder_i_big_mul(a, at.y, c->t.w), d.w));
     const sunder_i_big dx = sunder_i_times(a, d.x, at.w), dy = sunder_i_times(a, d.y, at.w);
     return (exact){sunder_i_big_sub(a, sunder_i_big_mul(a, dx, y), sunder_i_big_mul(a, dy, x)),
                    sunder_i_big_add(a, sunder_i_big_mul(a, dx, x), sunder_i_big_mul(a, dy, y)),
@@ -80,12 +80,12 @@ static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_p
     sunder_i_arena *a = &c->g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     const exact e = exactly(c, s, q, m);
-    const sunder_i_big gw = sunder_i_times(a, sunder_i_big_mul(a, c->p->gap, c->w), e.over);
+    const sunder_i_big gw = sunder_i_times(a, sunder_i_big_mul(a, c->p->gap, c->t.w), e.over);
     const sunder_i_big limit = sunder_i_big_mul(a, gw, gw);
     bool off = true;
     if (sunder_i_big_sign(e.along) <= 0)
         off = sunder_i_big_cmp(sunder_i_big_shl(a, e.norm, 2 * c->p->gap_bits), limit) >= 0;
-    else if (sunder_i_big_cmp(e.along, sunder_i_big_mul(a, e.square, c->w)) < 0)
+    else if (sunder_i_big_cmp(e.along, sunder_i_big_mul(a, e.square, c->t.w)) < 0)
         off = sunder_i_big_cmp(sunder_i_big_shl(a, sunder_i_big_mul(a, e.turn, e.turn), 2 * c->p->gap_bits),
                                sunder_i_big_mul(a, limit, e.square)) >= 0;
     sunder_i_arena_release(a, mark);
@@ -183,10 +183,9 @@ bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_surd_poin
 {
     sunder_i_operands *g = p->operands;
     sunder_i_lattice *l = &g->placed.lattice;
-    checking c = {.p = p, .g = g, .x = t->x.part[0], .y = t->y.part[0], .w = t->w};
+    checking c = {.p = p, .g = g, .t = sunder_i_surd_point_of(t)};
     c.gap = p->gap_units;
-    c.at[0] = sunder_i_big_ratio(&l->arena, c.x, t->w, -l->approx_shift);
-    c.at[1] = sunder_i_big_ratio(&l->arena, c.y, t->w, -l->approx_shift);
+    sunder_i_rational_doubles(&l->arena, c.t, -l->approx_shift, &c.at[0], &c.at[1]);
     c.doubt = 256 * DBL_EPSILON * (g->magnitude + c.gap);
     const double reach = p->gap_units * (1 + 0x1p-50) + 4 * g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {

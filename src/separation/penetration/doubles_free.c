@@ -2,7 +2,7 @@
  * where both fit 128 bits the sides of the subsums are asked in these, else in big integers, and doubles first. */
 #include "separation/penetration/search.h"
 
-#include "predicate/vector.h"
+#include "predicate/rational_point.h"
 #include "separation/answer/answer.h"
 
 #include <math.h>
@@ -12,8 +12,8 @@ typedef struct dyadic {
     double ax, ay; /* in units */
     bool native;   /* the integers below hold it */
     sunder_i_i128 x, y;
-    unsigned bits;           /* x / 2^bits, y / 2^bits */
-    sunder_i_big bx, by, bw; /* else: bx / bw, by / bw */
+    unsigned bits;               /* x / 2^bits, y / 2^bits */
+    sunder_i_rational_point big; /* else */
 } dyadic;
 
 /* Native: v = m 2^f lattice units with |m| < 2^53. */
@@ -52,9 +52,8 @@ static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
             return d;
         }
     }
-    sunder_i_vector_doubles(g, dx, dy, &d.bx, &d.by, &d.bw);
-    d.ax = sunder_i_big_ratio(&l->arena, d.bx, d.bw, -l->approx_shift);
-    d.ay = sunder_i_big_ratio(&l->arena, d.by, d.bw, -l->approx_shift);
+    d.big = sunder_i_vector_doubles(g, dx, dy);
+    sunder_i_rational_doubles(&l->arena, d.big, -l->approx_shift, &d.ax, &d.ay);
     return d;
 }
 
@@ -73,12 +72,12 @@ static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_sub
     if (l->arena.failed) return 0;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_vector at = {d->bx, d->by, d->bw};
+    sunder_i_rational_point at = d->big;
     if (d->native)
-        at = (sunder_i_vector){sunder_i_big_i128(m, d->x), sunder_i_big_i128(m, d->y),
-                               sunder_i_big_shl(m, sunder_i_big_i64(m, 1), d->bits)};
-    const sunder_i_vector v = sunder_i_vector_sub(m, at, sunder_i_vector_get(m, l, s->corner[k]));
-    const int sign = sunder_i_big_sign(sunder_i_vector_cross(m, sunder_i_vector_get(m, l, s->side[k]), v));
+        at = (sunder_i_rational_point){sunder_i_big_i128(m, d->x), sunder_i_big_i128(m, d->y),
+                                       sunder_i_big_shl(m, sunder_i_big_i64(m, 1), d->bits)};
+    const sunder_i_rational_point v = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, s->corner[k]));
+    const int sign = sunder_i_big_sign(sunder_i_rational_cross(m, sunder_i_rational_get(m, l, s->side[k]), v));
     sunder_i_lattice_end(l, mark);
     return sign;
 }

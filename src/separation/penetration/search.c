@@ -24,15 +24,12 @@ typedef struct search {
 /* Order of the distances of two points from the origin. Degree 10 over 8. */
 static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
-    sunder_i_big p[3], q[3];
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
     sunder_i_arena *m = &l->scratch;
-    sunder_i_hpoint_read(m, l, a, p);
-    sunder_i_hpoint_read(m, l, b, q);
+    const sunder_i_rational_point p = sunder_i_hpoint_read(m, l, a), q = sunder_i_hpoint_read(m, l, b);
     l->counts.exact_fallbacks++;
-    const sunder_i_big left = sunder_i_big_mul(m, sunder_i_big_norm(m, p[0], p[1]), sunder_i_big_mul(m, q[2], q[2]));
-    const sunder_i_big right = sunder_i_big_mul(m, sunder_i_big_norm(m, q[0], q[1]), sunder_i_big_mul(m, p[2], p[2]));
-    const int c = sunder_i_big_cmp(left, right);
+    const int c = sunder_i_ratio_cmp(m, (sunder_i_ratio){sunder_i_rational_dot(m, p, p), sunder_i_big_mul(m, p.w, p.w)},
+                                     (sunder_i_ratio){sunder_i_rational_dot(m, q, q), sunder_i_big_mul(m, q.w, q.w)});
     sunder_i_lattice_end(l, mark);
     return c;
 }

@@ -1,0 +1,98 @@
+/* Rational points: read off the lattice and put back, added, compared. Denominators that are one, or equal, are looked
+ * for first: nearly all are. */
+#include "predicate/rational_point.h"
+
+static bool equal(sunder_i_big a, sunder_i_big b)
+{
+    return a.size == b.size && (a.limb == b.limb || sunder_i_big_cmp(a, b) == 0);
+}
+
+sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a)
+{
+    const sunder_i_ratio x = sunder_i_lattice_read(arena, l, a.x), y = sunder_i_lattice_read(arena, l, a.y);
+    if (equal(x.den, y.den)) return (sunder_i_rational_point){x.num, y.num, x.den};
+    /* One of the two is an integer, or they were made apart. */
+    return (sunder_i_rational_point){sunder_i_times(arena, x.num, y.den), sunder_i_times(arena, y.num, x.den),
+                                     sunder_i_times(arena, x.den, y.den)};
+}
+
+/* x and y as integers in *x, *y, where w divides both. */
+static bool divides(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sunder_i_big *y)
+{
+    const sunder_i_big p = sunder_i_big_div_floor(arena, *x, w), q = sunder_i_big_div_floor(arena, *y, w);
+    if (arena->failed || sunder_i_big_cmp(sunder_i_big_mul(arena, p, w), *x) != 0 ||
+        sunder_i_big_cmp(sunder_i_big_mul(arena, q, w), *y) != 0)
+        return false;
+    *x = p;
+    *y = q;
+    return true;
+}
+
+sunder_i_point sunder_i_rational_put(sunder_i_lattice *l, sunder_i_rational_point u)
+{
+    sunder_i_arena *arena = &l->arena;
+    /* Both corners of a side may stand over one crossing, and what they differ by is then a lattice vector. */
+    const bool whole = sunder_i_big_is_one(u.w) || divides(&l->scratch, u.w, &u.x, &u.y);
+    const sunder_i_big x = sunder_i_big_copy(arena, u.x), y = sunder_i_big_copy(arena, u.y);
+    if (whole) return (sunder_i_point){sunder_i_lattice_big(l, x), sunder_i_lattice_big(l, y)};
+    const sunder_i_big w = sunder_i_big_copy(arena, u.w);
+    return (sunder_i_point){sunder_i_lattice_ratio(l, x, w), sunder_i_lattice_ratio(l, y, w)};
+}
+
+sunder_i_rational_point sunder_i_rational_copy(sunder_i_arena *arena, sunder_i_rational_point u)
+{
+    return (sunder_i_rational_point){sunder_i_big_copy(arena, u.x), sunder_i_big_copy(arena, u.y),
+                                     sunder_i_big_copy(arena, u.w)};
+}
+
+sunder_i_rational_point sunder_i_rational_reduced(sunder_i_arena *arena, sunder_i_rational_point u)
+{
+    const sunder_i_big g = sunder_i_big_gcd(arena, sunder_i_big_gcd(arena, u.x, u.w), u.y);
+    if (arena->failed || sunder_i_big_bits(g) <= 1) return u;
+    return (sunder_i_rational_point){sunder_i_big_div_floor(arena, u.x, g), sunder_i_big_div_floor(arena, u.y, g),
+                                     sunder_i_big_div_floor(arena, u.w, g)};
+}
+
+void sunder_i_rational_doubles(sunder_i_arena *arena, sunder_i_rational_point u, long exponent, double *x, double *y)
+{
+    *x = sunder_i_big_ratio(arena, u.x, u.w, exponent);
+    *y = sunder_i_big_ratio(arena, u.y, u.w, exponent);
+}
+
+sunder_i_rational_point sunder_i_rational_add(sunder_i_arena *arena, sunder_i_rational_point u,
+                                              sunder_i_rational_point v)
+{
+    if (equal(u.w, v.w))
+        return (sunder_i_rational_point){sunder_i_big_add(arena, u.x, v.x), sunder_i_big_add(arena, u.y, v.y), u.w};
+    return (sunder_i_rational_point){
+        sunder_i_big_add(arena, sunder_i_times(arena, u.x, v.w), sunder_i_times(arena, v.x, u.w)),
+        sunder_i_big_add(arena, sunder_i_times(arena, u.y, v.w), sunder_i_times(arena, v.y, u.w)),
+        sunder_i_times(arena, u.w, v.w)};
+}
+
+sunder_i_rational_point sunder_i_rational_sub(sunder_i_arena *arena, sunder_i_rational_point u,
+                                              sunder_i_rational_point v)
+{
+    return sunder_i_rational_add(arena, u, sunder_i_rational_neg(v));
+}
+
+sunder_i_rational_point sunder_i_rational_diff(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point b,
+                                               sunder_i_point a)
+{
+    return sunder_i_rational_sub(arena, sunder_i_rational_get(arena, l, b), sunder_i_rational_get(arena, l, a));
+}
+
+int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *u, const sunder_i_rational_point *v,
+                          int axis)
+{
+    const sunder_i_big a = sunder_i_rational_axis(u, axis), b = sunder_i_rational_axis(v, axis);
+    if (u->w.limb == v->w.limb) return sunder_i_big_cmp(a, b);
+    return sunder_i_big_cmp(sunder_i_times(arena, a, v->w), sunder_i_times(arena, b, u->w));
+}
+
+int sunder_i_rational_orient(sunder_i_arena *arena, sunder_i_rational_point a, sunder_i_rational_point b,
+                             sunder_i_rational_point c)
+{
+    return sunder_i_big_sign(
+        sunder_i_rational_cross(arena, sunder_i_rational_sub(arena, b, a), sunder_i_rational_sub(arena, c, a)));
+}
