@@ -2,6 +2,7 @@
 #include "base/list.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 int sunder_i_by_number(const void *a, const void *b)
 {
@@ -23,16 +24,25 @@ bool sunder_i_set_has(const uint32_t *set, size_t n, uint32_t number)
     return n && bsearch(&number, set, n, sizeof *set, sunder_i_by_number);
 }
 
-int sunder_i_by_couple(const void *a, const void *b)
+int sunder_i_by_id_pair(const void *a, const void *b)
 {
-    const sunder_i_couple *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
+    uint32_t p[2], q[2];
+    memcpy(p, a, sizeof p);
+    memcpy(q, b, sizeof q);
+    if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+    return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-size_t sunder_i_couple_at(const sunder_i_couple *list, size_t n, uint32_t x, uint32_t y)
+size_t sunder_i_lower_bound(const void *key, const void *item, size_t n, size_t size,
+                            int (*order)(const void *, const void *))
 {
-    const sunder_i_couple wanted = x < y ? (sunder_i_couple){x, y} : (sunder_i_couple){y, x};
-    const sunder_i_couple *found = n ? bsearch(&wanted, list, n, sizeof *list, sunder_i_by_couple) : NULL;
-    return found ? (size_t)(found - list) : n;
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (order((const char *)item + middle * size, key) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }

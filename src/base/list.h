@@ -18,13 +18,14 @@ size_t sunder_i_set_make(uint32_t *number, size_t n);
 bool sunder_i_set_has(const uint32_t *set, size_t n, uint32_t number);
 
 /* Two numbers, of features or bodies. */
-typedef struct sunder_i_couple {
+typedef struct sunder_i_id_pair {
     uint32_t a, b;
-} sunder_i_couple;
+} sunder_i_id_pair;
 
-/* For qsort(). */
-int sunder_i_by_couple(const void *a, const void *b);
-/* Where the pair, in either order, is in a sorted list of pairs with the lesser first; n if it is not. */
-size_t sunder_i_couple_at(const sunder_i_couple *list, size_t n, uint32_t x, uint32_t y);
+/* For qsort() and bsearch(): of any items that begin with two numbers, by these. */
+int sunder_i_by_id_pair(const void *a, const void *b);
+/* The first of n items, in this order, that does not come before the key; n if all do. */
+size_t sunder_i_lower_bound(const void *key, const void *item, size_t n, size_t size,
+                            int (*order)(const void *, const void *));
 
 #endif

@@ -41,14 +41,14 @@ static void eliminate(double *a, double *b, size_t n)
 }
 
 /* A random graph on n nodes; a star now and then, as an outline with its houses is. */
-static size_t draw_graph(rng *g, size_t n, sunder_i_couple *couple)
+static size_t draw_graph(rng *g, size_t n, sunder_i_id_pair *couple)
 {
     size_t m = 0;
     const bool star = rng_once_in(g, 3);
     for (uint32_t a = 0; a < n; a++)
         for (uint32_t b = a + 1; b < n; b++)
             if (rng_once_in(g, 6) || (star && a == 3))
-                couple[m++] = rng_once_in(g, 2) ? (sunder_i_couple){b, a} : (sunder_i_couple){a, b};
+                couple[m++] = rng_once_in(g, 2) ? (sunder_i_id_pair){b, a} : (sunder_i_id_pair){a, b};
     /* A couple may come more than once. */
     if (m) couple[m] = couple[0];
     return m ? m + 1 : 0;
@@ -77,7 +77,7 @@ static void add_contact(sunder_i_sparse *matrix, double *full, size_t n, uint32_
 static void check_random(void **state)
 {
     (void)state;
-    static sunder_i_couple couple[MOST * MOST];
+    static sunder_i_id_pair couple[MOST * MOST];
     static double full[4 * MOST * MOST], x[2 * MOST], y[2 * MOST];
     for (size_t i = 0; i < test_count(300); i++) {
         rng g = rng_start(test_seed(), i);
@@ -106,8 +106,8 @@ static void check_star(void **state)
 {
     (void)state;
     enum { RAYS = 1000 };
-    static sunder_i_couple couple[RAYS];
-    for (uint32_t k = 0; k < RAYS; k++) couple[k] = (sunder_i_couple){0, k + 1};
+    static sunder_i_id_pair couple[RAYS];
+    for (uint32_t k = 0; k < RAYS; k++) couple[k] = (sunder_i_id_pair){0, k + 1};
     sunder_i_sparse matrix;
     assert_true(sunder_i_sparse_init(&matrix, RAYS + 1, couple, RAYS));
     assert_int_equal(matrix.column[RAYS + 1], RAYS);

@@ -66,7 +66,7 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
 bool sunder_i_solver_add_edge(sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     if (!sunder_i_reserve(&s->edge, &s->edge_capacity, s->edges + 1, sizeof *s->edge)) return false;
-    s->edge[s->edges++] = (sunder_i_couple){i, j};
+    s->edge[s->edges++] = (sunder_i_id_pair){i, j};
     const bool fi = s->model.body[i].fixed, fj = s->model.body[j].fixed;
     if (!fi) s->dirty[i] = true;
     if (!fj) s->dirty[j] = true;
@@ -75,37 +75,23 @@ bool sunder_i_solver_add_edge(sunder_i_solver *s, uint32_t i, uint32_t j)
     return true;
 }
 
-static int by_member(const void *a, const void *b)
-{
-    const sunder_i_cluster_member *p = a, *q = b;
-    if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    return p->body < q->body ? -1 : p->body > q->body;
-}
-
 bool sunder_i_solver_has_member(const sunder_i_solver *s, uint32_t root, uint32_t body)
 {
     const sunder_i_cluster_member wanted = {root, body};
-    return s->members && bsearch(&wanted, s->member, s->members, sizeof wanted, by_member);
+    return s->members && bsearch(&wanted, s->member, s->members, sizeof wanted, sunder_i_by_id_pair);
 }
 
 /* The first member of the cluster of that root, or of a later one. */
-static size_t first_member(const sunder_i_solver *s, uint64_t root)
+static size_t first_member(const sunder_i_solver *s, uint32_t root)
 {
-    size_t low = 0, high = s->members;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (s->member[middle].root < root)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    const sunder_i_cluster_member first = {root, 0};
+    return sunder_i_lower_bound(&first, s->member, s->members, sizeof first, sunder_i_by_id_pair);
 }
 
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root, size_t *n)
 {
     const size_t first = first_member(s, root);
-    *n = first_member(s, (uint64_t)root + 1) - first;
+    *n = first_member(s, root + 1) - first;
     return s->body + first;
 }
 
@@ -148,9 +134,9 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         s->member[n++] = (sunder_i_cluster_member){root, i};
         s->member[n++] = (sunder_i_cluster_member){root, j};
     }
-    if (n) qsort(s->member, n, sizeof *s->member, by_member);
+    if (n) qsort(s->member, n, sizeof *s->member, sunder_i_by_id_pair);
     for (size_t k = 0; k < n; k++)
-        if (k == 0 || by_member(&s->member[k - 1], &s->member[k])) {
+        if (k == 0 || sunder_i_by_id_pair(&s->member[k - 1], &s->member[k])) {
             /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or an equal.
              */
             s->member[s->members] = s->member[k];

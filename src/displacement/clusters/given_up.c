@@ -35,7 +35,7 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
     size_t n = 0, out = 0;
     for (size_t k = 0; k < clusters; k++) n += cluster[k].relaxations.n;
     if (n == 0) return true;
-    sunder_i_couple *given_up = sunder_i_realloc(model->given_up, model->given_up_n + n, sizeof *given_up);
+    sunder_i_id_pair *given_up = sunder_i_realloc(model->given_up, model->given_up_n + n, sizeof *given_up);
     if (!given_up) return false;
     model->given_up = given_up;
     for (size_t k = 0; k < clusters; k++)
@@ -44,16 +44,16 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
             const sunder_i_relaxations known = {.item = all->item, .n = before};
             const sunder_i_relaxation *old = sunder_i_relaxations_find(&known, relaxation.a, relaxation.b);
             const uint32_t i = model->body_of[relaxation.a], j = model->body_of[relaxation.b];
-            if (!relaxation.infeasible) given_up[model->given_up_n++] = (sunder_i_couple){i < j ? i : j, i < j ? j : i};
+            if (!relaxation.infeasible) given_up[model->given_up_n++] = (sunder_i_id_pair){i < j ? i : j, i < j ? j : i};
             relaxation.infeasible = old ? old->infeasible : relaxation.infeasible;
             if (old)
                 all->item[old - all->item] = relaxation;
             else if (!sunder_i_relaxations_add(all, &relaxation))
                 return false;
         }
-    qsort(given_up, model->given_up_n, sizeof *given_up, sunder_i_by_couple);
+    qsort(given_up, model->given_up_n, sizeof *given_up, sunder_i_by_id_pair);
     for (size_t k = 0; k < model->given_up_n; k++)
-        if (k == 0 || sunder_i_by_couple(&given_up[out - 1], &given_up[k])) given_up[out++] = given_up[k];
+        if (k == 0 || sunder_i_by_id_pair(&given_up[out - 1], &given_up[k])) given_up[out++] = given_up[k];
     model->given_up_n = out;
     return sunder_i_relaxations_index(all, model);
 }

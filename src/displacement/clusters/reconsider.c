@@ -22,7 +22,7 @@
 /* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
 typedef struct component {
     uint32_t root;
-    const sunder_i_couple *pair;
+    const sunder_i_id_pair *pair;
     size_t pairs;
     const uint32_t *body;
     size_t bodies;
@@ -33,21 +33,20 @@ typedef struct components {
     uint32_t *parent; /* [bodies] */
     component *component;
     size_t n;
-    sunder_i_couple *pair;
+    sunder_i_id_pair *pair;
     uint32_t *body;
 } components;
 
 typedef struct rooted {
     uint32_t root;
-    sunder_i_couple pair;
+    sunder_i_id_pair pair;
 } rooted;
 
 static int by_root(const void *a, const void *b)
 {
     const rooted *p = a, *q = b;
     if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    if (p->pair.a != q->pair.a) return p->pair.a < q->pair.a ? -1 : 1;
-    return p->pair.b < q->pair.b ? -1 : p->pair.b > q->pair.b;
+    return sunder_i_by_id_pair(&p->pair, &q->pair);
 }
 
 static size_t list_pairs(const sunder_i_solver *s, uint32_t *parent, rooted *list)
@@ -60,12 +59,12 @@ static size_t list_pairs(const sunder_i_solver *s, uint32_t *parent, rooted *lis
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (model->body[i].fixed && model->body[j].fixed) continue;
-        list[n++].pair = i < j ? (sunder_i_couple){i, j} : (sunder_i_couple){j, i};
+        list[n++].pair = i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
         if (model->body[i].fixed || model->body[j].fixed) continue;
         sunder_i_union_join(parent, i, j);
     }
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_couple c = list[k].pair;
+        const sunder_i_id_pair c = list[k].pair;
         list[k].root = sunder_i_union_find(parent, model->body[c.a].fixed ? c.b : c.a);
     }
     if (n) qsort(list, n, sizeof *list, by_root);

@@ -11,7 +11,7 @@
 /* A relaxation of the model, by the cluster and the bodies it is of. */
 typedef struct claim {
     uint32_t root;
-    sunder_i_couple body;
+    sunder_i_id_pair body;
     uint32_t relaxation;
 } claim;
 
@@ -25,7 +25,7 @@ static int by_claim(const void *a, const void *b)
 {
     const claim *p = a, *q = b;
     if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    const int order = sunder_i_by_couple(&p->body, &q->body);
+    const int order = sunder_i_by_id_pair(&p->body, &q->body);
     return order ? order : (p->relaxation > q->relaxation) - (p->relaxation < q->relaxation);
 }
 
@@ -36,7 +36,7 @@ static int by_ease(const void *a, const void *b)
     if (p->root != q->root) return p->root < q->root ? -1 : 1;
     if (p->overlap != q->overlap) return p->overlap ? -1 : 1;
     if (p->missing != q->missing) return p->missing < q->missing ? -1 : 1;
-    const int order = sunder_i_by_couple(&p->body, &q->body);
+    const int order = sunder_i_by_id_pair(&p->body, &q->body);
     return order ? order : (p->part > q->part) - (p->part < q->part);
 }
 
@@ -50,7 +50,7 @@ static size_t list_claims(const sunder_i_solver *s, claim *list)
         if (model->body[i].fixed && model->body[j].fixed) continue;
         const uint32_t root = sunder_i_union_find(s->parent, model->body[i].fixed ? j : i);
         if (!sunder_i_solver_has_member(s, root, i) || !sunder_i_solver_has_member(s, root, j)) continue;
-        list[n++] = (claim){root, i < j ? (sunder_i_couple){i, j} : (sunder_i_couple){j, i}, (uint32_t)k};
+        list[n++] = (claim){root, i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}, (uint32_t)k};
     }
     if (n) qsort(list, n, sizeof *list, by_claim);
     return n;
@@ -92,7 +92,7 @@ static bool list_retries(const sunder_i_solver *s, retries *out)
     for (size_t k = 0; k < n; k++) out->relaxation[k] = list[k].relaxation;
     for (size_t first = 0, end; first < n; first = end) {
         const claim *c = &list[first];
-        for (end = first; end < n && list[end].root == c->root && !sunder_i_by_couple(&list[end].body, &c->body);)
+        for (end = first; end < n && list[end].root == c->root && !sunder_i_by_id_pair(&list[end].body, &c->body);)
             end++;
         sunder_i_retry x = retry_of(&s->model, c, out->relaxation + first, end - first);
         add_retry(out, &x);
@@ -114,18 +114,17 @@ typedef struct asking {
     const retries *retries;
 } asking;
 
-/* The first retry of a cluster of that root, or of a later one. */
-static size_t first_of(const retries *all, uint64_t root)
+static int by_root(const void *a, const void *b)
 {
-    size_t low = 0, high = all->n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (all->retry[middle].root < root)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    const sunder_i_retry *p = a, *q = b;
+    return (p->root > q->root) - (p->root < q->root);
+}
+
+/* The first retry of a cluster of that root, or of a later one. */
+static size_t first_of(const retries *all, uint32_t root)
+{
+    const sunder_i_retry key = {.root = root};
+    return sunder_i_lower_bound(&key, all->retry, all->n, sizeof key, by_root);
 }
 
 static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
@@ -137,7 +136,7 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         sunder_i_cluster *c = &s->cluster[k];
         double *move = s->move + 2 * (size_t)(c->body - s->body);
         const uint32_t root = s->member[c->body - s->body].root;
-        const size_t first = first_of(g->retries, root), last = first_of(g->retries, (uint64_t)root + 1);
+        const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
         sunder_i_solver_load_moves(s, c, move);
         if (first < last)
             status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);

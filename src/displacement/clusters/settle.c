@@ -249,7 +249,7 @@ static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, invite_to_clusters, s, err);
     for (size_t k = 0; k < s->clusters && !status; k++)
         for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
-            const sunder_i_couple *pair = &s->cluster[k].guest[g];
+            const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
             any = true;
             if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) status = sunder_i_no_memory(err);
         }

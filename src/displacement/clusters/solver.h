@@ -30,7 +30,7 @@ typedef struct sunder_i_solver {
     sunder_i_relations start, now;
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;
-    sunder_i_couple *edge;
+    sunder_i_id_pair *edge;
     size_t edges, edge_capacity;
     uint32_t *parent;                /* [bodies] union-find over edges */
     bool *dirty;                     /* [bodies] to be solved (again) */

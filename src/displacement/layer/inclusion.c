@@ -14,17 +14,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int by_features(const void *x, const void *y)
-{
-    const sunder_i_inclusion *p = x, *q = y;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
 static sunder_i_inclusion *find(sunder_i_inclusion *list, size_t n, uint32_t f, uint32_t g)
 {
     const sunder_i_inclusion key = {.a = f < g ? f : g, .b = f < g ? g : f};
-    return n ? bsearch(&key, list, n, sizeof key, by_features) : NULL;
+    return n ? bsearch(&key, list, n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
 sunder_i_inclusion *sunder_i_inclusion_find(const sunder_i_model *model, uint32_t f, uint32_t g)
@@ -90,7 +83,7 @@ sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_
     size_t at = model->inclusions;
     sunder_i_inclusion *list = sunder_i_realloc(model->inclusion, at + 1, sizeof *list);
     if (!list) return sunder_i_no_memory(err);
-    for (; at > 0 && by_features(&list[at - 1], &pair) > 0; at--) list[at] = list[at - 1];
+    for (; at > 0 && sunder_i_by_id_pair(&list[at - 1], &pair) > 0; at--) list[at] = list[at - 1];
     list[at] = pair;
     model->inclusion = list;
     model->inclusions++;
@@ -124,10 +117,10 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
 {
     const size_t n = model->inclusions;
     /* Inner feature and number of the pair, sorted: what one feature lies in stands together. */
-    sunder_i_couple *by_inner = sunder_i_alloc(n, sizeof *by_inner);
+    sunder_i_id_pair *by_inner = sunder_i_alloc(n, sizeof *by_inner);
     if (!by_inner) return sunder_i_no_memory(err);
-    for (uint32_t k = 0; k < n; k++) by_inner[k] = (sunder_i_couple){inner_of(&model->inclusion[k]), k};
-    if (n) qsort(by_inner, n, sizeof *by_inner, sunder_i_by_couple);
+    for (uint32_t k = 0; k < n; k++) by_inner[k] = (sunder_i_id_pair){inner_of(&model->inclusion[k]), k};
+    if (n) qsort(by_inner, n, sizeof *by_inner, sunder_i_by_id_pair);
     for (size_t k = 0; k < n; k++)
         for (size_t m = k + 1; m < n && by_inner[m].a == by_inner[k].a; m++) {
             sunder_i_inclusion *one = &model->inclusion[by_inner[k].b], *other = &model->inclusion[by_inner[m].b];

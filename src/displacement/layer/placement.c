@@ -188,13 +188,6 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
     return status;
 }
 
-static int by_features(const void *a, const void *b)
-{
-    const sunder_i_relation *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
 /* The lists of partners as one array of pairs, in order; the lists are emptied. */
 static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
 {
@@ -209,7 +202,7 @@ static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pa
         }
         sunder_i_free(s->found[a].item);
     }
-    if (pair && total && s->changed) qsort(pair, total, sizeof *pair, by_features);
+    if (pair && total && s->changed) qsort(pair, total, sizeof *pair, sunder_i_by_id_pair);
     *pairs = total;
     return pair;
 }
@@ -244,7 +237,7 @@ static sunder_status merge(const classification *c, size_t pairs, sunder_i_relat
     size_t n = 0, at = 0;
     for (size_t k = 0; k <= pairs; k++) {
         const sunder_i_relation *r = k < pairs ? &c->pair[k] : NULL;
-        for (; at < old && (!r || by_features(&c->before->pair[at], r) <= 0); at++) {
+        for (; at < old && (!r || sunder_i_by_id_pair(&c->before->pair[at], r) <= 0); at++) {
             const sunder_i_relation *b = &c->before->pair[at];
             if (!c->changed[b->a] && !c->changed[b->b]) out[n++] = *b;
         }

@@ -12,9 +12,11 @@
  */
 #include "displacement/layer/resolution.h"
 
+#include "base/list.h"
 #include "separation/separation.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place
  * cover the four roundings on each side. */
@@ -110,15 +112,6 @@ sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_transl
 
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b)
 {
-    size_t low = 0, high = relations->n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        const sunder_i_relation *r = &relations->pair[middle];
-        if (r->a < a || (r->a == a && r->b < b))
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < relations->n && relations->pair[low].a == a && relations->pair[low].b == b ? &relations->pair[low]
-                                                                                            : NULL;
+    const sunder_i_relation key = {.a = a, .b = b};
+    return relations->n ? bsearch(&key, relations->pair, relations->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }

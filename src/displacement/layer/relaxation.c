@@ -28,31 +28,17 @@ void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
     memset(relaxations, 0, sizeof *relaxations);
 }
 
-static int by_features(const void *x, const void *y)
-{
-    const sunder_i_relaxation *p = x, *q = y;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
-static int by_bodies(const void *x, const void *y)
-{
-    const sunder_i_relaxed_bodies *p = x, *q = y;
-    if (p->i != q->i) return p->i < q->i ? -1 : 1;
-    return p->j < q->j ? -1 : p->j > q->j;
-}
-
 const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations *relaxations, uint32_t f, uint32_t g)
 {
     const sunder_i_relaxation key = {.a = f < g ? f : g, .b = f < g ? g : f};
-    return relaxations->n ? bsearch(&key, relaxations->item, relaxations->n, sizeof key, by_features) : NULL;
+    return relaxations->n ? bsearch(&key, relaxations->item, relaxations->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
 const sunder_i_relaxed_bodies *sunder_i_relaxations_between(const sunder_i_relaxations *relaxations, uint32_t body,
                                                             uint32_t other)
 {
     const sunder_i_relaxed_bodies key = {.i = body < other ? body : other, .j = body < other ? other : body};
-    return relaxations->relaxed_n ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, by_bodies)
+    return relaxations->relaxed_n ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, sunder_i_by_id_pair)
                                   : NULL;
 }
 
@@ -84,34 +70,19 @@ bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_
     if (!sunder_i_reserve(&relaxations->relaxed, &relaxations->relaxed_capacity, relaxations->n,
                           sizeof *relaxations->relaxed))
         return false;
-    qsort(relaxations->item, relaxations->n, sizeof *relaxations->item, by_features);
+    qsort(relaxations->item, relaxations->n, sizeof *relaxations->item, sunder_i_by_id_pair);
     for (size_t k = 0; k < relaxations->n; k++)
         relaxations->relaxed[k] = relaxed_bodies_of(model, &relaxations->item[k]);
-    qsort(relaxations->relaxed, relaxations->n, sizeof *relaxations->relaxed, by_bodies);
+    qsort(relaxations->relaxed, relaxations->n, sizeof *relaxations->relaxed, sunder_i_by_id_pair);
     for (size_t k = 0; k < relaxations->n; k++) {
         sunder_i_relaxed_bodies *last =
             relaxations->relaxed_n ? &relaxations->relaxed[relaxations->relaxed_n - 1] : NULL;
-        if (last && by_bodies(last, &relaxations->relaxed[k]) == 0)
+        if (last && sunder_i_by_id_pair(last, &relaxations->relaxed[k]) == 0)
             join_relaxed(last, &relaxations->relaxed[k]);
         else
             relaxations->relaxed[relaxations->relaxed_n++] = relaxations->relaxed[k];
     }
     return true;
-}
-
-/* Where the n items of one size have, or would have, the key. */
-static size_t place_of(const void *key, const void *item, size_t n, size_t size,
-                       int (*order)(const void *, const void *))
-{
-    size_t low = 0, high = n;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (order((const char *)item + middle * size, key) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
 }
 
 bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder_i_model *model,
@@ -122,11 +93,11 @@ bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder
                           sizeof *relaxations->relaxed))
         return false;
     const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
-    const size_t at = place_of(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, by_features);
+    const size_t at = sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
     memmove(relaxations->item + at + 1, relaxations->item + at, (relaxations->n++ - at) * sizeof *relaxation);
     relaxations->item[at] = *relaxation;
-    const size_t of = place_of(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, by_bodies);
-    if (of < relaxations->relaxed_n && by_bodies(&relaxations->relaxed[of], &relaxed) == 0) {
+    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, sunder_i_by_id_pair);
+    if (of < relaxations->relaxed_n && sunder_i_by_id_pair(&relaxations->relaxed[of], &relaxed) == 0) {
         join_relaxed(&relaxations->relaxed[of], &relaxed);
         return true;
     }
@@ -139,8 +110,8 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
                                  const sunder_i_relaxation *relaxation)
 {
     const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
-    const size_t at = place_of(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, by_features);
-    const size_t of = place_of(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, by_bodies);
+    const size_t at = sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
+    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, sunder_i_by_id_pair);
     memmove(relaxations->item + at, relaxations->item + at + 1, (--relaxations->n - at) * sizeof *relaxation);
     /* What remains between the bodies may reach less far than is said then. */
     if (--relaxations->relaxed[of].n == 0)
@@ -153,8 +124,8 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
 int sunder_i_by_restored(const void *x, const void *y)
 {
     const sunder_i_restored *p = x, *q = y;
-    const int order = sunder_i_by_couple(&p->body, &q->body);
-    return order ? order : sunder_i_by_couple(&p->feature, &q->feature);
+    const int order = sunder_i_by_id_pair(&p->body, &q->body);
+    return order ? order : sunder_i_by_id_pair(&p->feature, &q->feature);
 }
 
 sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation)
@@ -165,7 +136,7 @@ sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder
 
 size_t sunder_i_restored_at(const sunder_i_restored *list, size_t n, const sunder_i_restored *wanted)
 {
-    return place_of(wanted, list, n, sizeof *list, sunder_i_by_restored);
+    return sunder_i_lower_bound(wanted, list, n, sizeof *list, sunder_i_by_restored);
 }
 
 void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunder_i_model *model,

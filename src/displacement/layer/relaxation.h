@@ -27,7 +27,7 @@ typedef struct sunder_i_relaxed_bodies {
 
 /* A relaxation that does not count any longer: of these bodies, i < j, and these features, a < b. */
 typedef struct sunder_i_restored {
-    sunder_i_couple body, feature;
+    sunder_i_id_pair body, feature;
 } sunder_i_restored;
 
 typedef struct sunder_i_relaxations {

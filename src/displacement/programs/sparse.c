@@ -64,7 +64,7 @@ static bool append(sunder_i_list *list, uint32_t v)
     return true;
 }
 
-static bool graph_init(graph *g, size_t n, const sunder_i_couple *couple, size_t couples)
+static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *couple, size_t couples)
 {
     memset(g, 0, sizeof *g);
     g->n = n;
@@ -159,7 +159,7 @@ static bool fill_columns(sunder_i_sparse *m, const graph *g)
     return true;
 }
 
-bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_couple *couple, size_t couples)
+bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *couple, size_t couples)
 {
     memset(m, 0, sizeof *m);
     m->n = n;

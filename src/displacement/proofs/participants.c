@@ -87,13 +87,6 @@ bool sunder_i_branching_widen(sunder_i_branching *c)
     return c->bodies > before;
 }
 
-static int by_pair(const void *a, const void *b)
-{
-    const sunder_i_requirement *p = a, *q = b;
-    if (p->a != q->a) return p->a < q->a ? -1 : 1;
-    return p->b < q->b ? -1 : p->b > q->b;
-}
-
 bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
 {
     const sunder_i_model *model = c->model;
@@ -110,7 +103,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
     const sunder_i_requirement key = {f < g ? f : g, f < g ? g : f, 0};
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =
-        is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, by_pair);
+        is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);
     if (required) *clearance = required->clearance;
     return *clearance > -INFINITY;
 }

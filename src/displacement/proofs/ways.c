@@ -9,7 +9,7 @@
  * they are parallel but for rounding: the boundary is then another closed curve in K around the same point.
  *
  *              n2    n'
- *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1 and n2 of two
+ *              |   /         An edge's line stands off by g. Round the corner Q, between the directions n1, n2 of two
  *      ________Q____ n1      edges, each w of length 1 has n'.w >= c for c the less of n'.n1 and n'.n2, so the arc
  *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
  *              |

@@ -172,13 +172,6 @@ typedef struct asking {
     size_t required_n;
 } asking;
 
-static int by_root(const void *a, const void *b)
-{
-    const matter *p = a, *q = b;
-    if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    return p->conflict < q->conflict ? -1 : p->conflict > q->conflict;
-}
-
 static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
     double farthest = 0;
@@ -249,7 +242,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
         list[open++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true};
     }
-    if (open) qsort(list, open, sizeof *list, by_root);
+    if (open) qsort(list, open, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < open; k++)
         if (k == 0 || list[k].root != list[k - 1].root) first[groups++] = k;
     first[groups] = open;

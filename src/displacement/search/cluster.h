@@ -14,14 +14,14 @@ typedef struct sunder_i_cluster {
     sunder_i_restored
         *restored; /* [restored_n] relaxations of the model that no longer count: these are resolved; owned */
     size_t restored_n;
-    sunder_i_couple *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
+    sunder_i_id_pair *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
     size_t guests, guest_capacity;
 } sunder_i_cluster;
 
 /* Two bodies of a cluster relaxed, and what is to be asked for them. */
 typedef struct sunder_i_retry {
     uint32_t root; /* of the cluster */
-    sunder_i_couple body;
+    sunder_i_id_pair body;
     const uint32_t *relaxation; /* [relaxations] between members of theirs: places in the model's */
     size_t relaxations;
     size_t part;    /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */

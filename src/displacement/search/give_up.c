@@ -11,13 +11,6 @@
 
 /* ---- Yielding ---------------------------------------------------------------------------------------------------- */
 
-static int by_pair(const void *a, const void *b)
-{
-    const sunder_i_clash *p = a, *q = b;
-    if (p->i != q->i) return p->i < q->i ? -1 : 1;
-    return p->j < q->j ? -1 : p->j > q->j;
-}
-
 static bool send_home(sunder_i_search *s, uint32_t i)
 {
     if (!(s->mass[i] > 0) || (s->t[2 * i] == 0 && s->t[2 * i + 1] == 0)) return false;
@@ -37,7 +30,7 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
     *n = s->clashes;
     sunder_i_clash *at_home = sunder_i_alloc(*n, sizeof *at_home);
     if (at_home && *n) memcpy(at_home, s->clash, *n * sizeof *at_home);
-    if (at_home && *n) qsort(at_home, *n, sizeof *at_home, by_pair);
+    if (at_home && *n) qsort(at_home, *n, sizeof *at_home, sunder_i_by_id_pair);
     return at_home;
 }
 
@@ -54,7 +47,7 @@ static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
 
 /* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
 typedef struct neighbours {
-    sunder_i_couple *pair;
+    sunder_i_id_pair *pair;
     size_t pairs, capacity;
     size_t *first;   /* [n + 1] */
     uint32_t *other; /* of body k from first[k] to first[k + 1] */
@@ -74,7 +67,7 @@ static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
         s->failed = true;
         return;
     }
-    g->pair[g->pairs++] = (sunder_i_couple){i, j};
+    g->pair[g->pairs++] = (sunder_i_id_pair){i, j};
 }
 
 static void find_neighbours(sunder_i_search *s, neighbours *g)
@@ -113,7 +106,7 @@ static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t
     memset(changed, 0, s->n * sizeof *changed);
     for (size_t k = 0; k < s->clashes && !s->failed; k++) {
         const sunder_i_clash *c = &s->clash[k];
-        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, by_pair) && relax(s, c->i, c->j);
+        const bool yields = n && bsearch(c, at_home, n, sizeof *at_home, sunder_i_by_id_pair) && relax(s, c->i, c->j);
         const bool i = yields || send_home(s, c->i), j = yields || send_home(s, c->j);
         changed[c->i] = changed[c->i] || i;
         changed[c->j] = changed[c->j] || j;

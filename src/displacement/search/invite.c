@@ -27,7 +27,7 @@ static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i
         if (!sunder_i_reserve(&cluster->guest, &cluster->guest_capacity, cluster->guests + 1, sizeof *cluster->guest))
             s->failed = true;
         else
-            cluster->guest[cluster->guests++] = (sunder_i_couple){s->body[i], s->body[j]};
+            cluster->guest[cluster->guests++] = (sunder_i_id_pair){s->body[i], s->body[j]};
     }
 }
 

@@ -156,7 +156,7 @@ static bool settle_one(retrying *p, size_t k, size_t level)
 {
     sunder_i_search *s = p->search;
     if (level == STAGES) return settle_all(p);
-    const sunder_i_couple *pair = &p->retry[k].body;
+    const sunder_i_id_pair *pair = &p->retry[k].body;
     const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, place_of(s, pair->a), place_of(s, pair->b),
                                                     stage[level], s->gap + 2 * p->retry[k].missing);
     p->in_vain[k] = !p->neighbourhood.wider;
