@@ -44,7 +44,8 @@ static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *clus
             const sunder_i_relaxations known = {.item = all->item, .n = before};
             const sunder_i_relaxation *old = sunder_i_relaxations_find(&known, relaxation.a, relaxation.b);
             const uint32_t i = model->body_of[relaxation.a], j = model->body_of[relaxation.b];
-            if (!relaxation.infeasible) given_up[model->given_up_n++] = (sunder_i_id_pair){i < j ? i : j, i < j ? j : i};
+            if (!relaxation.infeasible)
+                given_up[model->given_up_n++] = (sunder_i_id_pair){i < j ? i : j, i < j ? j : i};
             relaxation.infeasible = old ? old->infeasible : relaxation.infeasible;
             if (old)
                 all->item[old - all->item] = relaxation;

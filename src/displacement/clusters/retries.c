@@ -134,10 +134,9 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        double *move = s->move + 2 * (size_t)(c->body - s->body);
+        double *move = sunder_i_solver_load_moves(s, c);
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
-        sunder_i_solver_load_moves(s, c, move);
         if (first < last)
             status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
     }
@@ -166,7 +165,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     const double *t = model->move + 2 * (size_t)b, reach = model->rules.gap + far;
     double box[4];
     if (p->fixed || p->pinned || p->pieces == 0) return true;
-    for (uint32_t c = 0; c < 4; c++) box[c] = p->box[c] + p->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
+    sunder_i_body_box(p, t, reach, box);
     near->n = 0;
     if (!sunder_i_index_query(model->standing, box, near)) return false;
     for (size_t k = 0; k < near->n; k++) {

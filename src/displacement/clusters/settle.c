@@ -18,12 +18,14 @@ bool sunder_i_solver_is_dirty(const sunder_i_solver *s, const sunder_i_cluster *
     return false;
 }
 
-void sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_cluster *c, double *move)
+double *sunder_i_solver_load_moves(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
+    double *move = s->move + 2 * (size_t)(c->body - s->body);
     for (size_t k = 0; k < c->n; k++) {
         const uint32_t b = c->body[k], from = s->carrier[b] == SUNDER_I_NOBODY ? b : s->carrier[b];
         memcpy(move + 2 * k, s->model.move + 2 * (size_t)from, 2 * sizeof *move);
     }
+    return move;
 }
 
 static sunder_status solve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
@@ -31,8 +33,7 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        double *move = s->move + 2 * (size_t)(c->body - s->body);
-        sunder_i_solver_load_moves(s, c, move);
+        double *move = sunder_i_solver_load_moves(s, c);
         if (!sunder_i_solver_is_dirty(s, c)) continue;
         const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);
         if (status) return status;
@@ -72,8 +73,7 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
-        double *move = s->move + 2 * (size_t)(c->body - s->body);
-        sunder_i_solver_load_moves(s, c, move);
+        double *move = sunder_i_solver_load_moves(s, c);
         if (is_improved(s, c)) continue;
         const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
         if (status) return status;
@@ -235,8 +235,7 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        double *move = s->move + 2 * (size_t)(c->body - s->body);
-        sunder_i_solver_load_moves(s, c, move);
+        double *move = sunder_i_solver_load_moves(s, c);
         if (!is_improved(s, c) && !sunder_i_cluster_invite(&s->model, c, move)) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;

@@ -9,8 +9,8 @@ bool sunder_i_solver_is_dirty(const sunder_i_solver *solver, const sunder_i_clus
 /* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
  * no two threads do the same. */
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
-/* The moves that a cluster starts from. */
-void sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *c, double *move);
+/* Loads the moves that a cluster starts from, and lends them. */
+double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
 /* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
 /* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */

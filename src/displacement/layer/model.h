@@ -31,6 +31,12 @@ typedef struct sunder_i_body_piece {
 /* How far the body may go. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 
+/* The box of the body, moved by t and grown by reach. */
+static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2], double reach, double box[4])
+{
+    for (size_t c = 0; c < 4; c++) box[c] = body->box[c] + body->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
+}
+
 /* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
 struct sunder_i_model {
     const sunder_layer *layer;
@@ -57,7 +63,8 @@ struct sunder_i_model {
     sunder_i_inclusion *nested; /* pairs in conflict of which the one lies in the other at the start; sorted */
     size_t nested_n;
     sunder_i_relaxations relaxations;
-    sunder_i_id_pair *given_up; /* bodies given up: no solution was found in which this pair, too, is resolved; sorted */
+    sunder_i_id_pair
+        *given_up; /* bodies given up: no solution was found in which this pair, too, is resolved; sorted */
     size_t given_up_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     bool *inexact; /* [features] the translate was rounded */

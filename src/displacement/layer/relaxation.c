@@ -38,8 +38,9 @@ const sunder_i_relaxed_bodies *sunder_i_relaxations_between(const sunder_i_relax
                                                             uint32_t other)
 {
     const sunder_i_relaxed_bodies key = {.i = body < other ? body : other, .j = body < other ? other : body};
-    return relaxations->relaxed_n ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, sunder_i_by_id_pair)
-                                  : NULL;
+    return relaxations->relaxed_n
+               ? bsearch(&key, relaxations->relaxed, relaxations->relaxed_n, sizeof key, sunder_i_by_id_pair)
+               : NULL;
 }
 
 bool sunder_i_relaxations_add(sunder_i_relaxations *relaxations, const sunder_i_relaxation *relaxation)
@@ -93,10 +94,12 @@ bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder
                           sizeof *relaxations->relaxed))
         return false;
     const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
-    const size_t at = sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
+    const size_t at =
+        sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
     memmove(relaxations->item + at + 1, relaxations->item + at, (relaxations->n++ - at) * sizeof *relaxation);
     relaxations->item[at] = *relaxation;
-    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, sunder_i_by_id_pair);
+    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed,
+                                           sunder_i_by_id_pair);
     if (of < relaxations->relaxed_n && sunder_i_by_id_pair(&relaxations->relaxed[of], &relaxed) == 0) {
         join_relaxed(&relaxations->relaxed[of], &relaxed);
         return true;
@@ -110,8 +113,10 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
                                  const sunder_i_relaxation *relaxation)
 {
     const sunder_i_relaxed_bodies relaxed = relaxed_bodies_of(model, relaxation);
-    const size_t at = sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
-    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed, sunder_i_by_id_pair);
+    const size_t at =
+        sunder_i_lower_bound(relaxation, relaxations->item, relaxations->n, sizeof *relaxation, sunder_i_by_id_pair);
+    const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed,
+                                           sunder_i_by_id_pair);
     memmove(relaxations->item + at, relaxations->item + at + 1, (--relaxations->n - at) * sizeof *relaxation);
     /* What remains between the bodies may reach less far than is said then. */
     if (--relaxations->relaxed[of].n == 0)

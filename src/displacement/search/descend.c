@@ -202,7 +202,7 @@ static void keep_still(sunder_i_search *s)
         if (!(s->mass[k] > 0)) memcpy(s->next + 2 * k, s->t + 2 * k, 2 * sizeof *s->next);
 }
 
-static bool is_out_of_patience(const sunder_i_search *s) { return s->steps + s->program.work >= s->patience; }
+static bool is_out_of_patience(const sunder_i_search *s) { return sunder_i_search_work(s) >= s->patience; }
 
 /* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the
  * violation left. */

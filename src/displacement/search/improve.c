@@ -31,7 +31,7 @@ static int by_cost(const void *a, const void *b)
     return p->other < q->other ? -1 : p->other > q->other;
 }
 
-static bool has_time(const sunder_i_search *s) { return s->steps + s->program.work < s->effort; }
+static bool has_time(const sunder_i_search *s) { return sunder_i_search_work(s) < s->effort; }
 
 bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
 {
@@ -84,7 +84,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
     if (longest > FAR * sunder_i_search_look(s, s->t) && !s->failed) {
         s->cap = below;
-        s->patience = s->steps + s->program.work + PATIENCE + (s->steps + s->program.work) / 4;
+        s->patience = sunder_i_search_work(s) + PATIENCE + sunder_i_search_work(s) / 4;
         s->program.n = 0;
         const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
         s->cap = INFINITY;
@@ -234,38 +234,24 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
-    uint32_t *body = NULL;
-    double *all = NULL, *best = NULL, *near = NULL;
-    size_t n = 0;
-    rank *order = NULL;
     sunder_i_search s;
-    memset(&s, 0, sizeof s);
-    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n);
-    if (ok) {
-        best = sunder_i_alloc(2 * n, sizeof *best);
-        near = sunder_i_alloc(2 * n, sizeof *near);
-        order = sunder_i_alloc(n, sizeof *order);
-        ok = best && near && order && sunder_i_search_init(&s, model, body, n, cluster->margin, all);
-    }
-    if (ok) {
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move);
+    double *best = sunder_i_alloc(2 * s.n, sizeof *best), *near = sunder_i_alloc(2 * s.n, sizeof *near);
+    rank *order = sunder_i_alloc(s.n, sizeof *order);
+    if (ok && best && near && order) {
         s.settled = 1e-5;
         s.effort = EFFORT * (uint64_t)cluster->n;
-        s.own = cluster->n;
-        /* Those about the cluster stay. */
-        for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {
             improve(&s, order, best, near);
-            memcpy(s.t, best, 2 * n * sizeof *best);
+            memcpy(s.t, best, 2 * s.n * sizeof *best);
             const bool cheaper = sunder_i_search_cost(&s, best) < before;
             s.n = cluster->n;
             if (cheaper && !s.failed) sunder_i_search_round(&s, move);
         }
-        ok = !s.failed;
     }
+    ok = ok && best && near && order && !s.failed;
     sunder_i_search_free(&s);
-    sunder_i_free(body);
-    sunder_i_free(all);
     sunder_i_free(best);
     sunder_i_free(near);
     sunder_i_free(order);

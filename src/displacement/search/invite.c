@@ -33,11 +33,7 @@ static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i
 
 static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
 {
-    s->own = cluster->n;
-    for (size_t k = cluster->n; k < s->n; k++) {
-        s->away[k] = can_move(s->model, s->body[k]);
-        s->mass[k] = 0;
-    }
+    for (size_t k = s->own; k < s->n; k++) s->away[k] = can_move(s->model, s->body[k]);
     const double cost = sunder_i_search_cost(s, s->t);
     for (uint32_t i = 0; i < cluster->n && !s->failed; i++) {
         const double *t = s->t + 2 * i, square = t[0] * t[0] + t[1] * t[1];
@@ -49,19 +45,10 @@ static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
 
 bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move)
 {
-    uint32_t *body = NULL;
-    double *all = NULL;
-    size_t n = 0;
-    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n), any = false;
-    for (size_t k = cluster->n; ok && k < n; k++) any = any || can_move(model, body[k]);
-    if (ok && any) {
-        sunder_i_search s;
-        ok = sunder_i_search_init(&s, model, body, n, cluster->margin, all);
-        if (ok) invite(&s, cluster);
-        ok = ok && !s.failed;
-        sunder_i_search_free(&s);
-    }
-    sunder_i_free(body);
-    sunder_i_free(all);
+    sunder_i_search s;
+    const bool begun = sunder_i_search_init_about(&s, model, cluster, move);
+    if (begun) invite(&s, cluster);
+    const bool ok = begun && !s.failed;
+    sunder_i_search_free(&s);
     return ok;
 }

@@ -165,8 +165,6 @@ static size_t put_back(reordering *r, size_t n)
     return known ? KNOWN : !(r->cost < before);
 }
 
-static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program.work; }
-
 /* About what it takes to look for room for all that may move, in pairs of pieces. */
 static uint64_t search_work(const sunder_i_search *s)
 {
@@ -186,7 +184,7 @@ static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t mo
     uint64_t state = UINT64_C(0x9e3779b97f4a7c15), last = search_work(s);
     size_t useless = 0;
     for (size_t k = 0; k < MOST_ORDERS && useless < most_useless && !s->failed; k++) {
-        const uint64_t before = work_of(s);
+        const uint64_t before = sunder_i_search_work(s);
         const size_t out = n ? n : 2 + k / r->doubtfuls % (MOST_OUT - 1);
         if (before + last >= most_work) break;
         const size_t taken = out < r->moving ? out : r->moving;
@@ -194,14 +192,14 @@ static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t mo
         shuffle(r->out, taken, &state);
         const size_t in_vain = put_back(r, taken);
         useless = in_vain ? useless + in_vain : 0;
-        last = work_of(s) - before;
+        last = sunder_i_search_work(s) - before;
     }
 }
 
 void sunder_i_search_reorder(sunder_i_search *s, double *best, double *cost)
 {
     reordering r = {.search = s, .best = best, .cost = *cost};
-    const uint64_t work = work_of(s);
+    const uint64_t work = sunder_i_search_work(s);
     for (size_t k = 0; k < s->n; k++) r.moving += s->mass[k] > 0;
     if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
     r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);

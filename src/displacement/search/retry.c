@@ -43,8 +43,6 @@ typedef struct retrying {
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
-static uint64_t work_of(const sunder_i_search *s) { return s->steps + s->program.work; }
-
 bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *t)
 {
     const sunder_i_body *p = &model->body[model->body_of[t->a]], *q = &model->body[model->body_of[t->b]];
@@ -131,10 +129,10 @@ static bool settle_all(retrying *p)
     const size_t size = 2 * s->n * sizeof *p->stand;
     memcpy(p->stand, s->t, size);
     s->program.n = 0;
-    s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     bool done = sunder_i_search_descend(s);
     if (!done && !s->failed && sunder_i_search_jump(s)) {
-        s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+        s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
         done = sunder_i_search_descend(s);
     }
     s->patience = UINT64_MAX;
@@ -211,7 +209,7 @@ static void ask_all(retrying *p, const request *r)
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
         size_t useless = 0;
-        for (size_t k = 0; k < p->n && !s->failed && work_of(s) < p->effort; k++) {
+        for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
             if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == USELESS)) continue;
             p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
@@ -259,7 +257,8 @@ static void redeem(retrying *p, sunder_i_relaxations *list)
         list->item[best] = list->item[k];
         list->item[k] = t;
         sunder_i_relaxations_remove(&s->relaxations, s->model, &t);
-        if (sunder_i_search_look(s, s->t) <= s->tolerance || (work_of(s) < p->effort && settle_all(p))) continue;
+        if (sunder_i_search_look(s, s->t) <= s->tolerance || (sunder_i_search_work(s) < p->effort && settle_all(p)))
+            continue;
         if (!s->failed && !sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
     }
 }
@@ -285,7 +284,8 @@ static bool grant_from_home(retrying *p, size_t k)
 static void trade(retrying *p)
 {
     sunder_i_search *s = p->search;
-    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && work_of(s) < p->effort && !s->failed; k++) {
+    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && sunder_i_search_work(s) < p->effort && !s->failed;
+         k++) {
         sunder_i_relaxations list = {0};
         const sunder_i_retry *x = &p->retry[k];
         const request r = {x->overlap, false, x->part > 0};
@@ -303,13 +303,13 @@ static void trade(retrying *p)
 /* Does nothing clash to begin with? Those who joined the cluster may ask for a wider margin than the others kept. */
 static bool is_in_order(sunder_i_search *s)
 {
-    s->patience = work_of(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     const bool ok = sunder_i_search_look(s, s->t) <= s->tolerance || (!s->failed && sunder_i_search_descend(s));
     s->patience = UINT64_MAX;
     return ok && !s->failed;
 }
 
-void sunder_i_search_retry(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
+static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
 {
     if (!is_in_order(s)) return;
     retrying p = {.search = s,
@@ -324,10 +324,10 @@ void sunder_i_search_retry(sunder_i_search *s, const sunder_i_retry *retry, size
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
     const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_RETRY * pairs;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
-        if (!requests[k].part) p.effort = work_of(s) + effort / 2;
+        if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
         ask_all(&p, &requests[k]);
     }
-    p.effort = work_of(s) + effort / 2;
+    p.effort = sunder_i_search_work(s) + effort / 2;
     if (!s->failed && s->model->rules.gap > 0) trade(&p);
     if (p.any && p.moving > FEW) sunder_i_search_lower(s);
     sunder_i_neighbourhood_free(&p.neighbourhood);
@@ -339,26 +339,15 @@ void sunder_i_search_retry(sunder_i_search *s, const sunder_i_retry *retry, size
 sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
                                      const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err)
 {
-    uint32_t *body = NULL;
-    double *all = NULL;
-    size_t n = 0;
     sunder_i_search s;
-    memset(&s, 0, sizeof s);
-    bool ok = sunder_i_cluster_surroundings(model, cluster, move, &body, &all, &n);
-    if (ok) ok = sunder_i_search_init(&s, model, body, n, cluster->margin, all);
-    if (ok) {
-        s.own = cluster->n;
-        for (size_t k = cluster->n; k < n; k++) s.mass[k] = 0;
-        sunder_i_search_retry(&s, retry, retries);
-        ok = !s.failed;
-    }
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move);
+    if (ok) retry_all(&s, retry, retries);
+    ok = ok && !s.failed;
     if (ok && s.restored_n + s.relaxations.n) {
         s.n = cluster->n;
         sunder_i_search_round(&s, move);
         sunder_i_search_hand_over(&s, cluster);
     }
     sunder_i_search_free(&s);
-    sunder_i_free(body);
-    sunder_i_free(all);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

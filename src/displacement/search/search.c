@@ -38,6 +38,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
 
 void sunder_i_search_free(sunder_i_search *s)
 {
+    sunder_i_free(s->listed);
     sunder_i_free(s->mass);
     sunder_i_free(s->away);
     sunder_i_free(s->t);

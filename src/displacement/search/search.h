@@ -17,6 +17,7 @@ typedef struct sunder_i_search {
     const sunder_i_model *model;
     const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
     size_t n, own;              /* ascending up to `own`, and from there on */
+    uint32_t *listed;           /* their list, where it is the search's own */
     double gap;                 /* the gap and the margin */
     double tolerance;           /* a violation below this counts as none: a quarter of the margin */
     double *mass;               /* [n] 1 / (2 weight), or 0 */
@@ -51,6 +52,8 @@ typedef struct sunder_i_search {
 bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, const uint32_t *body, size_t n,
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
+/* Work done so far, in constraints looked at. */
+static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* How far body i may be sent. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* sum w |t|^2 */
@@ -58,10 +61,10 @@ double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
 /* ---- surroundings.c ---------------------------------------------------------------------------------------------- */
 
-/* The bodies of a cluster, which stand at `own`, and then those about it: *n bodies and where they stand. False if
- * memory is out; what there is by then is the caller's, too. */
-bool sunder_i_cluster_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
-                                   uint32_t **body, double **move, size_t *n);
+/* The same for the bodies of a cluster, which stand at move, and those about it, which stay where they stand. If it
+ * fails it is to be freed, too. */
+bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                const double *move);
 
 /* ---- near.c: who stands near whom -------------------------------------------------------------------------------- */
 

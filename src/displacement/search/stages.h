@@ -42,12 +42,6 @@ void sunder_i_search_round(const sunder_i_search *search, double *move);
 /* What became of pairs in conflict goes to the cluster. */
 void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluster);
 
-/* ---- retry.c ----------------------------------------------------------------------------------------------------- */
-
-/* From a free position, pairs relaxed are asked for all that is owed, or at least not to overlap. What came of it is in
- * search->restored and search->relaxations. */
-void sunder_i_search_retry(sunder_i_search *search, const sunder_i_retry *retry, size_t n);
-
 /* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
 
 /* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */

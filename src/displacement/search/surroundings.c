@@ -25,13 +25,13 @@ static double mean_move(const sunder_i_model *model, const sunder_i_cluster *clu
 static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
                               sunder_i_list *hits)
 {
-    const double mean = mean_move(model, cluster, own);
+    const double mean = mean_move(model, cluster, own), none[2] = {0, 0};
     for (size_t k = 0; k < cluster->n; k++) {
         const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
         const double reach = model->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
         double box[4];
-        for (int c = 0; c < 4; c++) box[c] = b->box[c] + b->origin[c & 1] + (c < 2 ? -reach : reach);
+        sunder_i_body_box(b, none, reach, box);
         if (!sunder_i_index_query(model->standing, box, hits)) return false;
     }
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
@@ -43,25 +43,29 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
     return true;
 }
 
-bool sunder_i_cluster_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
-                                   uint32_t **body, double **move, size_t *n)
+bool sunder_i_search_init_about(sunder_i_search *s, const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                const double *move)
 {
     sunder_i_list hits = {0};
-    bool ok = find_surroundings(model, cluster, own, &hits);
+    memset(s, 0, sizeof *s);
+    bool ok = find_surroundings(model, cluster, move, &hits);
+    const size_t own = cluster->n, n = own + hits.n;
+    uint32_t *body = sunder_i_alloc(n, sizeof *body);
+    double *stand = sunder_i_alloc(2 * n, sizeof *stand);
+    ok = ok && body && stand;
     if (ok) {
-        *n = cluster->n + hits.n;
-        *body = sunder_i_alloc(*n, sizeof **body);
-        *move = sunder_i_alloc(2 * *n, sizeof **move);
-        ok = *body && *move;
-    }
-    if (ok) {
-        memcpy(*body, cluster->body, cluster->n * sizeof **body);
-        memcpy(*move, own, 2 * cluster->n * sizeof **move);
-        for (size_t k = 0; k < hits.n; k++) {
-            (*body)[cluster->n + k] = hits.item[k];
-            memcpy(*move + 2 * (cluster->n + k), model->move + 2 * (size_t)hits.item[k], 2 * sizeof **move);
+        memcpy(body, cluster->body, own * sizeof *body);
+        memcpy(stand, move, 2 * own * sizeof *stand);
+        for (size_t k = own; k < n; k++) {
+            body[k] = hits.item[k - own];
+            memcpy(stand + 2 * k, model->move + 2 * (size_t)body[k], 2 * sizeof *stand);
         }
+        ok = sunder_i_search_init(s, model, body, n, cluster->margin, stand);
     }
+    s->listed = body;
+    s->own = own;
+    for (size_t k = own; ok && k < n; k++) s->mass[k] = 0;
+    sunder_i_free(stand);
     sunder_i_free(hits.item);
     return ok;
 }
