@@ -30,7 +30,7 @@
 #include "minkowski/convolution.h"
 
 #include "minkowski/convolution_inner.h"
-#include "base/sort.h"
+#include "sum/canonical.h"
 
 /* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
  * stop_begin(i) + i on, one more than it has stops. */
@@ -103,10 +103,6 @@ static void number_ring(walker *w, uint32_t begin, uint32_t end)
 
 /* ---- Rings ---- */
 
-typedef struct traced_ring {
-    uint32_t first, least, end; /* vertices of the sum */
-} traced_ring;
-
 static bool add_vertex(sunder_sum *sum, size_t *room, sunder_i_hpoint at)
 {
     if (sum->vertices == *room && !sunder_i_reserve(&sum->vertex, room, (size_t)sum->vertices + 1, sizeof *sum->vertex))
@@ -141,7 +137,7 @@ static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *r
 }
 
 typedef struct ring_list {
-    traced_ring *ring;
+    sunder_i_found_ring *ring; /* start and end in the vertices of the sum */
     size_t n, room;
 } ring_list;
 
@@ -157,53 +153,33 @@ static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
             if (rings->n == rings->room &&
                 !sunder_i_reserve(&rings->ring, &rings->room, rings->n + 1, sizeof *rings->ring))
                 return false;
-            traced_ring r = {.first = sum->vertices, .least = sum->vertices};
+            sunder_i_found_ring r = {.start = sum->vertices};
             if (!follow(w, i, k, sum, &room)) return false;
             r.end = sum->vertices;
-            for (uint32_t v = r.first + 1; v < r.end; v++)
-                if (sunder_i_hpoint_cmp(c->lattice, &sum->vertex[v], &sum->vertex[r.least]) < 0) r.least = v;
             rings->ring[rings->n++] = r;
         }
     return true;
 }
 
-typedef struct ring_order {
-    const sunder_sum *sum;
-    sunder_i_lattice *lattice;
-    const traced_ring *ring;
-} ring_order;
-
-/* No two have a vertex in common; the outer ring has the smallest of all. */
-static int compare_rings(void *context, uint32_t a, uint32_t b)
+/* No two rings have a vertex in common; the outer one has the smallest of all. */
+static bool put_rings(ring_list *rings, sunder_sum *sum)
 {
-    const ring_order *o = context;
-    if (a == b) return 0;
-    return sunder_i_hpoint_cmp(o->lattice, &o->sum->vertex[o->ring[a].least], &o->sum->vertex[o->ring[b].least]);
-}
-
-static bool put_rings(const walker *w, const ring_list *rings, sunder_sum *sum)
-{
-    const size_t n = rings->n;
-    sum->ring_vertex = sunder_i_alloc(sum->vertices, sizeof *sum->ring_vertex);
-    sum->ring_end = sunder_i_alloc(n, sizeof *sum->ring_end);
-    sum->poly_end = sunder_i_alloc(1, sizeof *sum->poly_end);
-    uint32_t *order = sunder_i_alloc(n, sizeof *order);
-    ring_order by = {sum, w->curve->lattice, rings->ring};
-    for (uint32_t r = 0; order && r < n; r++) order[r] = r;
-    const bool ok = sum->ring_vertex && sum->ring_end && sum->poly_end && order &&
-                    sunder_i_sort_indices(order, n, compare_rings, &by);
-    size_t at = 0;
-    for (size_t i = 0; ok && i < n; i++) {
-        const traced_ring *r = &rings->ring[order[i]];
-        for (uint32_t v = r->least; v < r->end; v++) sum->ring_vertex[at++] = v;
-        for (uint32_t v = r->first; v < r->least; v++) sum->ring_vertex[at++] = v;
-        sum->ring_end[i] = at;
+    uint32_t *vertex = sunder_i_alloc(sum->vertices, sizeof *vertex);
+    size_t outer = 0, at = 0;
+    for (size_t r = 0; vertex && r < rings->n; r++) {
+        const uint32_t start = (uint32_t)rings->ring[r].start, end = (uint32_t)rings->ring[r].end;
+        uint32_t least = start;
+        for (uint32_t v = start + 1; v < end; v++)
+            if (sunder_i_hpoint_cmp(&sum->lattice, &sum->vertex[v], &sum->vertex[least]) < 0) least = v;
+        for (uint32_t v = least; v < end; v++) vertex[at++] = v;
+        for (uint32_t v = start; v < least; v++) vertex[at++] = v;
+        if (sunder_i_sum_vertex_cmp(sum, least, vertex[rings->ring[outer].start]) < 0) outer = r;
     }
-    if (ok) {
-        sum->rings = sum->poly_end[0] = n;
-        sum->polygons = 1;
-    }
-    sunder_i_free(order);
+    rings->ring[outer].outer = true;
+    sunder_i_found found = {.vertex = vertex, .ring = rings->ring, .rings = rings->n, .components = 1,
+                            .compare = sunder_i_sum_vertex_cmp, .context = sum};
+    const bool ok = vertex && sunder_i_canonical(&found, sum);
+    sunder_i_free(vertex);
     return ok;
 }
 
@@ -226,7 +202,7 @@ static bool walk(const sunder_i_curve *c, sunder_sum *sum, bool *done)
     ok = ok && (!w.tame || follow_all(&w, sum, &rings));
     *done = ok && w.tame;
     if (*done)
-        ok = put_rings(&w, &rings, sum);
+        ok = put_rings(&rings, sum);
     else
         forget(sum);
     sunder_i_free(w.right);

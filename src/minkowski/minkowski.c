@@ -1,12 +1,15 @@
 /* The public face of the sum: the three stages, and what a caller may ask of the result. */
 #include "minkowski/minkowski.h"
+
 #include "base/clock.h"
+#include "base/invariant.h"
 #include "base/watch.h"
 #include "convex/subsums.h"
 #include "minkowski/convex_operands.h"
 #include "minkowski/convolution.h"
 #include "outline/buried.h"
 #include "outline/outline.h"
+#include "sum/canonical.h"
 #include "unions/unions.h"
 
 #include <string.h>
@@ -84,6 +87,7 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     else
         status = sunder_i_union_sum(sum, p, q, force_wide, &o, err);
     sunder_i_watch_end(&watch);
+    SUNDER_I_ASSERT(status != SUNDER_OK || !sunder_i_canonical_check(sum));
     if (status == SUNDER_OK)
         *out = sum;
     else

@@ -24,10 +24,13 @@
  * with the figure, only with what its own corners were made from.
  *
  * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
+#include "morphology/morphology.h"
+
+#include "base/invariant.h"
 #include "base/random.h"
 #include "minkowski/minkowski.h"
-#include "morphology/morphology.h"
 #include "predicate/rational_point.h"
+#include "sum/canonical.h"
 #include "sum/from_map.h"
 
 typedef struct growth {
@@ -267,6 +270,7 @@ static sunder_status grow_or_shrink(growth *g, sunder_sum *sum, sunder_error *er
     sunder_i_planar_map_free(g->bands);
     sunder_i_planar_map_free(g->solid);
     sunder_i_arena_free(&g->scratch);
+    SUNDER_I_ASSERT(status != SUNDER_OK || !sunder_i_canonical_check(sum));
     return status;
 }
 

@@ -4,10 +4,13 @@
  * The open pieces leave out the diagonals between them and walls that members share. Both have cover on both sides, so
  * neither is boundary; they would come out as degenerate segments and points, which the union of closed members has
  * none of. */
-#include "outline/buried.h"
-#include "convex/pieces.h"
-#include "outline/outline.h"
 #include "morphology/morphology.h"
+
+#include "base/invariant.h"
+#include "convex/pieces.h"
+#include "outline/buried.h"
+#include "outline/outline.h"
+#include "sum/canonical.h"
 
 #include <string.h>
 
@@ -74,6 +77,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
         status = unite_pieces(shape, placed.p, options, sum, err);
         sunder_i_placed_free(&placed);
     }
+    SUNDER_I_ASSERT(status != SUNDER_OK || !sunder_i_canonical_check(sum));
     if (status == SUNDER_OK)
         *out = sum;
     else

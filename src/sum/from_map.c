@@ -18,19 +18,14 @@
  *
  * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas
  * leave them. */
-#include "base/sort.h"
-#include "base/watch.h"
 #include "sum/from_map.h"
+
+#include "base/watch.h"
+#include "sum/canonical.h"
 
 #include "base/union_find.h"
 
 #include <string.h>
-
-typedef struct ring {
-    uint32_t start, end; /* in outline.vertex */
-    uint32_t component;  /* a face that stands for it */
-    bool outer;
-} ring;
 
 typedef struct outline {
     sunder_i_planar_map *map;
@@ -39,13 +34,14 @@ typedef struct outline {
     bool *done;          /* [half-edges] */
     uint32_t *vertex;    /* of all rings, then ends of segments, then points; as the map numbers them */
     size_t vertices, vertex_capacity;
-    ring *ring;
+    sunder_i_found_ring *ring;
     size_t rings, ring_capacity;
-    uint32_t segment_end; /* in vertex */
+    size_t ring_end, segment_end; /* in vertex */
 } outline;
 
-static int compare_vertices(const outline *o, uint32_t v, uint32_t w)
+static int compare_vertices(void *context, uint32_t v, uint32_t w)
 {
+    const outline *o = context;
     return sunder_i_planar_map_vertex_cmp(o->map, v, w);
 }
 
@@ -125,9 +121,9 @@ static uint32_t first_of_ring(outline *o, uint32_t start, uint32_t component, bo
 static bool trace_ring(outline *o, uint32_t start)
 {
     if (!sunder_i_reserve(&o->ring, &o->ring_capacity, o->rings + 1, sizeof *o->ring)) return false;
-    ring *r = &o->ring[o->rings++];
+    sunder_i_found_ring *r = &o->ring[o->rings++];
     r->component = component_of(o, start);
-    r->start = (uint32_t)o->vertices;
+    r->start = o->vertices;
     const uint32_t first = first_of_ring(o, start, r->component, &r->outer);
     if (!push(o, sunder_i_planar_map_origin(o->map, first))) return false;
     for (uint32_t h = first;;) {
@@ -137,7 +133,7 @@ static bool trace_ring(outline *o, uint32_t start)
         if (!straight(o->map, h, g) && !push(o, sunder_i_planar_map_origin(o->map, g))) return false;
         h = g;
     }
-    r->end = (uint32_t)o->vertices;
+    r->end = o->vertices;
     return true;
 }
 
@@ -145,7 +141,7 @@ static bool trace_rings(outline *o)
 {
     const uint32_t halves = 2 * sunder_i_planar_map_edge_end(o->map);
     o->done = sunder_i_calloc(halves, sizeof *o->done);
-    if (!o->done) return false;
+    if (!o->done || !sunder_i_reserve(&o->vertex, &o->vertex_capacity, 1, sizeof *o->vertex)) return false;
     for (uint32_t h = 0; h < halves; h++)
         if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && bounds(o, h) && !o->done[h] && !trace_ring(o, h))
             return false;
@@ -173,6 +169,7 @@ static uint32_t slit_after(const outline *o, uint32_t h)
 
 static bool gather_segments(outline *o)
 {
+    o->ring_end = o->vertices;
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
         if (!is_slit(o, e) || slit_after(o, 2 * e + 1) != SUNDER_I_NOWHERE) continue;
         uint32_t last = 2 * e;
@@ -181,7 +178,7 @@ static bool gather_segments(outline *o)
             !push(o, sunder_i_planar_map_origin(o->map, sunder_i_planar_map_twin(last))))
             return false;
     }
-    o->segment_end = (uint32_t)o->vertices;
+    o->segment_end = o->vertices;
     return true;
 }
 
@@ -207,101 +204,19 @@ static bool gather_points(outline *o)
     return true;
 }
 
-/* ---- In order ---- */
-
-static int compare_rings(void *context, uint32_t a, uint32_t b)
+static bool put_in_order(outline *o, sunder_sum *sum)
 {
-    const outline *o = context;
-    const ring *r = &o->ring[a], *s = &o->ring[b];
-    const uint32_t m = r->end - r->start, n = s->end - s->start;
-    for (uint32_t i = 0; i < m && i < n; i++) {
-        const int c = compare_vertices(o, o->vertex[r->start + i], o->vertex[s->start + i]);
-        if (c) return c;
-    }
-    return (m > n) - (m < n);
-}
-
-/* By numbers into outline.vertex. */
-static int compare_points(void *context, uint32_t a, uint32_t b)
-{
-    const outline *o = context;
-    return compare_vertices(o, o->vertex[a], o->vertex[b]);
-}
-
-static int compare_segments(void *context, uint32_t a, uint32_t b)
-{
-    const int c = compare_points(context, a, b);
-    return c ? c : compare_points(context, a + 1, b + 1);
-}
-
-static uint32_t *sorted(outline *o, uint32_t first, size_t n, uint32_t step, int (*compare)(void *, uint32_t, uint32_t))
-{
-    uint32_t *index = sunder_i_alloc(n, sizeof *index);
-    for (size_t i = 0; index && i < n; i++) index[i] = first + (uint32_t)i * step;
-    if (index && sunder_i_sort_indices(index, n, compare, o)) return index;
-    sunder_i_free(index);
-    return NULL;
-}
-
-static void copy_ring(const outline *o, const ring *r, sunder_sum *sum)
-{
-    const size_t at = sum->rings ? sum->ring_end[sum->rings - 1] : 0, n = r->end - r->start;
-    memcpy(sum->ring_vertex + at, o->vertex + r->start, n * sizeof *o->vertex);
-    sum->ring_end[sum->rings++] = at + n;
-}
-
-/* Outer rings in order, each followed by its holes in order: holes are dealt to their polygons first. */
-static bool arrange_rings(outline *o, sunder_sum *sum)
-{
-    uint32_t *order = sorted(o, 0, o->rings, 1, compare_rings);
-    uint32_t *polygon = sunder_i_alloc(sunder_i_planar_map_face_end(o->map), sizeof *polygon);
-    uint32_t *hole = sunder_i_alloc(o->rings, sizeof *hole), *end = sunder_i_calloc(o->rings + 1, sizeof *end);
-    sum->ring_vertex = sunder_i_alloc(o->rings ? o->ring[o->rings - 1].end : 0, sizeof *sum->ring_vertex);
-    sum->ring_end = sunder_i_alloc(o->rings, sizeof *sum->ring_end);
-    sum->poly_end = sunder_i_alloc(o->rings, sizeof *sum->poly_end);
-    const bool ok = order && polygon && hole && end && sum->ring_vertex && sum->ring_end && sum->poly_end;
-    if (ok) {
-        uint32_t polygons = 0;
-        for (size_t i = 0; i < o->rings; i++)
-            if (o->ring[order[i]].outer) polygon[o->ring[order[i]].component] = polygons++;
-        for (size_t i = 0; i < o->rings; i++)
-            if (!o->ring[i].outer) end[polygon[o->ring[i].component] + 1]++;
-        for (uint32_t p = 0; p < polygons; p++) end[p + 1] += end[p]; /* where its holes start, until they are dealt */
-        for (size_t i = 0; i < o->rings; i++)
-            if (!o->ring[order[i]].outer) hole[end[polygon[o->ring[order[i]].component]]++] = order[i];
-        uint32_t next = 0;
-        for (size_t i = 0; i < o->rings; i++) {
-            if (!o->ring[order[i]].outer) continue;
-            copy_ring(o, &o->ring[order[i]], sum);
-            for (; next < end[sum->polygons]; next++) copy_ring(o, &o->ring[hole[next]], sum);
-            sum->poly_end[sum->polygons++] = sum->rings;
-        }
-    }
-    sunder_i_free(order);
-    sunder_i_free(polygon);
-    sunder_i_free(hole);
-    sunder_i_free(end);
-    return ok;
-}
-
-static bool arrange_degenerates(outline *o, sunder_sum *sum)
-{
-    const uint32_t first = o->rings ? o->ring[o->rings - 1].end : 0;
-    const size_t segments = (o->segment_end - first) / 2, points = o->vertices - o->segment_end;
-    uint32_t *segment = sorted(o, first, segments, 2, compare_segments);
-    uint32_t *point = sorted(o, o->segment_end, points, 1, compare_points);
-    sum->segment = sunder_i_alloc(2 * segments, sizeof *sum->segment);
-    sum->point = sunder_i_alloc(points, sizeof *sum->point);
-    const bool ok = segment && point && sum->segment && sum->point;
-    if (ok) {
-        for (size_t i = 0; i < segments; i++) memcpy(sum->segment + 2 * i, o->vertex + segment[i], 2 * sizeof *segment);
-        for (size_t i = 0; i < points; i++) sum->point[i] = o->vertex[point[i]];
-        sum->segments = segments;
-        sum->points = points;
-    }
-    sunder_i_free(segment);
-    sunder_i_free(point);
-    return ok;
+    sunder_i_found found = {.vertex = o->vertex,
+                            .ring = o->ring,
+                            .rings = o->rings,
+                            .components = sunder_i_planar_map_face_end(o->map),
+                            .segment = o->vertex + o->ring_end,
+                            .segments = (o->segment_end - o->ring_end) / 2,
+                            .point = o->vertex + o->segment_end,
+                            .points = o->vertices - o->segment_end,
+                            .compare = compare_vertices,
+                            .context = o};
+    return sunder_i_canonical(&found, sum);
 }
 
 /* ---- Vertices of the sum's own ---- */
@@ -358,7 +273,7 @@ sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_insid
 {
     outline o = {.map = map, .inside = inside};
     const bool ok = connect_faces(&o) && trace_rings(&o) && gather_segments(&o) && gather_points(&o) &&
-                    arrange_rings(&o, sum) && arrange_degenerates(&o, sum) && make_vertices(&o, sum);
+                    put_in_order(&o, sum) && make_vertices(&o, sum);
     sunder_i_free(o.component);
     sunder_i_free(o.done);
     sunder_i_free(o.vertex);

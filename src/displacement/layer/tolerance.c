@@ -1,7 +1,7 @@
 /* A shape grown by the tolerance: Q + D as a shape, for a polygon D in the disc whose radius is the tolerance. */
 #include "displacement/layer/relate.h"
 
-#include "base/memory.h"
+#include "sum/to_shape.h"
 
 #include <math.h>
 
@@ -35,36 +35,7 @@ sunder_status sunder_i_grow_by_tolerance(const sunder_shape *q, double tolerance
     if (!status) status = sunder_minkowski_sum(q, disc, NULL, &sum, err);
     sunder_shape_free(disc);
     if (status) return status;
-    sunder_sum_size size;
-    sunder_sum_get_size(sum, &size);
-    size_t rings = 0, corners = 0;
-    for (size_t p = 0; p < size.polygons; p++)
-        for (size_t r = 0; r < sunder_sum_rings(sum, p); r++, rings++) {
-            size_t n;
-            sunder_sum_ring(sum, p, r, &n);
-            corners += n;
-        }
-    double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
-    size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end),
-           *poly_end = sunder_i_alloc(size.polygons, sizeof *poly_end);
-    if (xy && ring_end && poly_end) {
-        size_t v = 0, k = 0;
-        for (size_t p = 0; p < size.polygons; p++) {
-            for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
-                size_t n;
-                const uint32_t *ring = sunder_sum_ring(sum, p, r, &n);
-                for (size_t i = 0; i < n; i++, v++) sunder_sum_vertex(sum, ring[i], xy + 2 * v);
-                ring_end[k++] = v;
-            }
-            poly_end[p] = k;
-        }
-        status = sunder_shape_from_rings(xy, ring_end, poly_end, size.polygons, SUNDER_VALIDITY_EVEN_ODD, out, err);
-    } else {
-        status = sunder_i_no_memory(err);
-    }
-    sunder_i_free(xy);
-    sunder_i_free(ring_end);
-    sunder_i_free(poly_end);
+    status = sunder_i_sum_to_shape(sum, false, SUNDER_VALIDITY_EVEN_ODD, out, err);
     sunder_sum_free(sum);
     return status;
 }
