@@ -15,6 +15,9 @@ enum {
 /* What is said when a signal ended the work, whatever noticed it first. */
 #define GIS_INTERRUPTED "interrupted"
 
+/* Room for what a message is about: "layer buildings, FID 12"; longer names are cut. */
+enum { GIS_WHO_SIZE = 512 };
+
 typedef struct gis_error {
     int exit_status; /* GIS_FAILED or GIS_USAGE */
     bool no_memory;  /* that is all that failed: neither the call nor the data is at fault */

@@ -68,6 +68,18 @@ bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t fir
     return gis_polygons_end_polygon(set, error);
 }
 
+bool gis_polygons_append_one(gis_polygons *set, const gis_polygons *from, size_t p, gis_error *error)
+{
+    return gis_polygons_append(set, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error);
+}
+
+bool gis_polygons_append_all(gis_polygons *set, const gis_polygons *from, gis_error *error)
+{
+    for (size_t p = 0; p < from->polygons; p++)
+        if (!gis_polygons_append_one(set, from, p, error)) return false;
+    return true;
+}
+
 bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, double dx, double dy, gis_error *error)
 {
     for (size_t p = 0; p < sunder_shape_polygons(shape); p++) {

@@ -19,8 +19,10 @@ bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error);
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error);
 bool gis_polygons_end_ring(gis_polygons *set, gis_error *error);
 bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error);
-/* Rings [first, last) of another set, as one polygon. */
+/* Rings [first, last) of another set, as one polygon; one polygon of it; all of it. */
 bool gis_polygons_append(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error);
+bool gis_polygons_append_one(gis_polygons *set, const gis_polygons *from, size_t polygon, gis_error *error);
+bool gis_polygons_append_all(gis_polygons *set, const gis_polygons *from, gis_error *error);
 /* The polygons of a shape, each coordinate plus (dx, dy), rounded to the nearest double. */
 bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, double dx, double dy, gis_error *error);
 

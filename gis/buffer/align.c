@@ -192,9 +192,7 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
 /* What a block came to, after what others did. */
 static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_polygons *polygons, gis_error *error)
 {
-    const gis_polygons *from = &block->result.set;
-    for (size_t p = 0; p < from->polygons; p++)
-        if (!gis_polygons_append(polygons, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error)) return false;
+    if (!gis_polygons_append_all(polygons, &block->result.set, error)) return false;
     all->result.deviation = fmax(all->result.deviation, block->result.deviation);
     all->result.repaired += block->result.repaired;
     double *segment = realloc(all->segment, (4 * (all->segments + block->segments) + 1) * sizeof *segment);

@@ -22,7 +22,7 @@ static OGRGeometryH geometry_of(const gis_buffer_set *set, bool multi)
 {
     const gis_polygons *polygons = &set->result.set;
     if (polygons->polygons == 0) return OGR_G_CreateGeometry(multi ? wkbMultiPolygon : wkbPolygon);
-    return gis_geometry_polygons(polygons->xy, polygons->ring_end, polygons->poly_end, polygons->polygons, multi);
+    return gis_geometry_polygons(polygons, multi);
 }
 
 /* The field of --dissolve-field, as it is. */

@@ -42,7 +42,7 @@ static void tell(making *m)
 
 static void fail(making *m, size_t set, const gis_error *error)
 {
-    char who[512] = "";
+    char who[GIS_WHO_SIZE] = "";
     const gis_buffer *buffer = m->buffer;
     if (!buffer->request->dissolve) gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
     bool stopped = strcmp(error->message, GIS_INTERRUPTED) == 0;

@@ -134,10 +134,7 @@ static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double
     sunder_error why;
     gis_rounded rounded = {0};
     if (sunder_shape_union(shape, NULL, &sum, &why) != SUNDER_OK) return gis_core_failed(error, NULL, &why);
-    bool ok = gis_round_sum(sum, &rounded, error);
-    for (size_t p = 0; ok && p < rounded.set.polygons; p++)
-        ok = gis_polygons_append(all, &rounded.set, p ? rounded.set.poly_end[p - 1] : 0, rounded.set.poly_end[p],
-                                 error);
+    bool ok = gis_round_sum(sum, &rounded, error) && gis_polygons_append_all(all, &rounded.set, error);
     *deviation = fmax(*deviation, rounded.deviation);
     gis_rounded_clear(&rounded);
     sunder_sum_free(sum);
@@ -149,10 +146,8 @@ static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *r
 {
     const sunder_shape *shape = buffer->input.shape[feature];
     if (sunder_shape_repaired(shape)) return append_repaired(shape, all, deviation, error);
-    bool ok = gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error);
-    for (size_t p = 0; ok && p < rings->set.polygons; p++)
-        ok = gis_polygons_append(all, &rings->set, p ? rings->set.poly_end[p - 1] : 0, rings->set.poly_end[p], error);
-    return ok;
+    return gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error) &&
+           gis_polygons_append_all(all, &rings->set, error);
 }
 
 bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,

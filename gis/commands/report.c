@@ -28,11 +28,16 @@ void gis_json_operations(gis_json *out, const sunder_counts *counts)
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts)
 {
     gis_json_open(out, '{');
-    count(out, "overlap", counts->overlap);
-    count(out, "too_close", counts->too_close);
-    count(out, "barrier", counts->barrier);
-    count(out, "contained", counts->contained);
-    count(out, "duplicate", counts->duplicate);
+    const struct {
+        sunder_conflict_kind kind;
+        size_t n;
+    } kinds[] = {{SUNDER_CONFLICT_OVERLAP, counts->overlap},
+                 {SUNDER_CONFLICT_TOO_CLOSE, counts->too_close},
+                 {SUNDER_CONFLICT_BARRIER, counts->barrier},
+                 {SUNDER_CONFLICT_CONTAINED, counts->contained},
+                 {SUNDER_CONFLICT_DUPLICATE, counts->duplicate}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        count(out, sunder_conflict_kind_string(kinds[k].kind), kinds[k].n);
     count(out, "inside_blocks", counts->inside_blocks);
     gis_json_close(out, '}');
 }

@@ -18,7 +18,7 @@ typedef struct route_run {
     sunder_route *route;
     gis_sink *sink;           /* NULL: no layers are written */
     double max_deviation;     /* of layers; NaN: none are written */
-    char reason[640];         /* "" where there is a route */
+    char reason[GIS_WHO_SIZE + 128]; /* "" where there is a route */
 } route_run;
 
 static bool open_sink(route_run *run, gis_error *error)
@@ -49,7 +49,7 @@ static bool find(route_run *run, gis_error *error)
     if (reason == SUNDER_ROUTE_DISCONNECTED) {
         snprintf(run->reason, sizeof run->reason, "start and goal lie in different components of free space");
     } else if (reason != SUNDER_ROUTE_FOUND) {
-        char name[512];
+        char name[GIS_WHO_SIZE];
         gis_route_obstacle_name(&run->input, obstacle, name, sizeof name);
         snprintf(run->reason, sizeof run->reason, "at the %s the robot's interior meets %s",
                  reason == SUNDER_ROUTE_START_COLLIDES ? "start" : "goal", name);

@@ -104,7 +104,7 @@ static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double
 {
     gis_polygons all = {0};
     bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
-    OGRGeometryH geometry = ok ? gis_geometry_polygons(all.xy, all.ring_end, all.poly_end, all.polygons, multi) : NULL;
+    OGRGeometryH geometry = ok ? gis_geometry_polygons(&all, multi) : NULL;
     if (ok && !geometry) gis_no_memory(error);
     gis_polygons_clear(&all);
     return geometry;

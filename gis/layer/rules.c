@@ -130,7 +130,7 @@ static bool weigh_by_field(gis_layer_input *input, gis_error *error)
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         double weight = gis_field_number(feature, field);
         if (!(weight > 0) || !isfinite(weight)) {
-            char who[512];
+            char who[GIS_WHO_SIZE];
             gis_feature_name(input, i, who, sizeof who);
             return gis_fail(error, "%s: the weight in %s is %s; it must be a finite number greater than 0", who,
                             OGR_Fld_GetNameRef(definition),
@@ -151,7 +151,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
         if (input->feature[i].ignored) {
             input->feature[i].weight = 1; /* it is not asked for, and may have been anything */
         } else if (!(weight > 0) || !isfinite(weight)) {
-            char who[512];
+            char who[GIS_WHO_SIZE];
             gis_feature_name(input, i, who, sizeof who);
             return gis_fail(error, "%s: its weight, %g, is not a finite number greater than 0", who, weight);
         }

@@ -19,14 +19,18 @@ static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
 
-/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. Rounding the sum to doubles takes it in
- * by less than four units in the last place: the radius is increased by eight. */
+/* What is put on the radius first. Rounding the sum to doubles takes it in by less than four units in the last place of
+ * its largest coordinate: twice that. The arithmetic of the radius itself is off by some 1e-16 of it: a billionth, which
+ * nobody can see. */
+static const double grown_ulps = 8, grown_part = 1e-9;
+
+/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. */
 static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
 {
     double box[4], most = 0;
     sunder_shape_box(shape, box);
     for (int i = 0; i < 4; i++) most = fmax(most, fabs(box[i]));
-    radius = radius * (1 + 1e-9) + 8 * (nextafter(most, INFINITY) - most);
+    radius = radius * (1 + grown_part) + grown_ulps * (nextafter(most, INFINITY) - most);
     sunder_shape *disc = NULL, *grown = NULL;
     sunder_sum *sum = NULL;
     gis_rounded rounded = {0};
@@ -46,7 +50,7 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
 
 static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gis_error *error)
 {
-    char who[512];
+    char who[GIS_WHO_SIZE];
     sunder_shape *shape = NULL, *grown;
     bool invalid;
     if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error)) return false;
@@ -119,7 +123,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
 static bool point_shape(gis_layer_input *input, size_t i, int field, const sunder_shape *common, gis_error *error)
 {
     OGRFeatureH feature = gis_source_feature(input->source, i);
-    char who[512];
+    char who[GIS_WHO_SIZE];
     gis_feature_name(input, i, who, sizeof who);
     if (field < 0 || gis_field_is_blank(feature, field)) {
         if (common) return place_symbol(input, i, common, who, error);

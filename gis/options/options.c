@@ -22,7 +22,8 @@ void gis_options_clear(gis_options *options)
     *options = (gis_options){0};
 }
 
-bool gis_options_word(const char *choices, const char *word, size_t n)
+/* Is the word one of the choice's (a|b|c)? */
+static bool is_choice(const char *choices, const char *word, size_t n)
 {
     for (const char *c = choices; *c;) {
         size_t length = strcspn(c, "|");
@@ -155,7 +156,7 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
         break;
     }
     case GIS_TYPE_CHOICE:
-        if (!gis_options_word(option->metavar, value, strlen(value)))
+        if (!is_choice(option->metavar, value, strlen(value)))
             return gis_fail_usage(error, "%.*s %s: must be one of %s", n, option->names, value, option->metavar);
         break;
     case GIS_TYPE_OPTIONAL:

@@ -106,9 +106,6 @@ struct gis_options {
 bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error);
 void gis_options_clear(gis_options *options);
 
-/* Is the word one of the choice's (a|b|c)? */
-bool gis_options_word(const char *choices, const char *word, size_t n);
-
 /* --help of the program and of one command, on stdout. */
 void gis_help_program(void);
 void gis_help_command(const gis_command *command);

@@ -276,11 +276,11 @@ static OGRGeometryH new_ring(const double *xy, size_t first, size_t end)
     return ring;
 }
 
-static OGRGeometryH new_polygon(const double *xy, const size_t *ring_end, size_t first_ring, size_t end_ring)
+OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t p)
 {
     OGRGeometryH polygon = OGR_G_CreateGeometry(wkbPolygon);
-    for (size_t r = first_ring; polygon && r < end_ring; r++) {
-        OGRGeometryH ring = new_ring(xy, r ? ring_end[r - 1] : 0, ring_end[r]);
+    for (size_t r = p ? set->poly_end[p - 1] : 0; polygon && r < set->poly_end[p]; r++) {
+        OGRGeometryH ring = new_ring(set->xy, r ? set->ring_end[r - 1] : 0, set->ring_end[r]);
         if (!ring || OGR_G_AddGeometryDirectly(polygon, ring) != OGRERR_NONE) {
             OGR_G_DestroyGeometry(ring);
             OGR_G_DestroyGeometry(polygon);
@@ -290,13 +290,12 @@ static OGRGeometryH new_polygon(const double *xy, const size_t *ring_end, size_t
     return polygon;
 }
 
-OGRGeometryH gis_geometry_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                                   bool multi)
+OGRGeometryH gis_geometry_polygons(const gis_polygons *set, bool multi)
 {
-    if (polygons == 1 && !multi) return new_polygon(xy, ring_end, 0, poly_end[0]);
+    if (set->polygons == 1 && !multi) return gis_geometry_polygon(set, 0);
     OGRGeometryH all = OGR_G_CreateGeometry(wkbMultiPolygon);
-    for (size_t p = 0; all && p < polygons; p++) {
-        OGRGeometryH polygon = new_polygon(xy, ring_end, p ? poly_end[p - 1] : 0, poly_end[p]);
+    for (size_t p = 0; all && p < set->polygons; p++) {
+        OGRGeometryH polygon = gis_geometry_polygon(set, p);
         if (!polygon || OGR_G_AddGeometryDirectly(all, polygon) != OGRERR_NONE) {
             OGR_G_DestroyGeometry(polygon);
             OGR_G_DestroyGeometry(all);

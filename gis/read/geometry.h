@@ -54,7 +54,8 @@ bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error);
  * lack the closing vertex. A line from == to is a line of two equal points. */
 OGRGeometryH gis_geometry_line(const double from[2], const double to[2]);
 OGRGeometryH gis_geometry_point(const double xy[2]);
-OGRGeometryH gis_geometry_polygons(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                                   bool multi);
+OGRGeometryH gis_geometry_polygons(const gis_polygons *set, bool multi);
+/* One polygon of a set. */
+OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t polygon);
 
 #endif

@@ -18,7 +18,7 @@
 static bool append_feature(const gis_source *source, size_t i, const gis_rings *rings, gis_invalid policy,
                            gis_polygons *all, bool *any_invalid, gis_error *error)
 {
-    char who[512];
+    char who[GIS_WHO_SIZE];
     snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
     if (rings->linearised > 0)
         gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
@@ -30,10 +30,7 @@ static bool append_feature(const gis_source *source, size_t i, const gis_rings *
         return true;
     sunder_shape_free(alone);
     *any_invalid = *any_invalid || invalid;
-    const gis_polygons *set = &rings->set;
-    for (size_t p = 0; p < set->polygons; p++)
-        if (!gis_polygons_append(all, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error)) return false;
-    return true;
+    return gis_polygons_append_all(all, &rings->set, error);
 }
 
 static bool shape_of_layer(const gis_source *source, gis_invalid policy, const char *who, sunder_shape **out,

@@ -189,7 +189,7 @@ bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rul
                          sunder_shape **out, double *building, gis_error *error)
 {
     double unasked = 0;
-    char name[640];
+    char name[GIS_SHAPE_NAME_SIZE];
     gis_shape_name(who, text, name, sizeof name);
     return shape_from_text(text, name, rule, policy, out, building ? building : &unasked, error);
 }

@@ -19,6 +19,7 @@ bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rul
 bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error);
 bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
                       gis_error *error);
+enum { GIS_SHAPE_NAME_SIZE = GIS_WHO_SIZE + 128 };
 void gis_shape_name(const char *who, const char *text, char *name, size_t size);
 
 /* The standard shape ("disc:") that a text with a misspelt one was probably to be; NULL: none. */

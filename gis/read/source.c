@@ -66,9 +66,11 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
 
 static OGRGeometryH box_polygon(const double box[4])
 {
-    const double xy[] = {box[0], box[1], box[2], box[1], box[2], box[3], box[0], box[3]};
-    const size_t ring_end[] = {4}, poly_end[] = {1};
-    return gis_geometry_polygons(xy, ring_end, poly_end, 1, false);
+    double xy[] = {box[0], box[1], box[2], box[1], box[2], box[3], box[0], box[3]};
+    size_t ring_end = 4, poly_end = 1;
+    const gis_polygons ring = {
+        .xy = xy, .ring_end = &ring_end, .poly_end = &poly_end, .vertices = 4, .rings = 1, .polygons = 1};
+    return gis_geometry_polygon(&ring, 0);
 }
 
 static bool execute(gis_source *source, const gis_source_request *request, gis_error *error)

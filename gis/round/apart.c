@@ -247,15 +247,12 @@ static bool append_group(const gis_polygons *set, const size_t *member, size_t n
     bool ok = true, bad = false;
     double moved = 0;
     gis_suspects of_group = {0};
-    for (size_t i = 0; ok && i < n; i++)
-        ok = gis_polygons_append(&group, set, member[i] ? set->poly_end[member[i] - 1] : 0, set->poly_end[member[i]],
-                                 error);
+    for (size_t i = 0; ok && i < n; i++) ok = gis_polygons_append_one(&group, set, member[i], error);
     if (ok && n > 1) ok = mend_group(&group, round, &bad, &mended, &of_group, &moved, error);
     const gis_polygons *from = bad ? &mended.set : &group;
     for (size_t i = 0; ok && i < of_group.n; i++)
         ok = gis_suspect(&to->suspects, to->next.set.polygons + of_group.polygon[i], error);
-    for (size_t p = 0; ok && p < from->polygons; p++)
-        ok = gis_polygons_append(&to->next.set, from, p ? from->poly_end[p - 1] : 0, from->poly_end[p], error);
+    ok = ok && gis_polygons_append_all(&to->next.set, from, error);
     to->bad += bad;
     to->moved = fmax(to->moved, moved + mended.deviation);
     gis_polygons_clear(&group);

@@ -88,7 +88,7 @@ static bool make_room(gis_route_input *input, size_t n, gis_error *error)
 /* The polygons of a feature after --invalid, and its lines and points. */
 static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_rings *rings, gis_error *error)
 {
-    char who[512];
+    char who[GIS_WHO_SIZE];
     bool arcs = false, invalid;
     if (!geometry) return true;
     gis_route_obstacle_name(input, i, who, sizeof who);
@@ -159,7 +159,7 @@ static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, b
 static bool read_text(gis_route_input *input, const char *text, gis_error *error)
 {
     double unasked = 0;
-    char who[640], *held = NULL;
+    char who[GIS_SHAPE_NAME_SIZE], *held = NULL;
     const gis_invalid policy = input->request->invalid;
     gis_shape_name("OBSTACLES", text, who, sizeof who);
     if (!make_room(input, 1, error) || (text[0] == '@' && !gis_shape_read_file(text + 1, who, &held, error)))

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Placements between the ends of a leg, at most; one at least every width of the robot if that many do. */
+/* Placements between the ends of a leg, at most; one at least every width of the robot if that many do. More would be a
+ * smear on any sheet. */
 static const double most_steps = 100;
 
 typedef struct route_writer {
@@ -68,8 +69,7 @@ static bool write_placement(route_writer *w, gis_sink_layer *layer, size_t leg, 
 {
     gis_polygons set = {0};
     bool ok = gis_polygons_append_shape(&set, w->input->robot, at[0], at[1], error);
-    OGRGeometryH geometry =
-        ok ? gis_geometry_polygons(set.xy, set.ring_end, set.poly_end, set.polygons, true) : NULL;
+    OGRGeometryH geometry = ok ? gis_geometry_polygons(&set, true) : NULL;
     gis_polygons_clear(&set);
     if (!ok) return false;
     if (!geometry) return gis_no_memory(error);
@@ -112,7 +112,10 @@ static void grow_box(double box[4], const double xy[2])
     }
 }
 
-/* Around everything, with a tenth of its size as margin, as far as doubles reach. */
+/* The margin goes so often into the size of what it is around: it shows that free space goes on outside. */
+static const double margins_across = 10;
+
+/* Around everything, with a margin, as far as doubles reach. */
 static void frame(const route_writer *w, const gis_polygons *obstacles, double box[4])
 {
     box[0] = box[1] = INFINITY;
@@ -126,25 +129,12 @@ static void frame(const route_writer *w, const gis_polygons *obstacles, double b
     if (!(box[0] <= box[2])) box[0] = box[1] = box[2] = box[3] = 0;
     double robot[4];
     sunder_shape_box(w->input->robot, robot);
-    const double margin = fmax(box[2] - box[0], box[3] - box[1]) / 10 + (robot[2] - robot[0]) + (robot[3] - robot[1]);
+    const double size = fmax(box[2] - box[0], box[3] - box[1]);
+    const double margin = size / margins_across + (robot[2] - robot[0]) + (robot[3] - robot[1]);
     for (int k = 0; k < 2; k++) {
         box[k] = fmax(box[k] - margin, -DBL_MAX);
         box[k + 2] = fmin(box[k + 2] + margin, DBL_MAX);
     }
-}
-
-static bool write_set(gis_sink_layer *layer, const gis_polygons *set, gis_error *error)
-{
-    for (size_t p = 0; p < set->polygons; p++) {
-        gis_polygons one = {0};
-        bool ok = gis_polygons_append(&one, set, p ? set->poly_end[p - 1] : 0, set->poly_end[p], error);
-        OGRGeometryH polygon = ok ? gis_geometry_polygons(one.xy, one.ring_end, one.poly_end, 1, false) : NULL;
-        gis_polygons_clear(&one);
-        if (!ok) return false;
-        if (!polygon) return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, polygon, NULL, error)) return false;
-    }
-    return true;
 }
 
 /* What the frame and all rings of the obstacles enclose by the even-odd rule is the frame less the obstacles, since
@@ -195,8 +185,10 @@ static bool write_spaces(route_writer *w, gis_error *error)
     if (ok) {
         frame(w, &rounded.set, box);
         ok = free_space(&rounded.set, box, &open, error) &&
-             add_layer(w, "obstacles", wkbPolygon, NULL, 0, &layer, error) && write_set(layer, &rounded.set, error) &&
-             add_layer(w, "free_space", wkbPolygon, NULL, 0, &layer, error) && write_set(layer, &open, error);
+             add_layer(w, "obstacles", wkbPolygon, NULL, 0, &layer, error) &&
+             gis_write_polygons(layer, &rounded.set, NULL, error) &&
+             add_layer(w, "free_space", wkbPolygon, NULL, 0, &layer, error) &&
+             gis_write_polygons(layer, &open, NULL, error);
         w->deviation = fmax(w->deviation, rounded.deviation);
     }
     gis_polygons_clear(&open);

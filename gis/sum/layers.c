@@ -6,17 +6,12 @@
 
 #include <math.h>
 
-static bool write_polygons(gis_sink_layer *layer, const gis_polygons *set, gis_error *error)
+bool gis_write_polygons(gis_sink_layer *layer, const gis_polygons *set, const gis_value *values, gis_error *error)
 {
     for (size_t p = 0; p < set->polygons; p++) {
-        size_t first = p ? set->poly_end[p - 1] : 0, rings = set->poly_end[p] - first;
-        size_t start = first ? set->ring_end[first - 1] : 0;
-        /* Ends count from the polygon's own first vertex: shift them there and back, in place of a copy. */
-        for (size_t r = first; r < set->poly_end[p]; r++) set->ring_end[r] -= start;
-        OGRGeometryH polygon = gis_geometry_polygons(set->xy + 2 * start, set->ring_end + first, &rings, 1, false);
-        for (size_t r = first; r < set->poly_end[p]; r++) set->ring_end[r] += start;
+        OGRGeometryH polygon = gis_geometry_polygon(set, p);
         if (!polygon) return gis_no_memory(error);
-        if (!gis_sink_write(layer, NULL, polygon, NULL, error)) return false;
+        if (!gis_sink_write(layer, NULL, polygon, values, error)) return false;
     }
     return true;
 }
@@ -67,7 +62,7 @@ bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH c
     gis_sink_layer_request request = {.suffix = "", .type = wkbPolygon, .crs = crs, .style = GIS_STYLE_RESULT};
     gis_sink_layer *layer;
     bool ok = gis_round_sum(sum, &rounded, error) && gis_sink_add(sink, &request, &layer, error) &&
-              write_polygons(layer, &rounded.set, error);
+              gis_write_polygons(layer, &rounded.set, NULL, error);
     if (ok && gis_sink_takes_more(sink)) {
         request.suffix = "degenerate_segments";
         request.type = wkbLineString;

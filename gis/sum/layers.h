@@ -10,6 +10,9 @@
 bool gis_write_sum(gis_sink *sink, const sunder_sum *sum, OGRSpatialReferenceH crs, double *deviation,
                    gis_error *error);
 
+/* Each polygon of a set as a feature, all with these values of the layer's fields. */
+bool gis_write_polygons(gis_sink_layer *layer, const gis_polygons *set, const gis_value *values, gis_error *error);
+
 /* Degenerate holes into a layer, n of them; raises *deviation. */
 bool gis_write_sum_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t n, double *deviation,
                             gis_error *error);

@@ -103,18 +103,8 @@ static bool gather_face(map_run *run, uint32_t face, gis_error *error)
 
 static bool write_face(gis_sink_layer *layer, map_run *run, uint32_t face, gis_error *error)
 {
-    gis_polygons one = {0};
-    bool ok = gather_face(run, face, error);
-    gis_value value = covered_by(sunder_map_face_covered(run->map, face));
-    for (size_t p = 0; ok && p < run->face.polygons; p++) {
-        one.vertices = one.rings = one.polygons = 0;
-        ok = gis_polygons_append(&one, &run->face, p ? run->face.poly_end[p - 1] : 0, run->face.poly_end[p], error);
-        OGRGeometryH polygon =
-            ok ? gis_geometry_polygons(one.xy, one.ring_end, one.poly_end, one.polygons, false) : NULL;
-        ok = ok && (polygon || gis_no_memory(error)) && gis_sink_write(layer, NULL, polygon, &value, error);
-    }
-    gis_polygons_clear(&one);
-    return ok;
+    const gis_value value = covered_by(sunder_map_face_covered(run->map, face));
+    return gather_face(run, face, error) && gis_write_polygons(layer, &run->face, &value, error);
 }
 
 /* ---- Layers ----------------------------------------------------------------------------------------------- */

@@ -46,6 +46,27 @@ id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
+# Every word of every choice that --help lists is known to the enumeration that it is of.
+words_tried=0
+for command in separate check sum pair buffer route; do
+    case $command in
+    check) operands=(in.gpkg) ;;
+    sum | pair) operands=(square:1 square:1) ;;
+    buffer) operands=(in.gpkg o.gpkg --shape square:1) ;;
+    route) operands=(square:1 --robot square:1 --from '5,5' --to '6,6') ;;
+    *) operands=(in.gpkg o.gpkg) ;;
+    esac
+    "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices
+    while read -r option words; do
+        for word in ${words//|/ }; do
+            run $command "${operands[@]}" "$option" "$word" --overwrite </dev/null
+            [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$command $option $word: $status"
+            words_tried=$((words_tried + 1))
+        done
+    done <choices
+done
+[ "$words_tried" -ge 40 ] || fail "only $words_tried words of choices were tried"
+rm -f choices o.gpkg
 refused 2 'needs INPUT OUTPUT' separate in.gpkg
 refused 2 'one operand too many' separate in.gpkg a.gpkg b.gpkg
 refused 2 'operand is empty' separate in.gpkg ''
