@@ -4,7 +4,8 @@
 
 static bool equal(sunder_i_big a, sunder_i_big b)
 {
-    return a.size == b.size && (a.limb == b.limb || sunder_i_big_cmp(a, b) == 0);
+    if (a.size != b.size) return false;
+    return a.size == 1 ? a.limb[0] == b.limb[0] : a.limb == b.limb || sunder_i_big_cmp(a, b) == 0;
 }
 
 sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a)
@@ -39,24 +40,12 @@ sunder_i_point sunder_i_rational_put(sunder_i_lattice *l, sunder_i_rational_poin
     return (sunder_i_point){sunder_i_lattice_ratio(l, x, w), sunder_i_lattice_ratio(l, y, w)};
 }
 
-sunder_i_rational_point sunder_i_rational_copy(sunder_i_arena *arena, sunder_i_rational_point u)
-{
-    return (sunder_i_rational_point){sunder_i_big_copy(arena, u.x), sunder_i_big_copy(arena, u.y),
-                                     sunder_i_big_copy(arena, u.w)};
-}
-
 sunder_i_rational_point sunder_i_rational_reduced(sunder_i_arena *arena, sunder_i_rational_point u)
 {
     const sunder_i_big g = sunder_i_big_gcd(arena, sunder_i_big_gcd(arena, u.x, u.w), u.y);
     if (arena->failed || sunder_i_big_bits(g) <= 1) return u;
     return (sunder_i_rational_point){sunder_i_big_div_floor(arena, u.x, g), sunder_i_big_div_floor(arena, u.y, g),
                                      sunder_i_big_div_floor(arena, u.w, g)};
-}
-
-void sunder_i_rational_doubles(sunder_i_arena *arena, sunder_i_rational_point u, long exponent, double *x, double *y)
-{
-    *x = sunder_i_big_ratio(arena, u.x, u.w, exponent);
-    *y = sunder_i_big_ratio(arena, u.y, u.w, exponent);
 }
 
 sunder_i_rational_point sunder_i_rational_add(sunder_i_arena *arena, sunder_i_rational_point u,

@@ -21,11 +21,8 @@ static inline sunder_i_big sunder_i_rational_axis(const sunder_i_rational_point 
 sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point a);
 /* As a point of the lattice, whose arena gets copies. */
 sunder_i_point sunder_i_rational_put(sunder_i_lattice *lattice, sunder_i_rational_point u);
-/* A copy in another arena; and one in lowest terms. */
-sunder_i_rational_point sunder_i_rational_copy(sunder_i_arena *arena, sunder_i_rational_point u);
+/* In lowest terms. */
 sunder_i_rational_point sunder_i_rational_reduced(sunder_i_arena *arena, sunder_i_rational_point u);
-/* Both coordinates times 2^exponent as the nearest doubles. */
-void sunder_i_rational_doubles(sunder_i_arena *arena, sunder_i_rational_point u, long exponent, double *x, double *y);
 
 /* u + v, u - v; where both have one denominator it is that of the result. */
 sunder_i_rational_point sunder_i_rational_add(sunder_i_arena *arena, sunder_i_rational_point u,
@@ -42,6 +39,21 @@ int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *
 /* Side of c to the line ab: +1 left, -1 right, 0 on it, or a == b. */
 int sunder_i_rational_orient(sunder_i_arena *arena, sunder_i_rational_point a, sunder_i_rational_point b,
                              sunder_i_rational_point c);
+
+/* A copy in another arena. */
+static inline sunder_i_rational_point sunder_i_rational_copy(sunder_i_arena *arena, sunder_i_rational_point u)
+{
+    return (sunder_i_rational_point){sunder_i_big_copy(arena, u.x), sunder_i_big_copy(arena, u.y),
+                                     sunder_i_big_copy(arena, u.w)};
+}
+
+/* Both coordinates times 2^exponent as the nearest doubles. */
+static inline void sunder_i_rational_doubles(sunder_i_arena *arena, sunder_i_rational_point u, long exponent, double *x,
+                                             double *y)
+{
+    *x = sunder_i_big_ratio(arena, u.x, u.w, exponent);
+    *y = sunder_i_big_ratio(arena, u.y, u.w, exponent);
+}
 
 static inline sunder_i_rational_point sunder_i_rational_neg(sunder_i_rational_point u)
 {
