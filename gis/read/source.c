@@ -1,4 +1,5 @@
-/* source.c: opening, selecting, reading. The choice of the layer is in source_layer.c. */
+/* source.c: opening, selecting, reading. The choice of the layer is in source_layer.c, the marking of features by an
+ * expression in source_mark.c. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/source.h"
 
@@ -8,7 +9,6 @@
 #include "sqlite/lock.h"
 
 #include <cpl_conv.h>
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <inttypes.h>
 #include <stdint.h>
@@ -252,92 +252,6 @@ void gis_source_close(gis_source *source)
     free(source);
 }
 
-/* ---- Marking features by an expression -------------------------------------------------------------------- */
-
-typedef struct fid_index {
-    GIntBig fid;
-    size_t index;
-} fid_index;
-
-static int compare_fid_index(const void *a, const void *b)
-{
-    return compare_fids(&((const fid_index *)a)->fid, &((const fid_index *)b)->fid);
-}
-
-/* Marks by asking the layer again with both filters; FIDs tell which features came. */
-static bool mark_by_filter(gis_source *source, const char *where, bool *marks, gis_error *error)
-{
-    fid_index *table = malloc((source->n + 1) * sizeof *table);
-    if (!table) return gis_no_memory(error);
-    for (size_t i = 0; i < source->n; i++) table[i] = (fid_index){gis_source_fid(source, i), i};
-    qsort(table, source->n, sizeof *table, compare_fid_index);
-    char *both = CPLStrdup(source->where ? CPLSPrintf("(%s) AND (%s)", source->where, where) : where);
-    bool done = OGR_L_SetAttributeFilter(source->layer, both) == OGRERR_NONE;
-    CPLFree(both);
-    if (done) {
-        OGR_L_ResetReading(source->layer);
-        for (OGRFeatureH feature; done && (feature = OGR_L_GetNextFeature(source->layer)); OGR_F_Destroy(feature)) {
-            fid_index key = {OGR_F_GetFID(feature), 0};
-            fid_index *found = bsearch(&key, table, source->n, sizeof *table, compare_fid_index);
-            if (found) marks[found->index] = true;
-            done = gis_go_on(error);
-        }
-    }
-    OGR_L_SetAttributeFilter(source->layer, source->where);
-    free(table);
-    return done;
-}
-
-static GDALDriverH memory_driver(void)
-{
-    GDALDriverH driver = GDALGetDriverByName("MEM"); /* for vectors since 3.11, else raster only */
-    if (!driver || !GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL)) driver = GDALGetDriverByName("Memory");
-    return driver;
-}
-
-/* The features of a result set may share FIDs, and a filter would renumber them: so the attributes are laid out in a
- * layer of memory whose FIDs are our own numbers, and that is asked, in OGR's SQL. */
-static bool mark_in_memory(gis_source *source, const char *where, bool *marks, gis_error *error)
-{
-    GDALDriverH driver = memory_driver();
-    GDALDatasetH memory = driver ? GDALCreate(driver, "", 0, 0, 0, GDT_Unknown, NULL) : NULL;
-    OGRLayerH layer = memory ? GDALDatasetCreateLayer(memory, source->name, NULL, wkbNone, NULL) : NULL;
-    bool done = layer != NULL;
-    OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source->layer);
-    for (int f = 0; done && f < OGR_FD_GetFieldCount(definition); f++)
-        done = OGR_L_CreateField(layer, OGR_FD_GetFieldDefn(definition, f), TRUE) == OGRERR_NONE;
-    for (size_t i = 0; done && i < source->n && (done = gis_go_on(error)); i++) {
-        OGRFeatureH copy = OGR_F_Create(OGR_L_GetLayerDefn(layer));
-        OGR_F_SetFrom(copy, source->features[i], TRUE);
-        OGR_F_SetFID(copy, (GIntBig)i);
-        done = OGR_L_CreateFeature(layer, copy) == OGRERR_NONE;
-        OGR_F_Destroy(copy);
-    }
-    done = done && OGR_L_SetAttributeFilter(layer, where) == OGRERR_NONE;
-    if (done) {
-        OGR_L_ResetReading(layer);
-        for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(layer)) != NULL; OGR_F_Destroy(feature))
-            marks[OGR_F_GetFID(feature)] = true;
-    }
-    if (memory) GDALClose(memory);
-    return done || gis_fail(error, "not understood");
-}
-
-bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error)
-{
-    for (size_t i = 0; i < source->n; i++) marks[i] = false;
-    gis_listener listener = {0};
-    gis_listen_begin(&listener);
-    bool in_place = !source->is_result && source->fids_unique;
-    bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
-    gis_listen_end();
-    if (!done || listener.failures || gis_interrupted())
-        done = gis_fail_usage(error, "the expression \"%s\": %s", where,
-                              gis_listener_reason(&listener, "not understood"));
-    gis_listener_clear(&listener);
-    return done;
-}
-
 /* ---- Getters ---------------------------------------------------------------------------------------------- */
 
 size_t gis_source_count(const gis_source *source)
@@ -405,6 +319,16 @@ OGRwkbGeometryType gis_source_type(const gis_source *source)
 OGRSpatialReferenceH gis_source_crs(const gis_source *source)
 {
     return source->crs;
+}
+
+bool gis_source_is_result(const gis_source *source)
+{
+    return source->is_result;
+}
+
+const char *gis_source_where(const gis_source *source)
+{
+    return source->where;
 }
 
 int gis_source_field(const gis_source *source, const char *name)

@@ -58,6 +58,9 @@ const char *gis_source_name(const gis_source *source);
 const char *gis_source_path(const gis_source *source);
 GDALDatasetH gis_source_dataset(const gis_source *source);
 OGRLayerH gis_source_layer(const gis_source *source);
+/* Is the layer what a statement (--sql) gave? And the expression of --where; NULL: none. */
+bool gis_source_is_result(const gis_source *source);
+const char *gis_source_where(const gis_source *source);
 /* The declared geometry type. */
 OGRwkbGeometryType gis_source_type(const gis_source *source);
 /* NULL if there is none. */
@@ -69,7 +72,7 @@ int gis_source_field(const gis_source *source, const char *name);
 /* For --fixed-where and --ignore-where: marks[i] says whether feature i satisfies `where`. A plain layer
  * answers in the SQL that its --where speaks; the result of --sql, whose FIDs mean nothing, in OGR's. marks has
  * gis_source_count() entries. A bad expression is GIS_USAGE. */
-bool gis_source_mark(gis_source *source, const char *where, bool *marks, gis_error *error);
+bool gis_source_mark(const gis_source *source, const char *where, bool *marks, gis_error *error);
 
 /* What GDAL warned of while opening and reading. */
 const gis_list *gis_source_warnings(const gis_source *source);
