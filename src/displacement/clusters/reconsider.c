@@ -4,6 +4,7 @@
  * is for verdicts.c. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/proofs/feasibility.h"
 
@@ -13,11 +14,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* How long a solution is looked for, in constraints looked at: so many for each body. Among more than these bodies none
- * was ever found, and the pairs are asked about one by one. */
-#define EFFORT 100000u
-#define MOST_BODIES 64
 
 /* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
 typedef struct component {

@@ -1,6 +1,7 @@
 /* The loop: clusters are solved, their moves checked exactly, and what is found makes work for the next round. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/layer/rounding.h"
 
@@ -8,8 +9,6 @@
 #include "base/union_find.h"
 
 #include <string.h>
-
-#define MOST_MARGINS 14
 
 bool sunder_i_solver_is_dirty(const sunder_i_solver *s, const sunder_i_cluster *c)
 {

@@ -15,6 +15,7 @@
  * nothing stands worse: the loop ends. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/layer/rounding.h"
 
@@ -23,11 +24,6 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* Moves are alike that differ by no more than so many units. */
-#define HAIR 16
-/* So many bodies in all may be moved together in vain. */
-#define IN_VAIN 20000
 
 /* ---- The rule ---------------------------------------------------------------------------------------------------- */
 
@@ -191,7 +187,7 @@ static sunder_status try_nearby(trial *t, sunder_error *err)
     sunder_status status = SUNDER_OK;
     units_of(t->solver, t->body[0], unit);
     t->well = false;
-    for (int step = 1; step <= HAIR && !t->well && !status; step *= 4)
+    for (int step = 1; step <= ALIKE && !t->well && !status; step *= 4)
         for (int k = 0; k < 9 && !t->well && !status; k++) {
             const double to[2] = {stood[0] + step * (k % 3 - 1) * unit[0], stood[1] + step * (k / 3 - 1) * unit[1]};
             if (k != 4) status = try_place(t, to, err);
@@ -249,7 +245,7 @@ static sunder_status try_together(trial *t, sunder_error *err)
             coarsest = coarse;
             memcpy(to, t->stood + 2 * k, sizeof to);
         }
-        status = take_alike(t, t->body[k], HAIR * coarsest, err);
+        status = take_alike(t, t->body[k], ALIKE * coarsest, err);
     }
     for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
     t->well = false;

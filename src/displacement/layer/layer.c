@@ -8,6 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
+/* More would wait for each other: no layer has so many clusters of a size that matters. */
+#define MOST_THREADS 256
+
 void sunder_layer_options_init(sunder_layer_options *options)
 {
     memset(options, 0, sizeof *options);
@@ -52,7 +55,7 @@ void sunder_layer_free(sunder_layer *layer)
 static unsigned processors(void)
 {
     const long n = sysconf(_SC_NPROCESSORS_ONLN);
-    return n < 1 ? 1 : n > 256 ? 256 : (unsigned)n;
+    return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
 }
 
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
@@ -75,7 +78,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->joins = !o->no_blocks;
     rules->list_inside = o->list_inside;
     rules->contained = o->contained;
-    rules->threads = o->threads ? o->threads > 256 ? 256 : o->threads : processors();
+    rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
     rules->progress = o->progress;
     rules->progress_user = o->progress_user;
     return SUNDER_OK;

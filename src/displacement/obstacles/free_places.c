@@ -8,6 +8,7 @@
  *
  * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/obstacles/free_places.h"
+#include "displacement/obstacles/tuning.h"
 
 #include "base/memory.h"
 #include "base/watch.h"
@@ -16,12 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Round corners are cut by tangents so that normals turn by at most this: the place proposed keeps at most 2 % more
- * than the gap. */
-#define TURN (3.14159265358979323846 / 8)
-/* Crossings are looked for among at most this many walls, the nearest to the target: it bounds the work where a block
- * stands amid hundreds of neighbours. */
-#define MOST_CROSSED 1500
+#define PI 3.14159265358979323846
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
 {
@@ -53,9 +49,8 @@ static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[
 static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
 {
     const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
-    const double angle =
-        turn < -1e-3 ? turn + 2 * 3.14159265358979323846 : turn; /* a flat piece turns by half a circle */
-    const int steps = (int)ceil(angle / TURN);
+    const double angle = turn < -1e-3 ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
+    const int steps = (int)ceil(angle / CORNER_TURN);
     for (int k = 1; k < steps; k++) {
         const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};
         add_normal(o, t, c, gap);
@@ -124,8 +119,7 @@ static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacl
 {
     const double *b = obstacle->box;
     if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
-    /* Places are computed on walls: within this of one counts as on it. */
-    const double slack = 1e-12 * (b[2] - b[0] + b[3] - b[1]);
+    const double slack = ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
     for (uint32_t k = 0; k < obstacle->walls; k++) {
         const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
         if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
@@ -179,8 +173,8 @@ typedef struct harvest {
 /* n obstacles, or walls, are looked at; most of them briefly. */
 static bool work(harvest *h, size_t n)
 {
-    h->work += 1 + n / 2;
-    return sunder_i_steps(1 + n / 16);
+    h->work += 1 + n / TESTS_A_STEP;
+    return sunder_i_steps(1 + n / TESTS_A_WATCH);
 }
 
 /* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
@@ -272,11 +266,10 @@ static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
-    enum { MOST = 16 };
-    double distance[MOST];
+    double distance[MOST_PLACES];
     uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
     sunder_i_obstacle_side *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
-    harvest h = {o, target, limit, spread, most < MOST ? most : MOST, 0, order, places, distance, 0};
+    harvest h = {o, target, limit, spread, most < MOST_PLACES ? most : MOST_PLACES, 0, order, places, distance, 0};
     if (!order || !sorted || o->failed) {
         *failed = true;
     } else if (h.most) {

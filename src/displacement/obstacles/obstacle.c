@@ -6,6 +6,7 @@
  * only choice is that of n. Chosen where u stands now, as the direction of the nearest point, it is tight there, so
  * that a feasible u stays feasible. */
 #include "displacement/obstacles/obstacle.h"
+#include "displacement/obstacles/tuning.h"
 
 #include "base/memory.h"
 #include "convex/merge.h"
@@ -21,8 +22,7 @@ static double *reserve(sunder_i_scratch *scratch, size_t n)
     return scratch->xy;
 }
 
-/* Least (sign +1) or greatest (sign -1) corner by y, then x. */
-static size_t extreme(const double *p, size_t n, double sign)
+size_t sunder_i_extreme_corner(const double *p, size_t n, double sign)
 {
     size_t best = 0;
     for (size_t k = 1; k < n; k++) {
@@ -41,27 +41,19 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
-/* Does u come before v, turning from direction 0 to 2 pi? Upper half-plane first; within a half the cross product
- * tells. */
-static bool turns_first(const double u[2], const double v[2])
-{
-    const bool a = u[1] > 0 || (u[1] == 0 && u[0] > 0), b = v[1] > 0 || (v[1] == 0 && v[0] > 0);
-    return a != b ? a : u[0] * v[1] - u[1] * v[0] >= 0;
-}
-
 size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                            sunder_i_scratch *scratch)
 {
     double *d = reserve(scratch, na + nb);
     if (!d) return 0;
-    size_t i = extreme(a, na, 1), j = extreme(b, nb, -1), n = 0;
+    size_t i = sunder_i_extreme_corner(a, na, 1), j = sunder_i_extreme_corner(b, nb, -1), n = 0;
     double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];
     i = edge_at(a, na, i, 1, u);
     j = edge_at(b, nb, j, -1, v);
     /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by
      * turning. */
     sunder_i_merge m = sunder_i_merge_of((uint32_t)na, (uint32_t)nb);
-    while (SUNDER_I_MERGE_NEXT(&m, turns_first(u, v) ? -1 : 1)) {
+    while (SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) {
         d[2 * n] = x;
         d[2 * n++ + 1] = y;
         x += m.of_a ? u[0] : v[0];
@@ -113,6 +105,6 @@ sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t 
         }
     }
     /* Very near a corner the direction to it is noise; an edge's normal serves as well there. */
-    if (best.distance <= 0 || !(nearest < INFINITY) || nearest < 1e-9 * perimeter) return best;
+    if (best.distance <= 0 || !(nearest < INFINITY) || nearest < AT_A_CORNER * perimeter) return best;
     return corner;
 }

@@ -12,6 +12,16 @@ typedef struct sunder_i_scratch {
     bool failed;
 } sunder_i_scratch;
 
+/* Least (sign +1) or greatest (sign -1) of n corners by y, then x: from there edges turn from direction 0 to 2 pi. */
+size_t sunder_i_extreme_corner(const double *corner, size_t n, double sign);
+/* Does edge u come before v, so turning? Upper half-plane first; within a half the cross product tells, as doubles
+ * do. */
+static inline bool sunder_i_turns_first(const double u[2], const double v[2])
+{
+    const bool a = u[1] > 0 || (u[1] == 0 && u[0] > 0), b = v[1] > 0 || (v[1] == 0 && v[0] > 0);
+    return a != b ? a : u[0] * v[1] - u[1] * v[0] >= 0;
+}
+
 /* The obstacle A + (-B) of two convex polygons: corners counter-clockwise in scratch->xy. Returns how many, 0 if memory
  * is out. */
 size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],

@@ -1,14 +1,11 @@
 /* Obstacles kept at hand. Bodies do not turn, so the obstacle that two pieces are to each other is the same wherever
  * they stand, and a descent asks for it in every round. */
 #include "displacement/obstacles/obstacle_cache.h"
+#include "displacement/obstacles/tuning.h"
 
 #include "base/memory.h"
 
 #include <string.h>
-
-/* Beyond so many edges all are thrown away: some megabytes. */
-#define MOST_EDGES 131072u
-#define FEWEST_SLOTS 64u
 
 typedef struct sunder_i_cached_obstacle {
     uint64_t key; /* 0: nobody's */

@@ -5,16 +5,12 @@
  * dropped, violated constraints added. At the end all forces are positive, the acting constraints hold with equality
  * and no other is violated: that is the optimum. */
 #include "displacement/programs/methods.h"
+#include "displacement/programs/tuning.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Up to this many acting constraints are solved as dense equations: cubic, some milliseconds. */
-#define MOST_ACTIVE 300
-/* Factorisations before the set is left as it is. */
-#define MOST_FACTORS 60
 
 typedef struct equations {
     uint32_t *set;        /* [capacity] acting constraints */
@@ -35,8 +31,7 @@ static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, co
 }
 
 /* Cholesky factor, a row at a time, skipping the leading zeros of each row, and the solution of G f = d. Rows before
- * `from` are those of the last call. The diagonal is raised by 1e-11 of itself: constraints that say the same twice are
- * common (a long wall cut into pieces) and any split of their force will do. */
+ * `from` are those of the last call. The diagonal is a little raised. */
 static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, double softness)
 {
     p->work += e->n * e->n * (e->n - from) / 32 + e->n * e->n / 8;
@@ -47,7 +42,7 @@ static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, do
         for (size_t k = 0; k <= r; k++) {
             const double *other = e->gram + k * e->capacity;
             double g = gram(p, c, &p->constraint[e->set[k]]);
-            if (k == r) g *= 1 + softness + 1e-11;
+            if (k == r) g *= 1 + softness + RAISED;
             for (size_t i = 0; i < k; i++) g -= row[i] * other[i];
             if (k < r) {
                 row[k] = g / other[k];
@@ -93,7 +88,7 @@ static void drop(sunder_i_quadratic *p, equations *e, size_t r)
 static bool descend(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
-    for (int hasty = 12; e->n; hasty--) {
+    for (int hasty = HASTY; e->n; hasty--) {
         if (e->factors++ >= MOST_FACTORS || sunder_i_quadratic_is_done(p)) return false;
         if (!solve_equations(p, e, from, softness)) return false;
         double step = 1;
@@ -128,13 +123,13 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *p, double softness, double
     size_t acting = 0;
     for (size_t k = 0; k < p->n; k++) acting += p->constraint[k].force > 0;
     if (acting > MOST_ACTIVE) return true;
-    equations e = {.capacity = acting + 64};
+    equations e = {.capacity = acting + MORE_ACTIVE};
     e.set = sunder_i_alloc(e.capacity, sizeof *e.set);
     e.force = sunder_i_alloc(e.capacity, sizeof *e.force);
     e.half = sunder_i_alloc(e.capacity, sizeof *e.half);
     e.gram = sunder_i_calloc(e.capacity * e.capacity, sizeof *e.gram);
     const bool ok = e.set && e.force && e.half && e.gram;
-    for (int round = 0; ok && round < 40; round++) {
+    for (int round = 0; ok && round < MOST_ADDING; round++) {
         if (!gather(p, &e) || !descend(p, &e, softness)) break;
         sunder_i_quadratic_place(p);
         if (sunder_i_quadratic_worst(p, softness) <= tolerance) break;

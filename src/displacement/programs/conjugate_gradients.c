@@ -7,6 +7,7 @@
  * its diagonal in G is 1. G is never formed: a product with it is a push of the bodies and a look at the stretch of
  * each constraint. */
 #include "displacement/programs/methods.h"
+#include "displacement/programs/tuning.h"
 
 #include "base/memory.h"
 
@@ -46,7 +47,7 @@ static double largest(dual *q)
 {
     double value = 1;
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->scale[k] > 0 ? 1 + (double)(k % 7) / 8 : 0;
-    for (int round = 0; round < 12; round++) {
+    for (int round = 0; round < POWERS; round++) {
         multiply(q, q->step, q->gs);
         double norm = 0, before = 0;
         for (size_t k = 0; k < q->n; k++) {
@@ -57,7 +58,7 @@ static double largest(dual *q)
         value = sqrt(norm / before);
         for (size_t k = 0; k < q->n; k++) q->step[k] = q->gs[k] / sqrt(norm);
     }
-    return 1.2 * value;
+    return ABOVE_FOUND * value;
 }
 
 static double dot(const double *a, const double *b, size_t n)
@@ -158,7 +159,7 @@ static bool step_in(dual *q)
 static void iterate(dual *q, double tolerance, unsigned steps)
 {
     gradient(q);
-    const double short_step = 1.9 / largest(q);
+    const double short_step = GRADIENT_STEP / largest(q);
     restart(q);
     /* Nowhere along a direction made of earlier ones, and then nowhere along the gradient itself: this is the end. */
     int nowhere = 0;
@@ -167,7 +168,7 @@ static void iterate(dual *q, double tolerance, unsigned steps)
         if (i.worst <= tolerance) break;
         const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
         nowhere = somewhere ? 0 : nowhere + 1;
-        if (k % 64 == 63) gradient(q); /* the running gradient gathers rounding */
+        if (k % REFRESH == REFRESH - 1) gradient(q);
     }
 }
 

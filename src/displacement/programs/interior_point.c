@@ -6,14 +6,13 @@
  * whatever the program, and what comes out lies inside the constraints, not a rounding error beyond them. */
 #include "displacement/programs/methods.h"
 #include "displacement/programs/sparse.h"
+#include "displacement/programs/tuning.h"
 
 #include "base/memory.h"
 #include "base/watch.h"
 
 #include <math.h>
 #include <string.h>
-
-#define MOST_STEPS 60
 
 typedef struct interior {
     sunder_i_quadratic *p;
@@ -151,20 +150,20 @@ static bool advance(interior *q, double tolerance, double *mu)
     }
     for (size_t k = 0; k < q->n; k++) cost += q->h[k] * q->x[k] * q->x[k] / 2;
     *mu = mean_product(q, 0);
-    if (missed <= tolerance && *mu * (double)q->m <= 1e-8 * cost) return false;
+    if (missed <= tolerance && *mu * (double)q->m <= GAP_LEFT * cost) return false;
     fill_matrix(q);
     if (!sunder_i_sparse_factor(&q->matrix)) return false;
     direction(q);
     const double affine = longest(q), ratio = mean_product(q, affine) / *mu, centre = ratio * ratio * ratio * *mu;
     for (size_t c = 0; c < q->m; c++) q->rc[c] = q->s[c] * q->f[c] + q->ds[c] * q->df[c] - centre;
     direction(q);
-    const double free_step = longest(q), step = free_step < 1 ? 0.99 * free_step : 1;
+    const double free_step = longest(q), step = free_step < 1 ? SHARE_OF_STEP * free_step : 1;
     for (size_t k = 0; k < q->n; k++) q->x[k] += step * q->dx[k];
     for (size_t c = 0; c < q->m; c++) {
         q->s[c] += step * q->ds[c];
         q->f[c] += step * q->df[c];
     }
-    return step > 1e-8;
+    return step > LEAST_STEP;
 }
 
 bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double tolerance, double scale)
@@ -197,8 +196,8 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
         for (size_t c = 0; c < q.m; c++) {
             const sunder_i_constraint *k = &p->constraint[c];
             q.soft[c] = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
-            q.s[c] = fmax(stretch(&q, c, q.x) - k->d, 0.1 * scale);
-            q.f[c] = 0.1 * mean * scale * scale / q.s[c];
+            q.s[c] = fmax(stretch(&q, c, q.x) - k->d, FIRST_SLACK * scale);
+            q.f[c] = FIRST_SLACK * mean * scale * scale / q.s[c];
         }
         for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(p) && advance(&q, tolerance, &mu); k++)
             if (!sunder_i_look()) break;
@@ -206,7 +205,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *p, double softness, double 
             for (size_t e = 0; e < 2; e++)
                 p->t[2 * b + e] = q.unknown[b] == SUNDER_I_GROUND ? 0 : q.x[q.unknown[b] + e];
         /* Forces that fade are of constraints that do not act. */
-        for (size_t c = 0; c < q.m; c++) p->constraint[c].force = q.f[c] > 1e-9 * mean * scale ? q.f[c] : 0;
+        for (size_t c = 0; c < q.m; c++) p->constraint[c].force = q.f[c] > FADED * mean * scale ? q.f[c] : 0;
     }
     interior_free(&q);
     return ok;

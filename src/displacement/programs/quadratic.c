@@ -11,14 +11,10 @@
  * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
  * the dual: contradictions then have a compromise. */
 #include "displacement/programs/methods.h"
+#include "displacement/programs/tuning.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Larger programs go to the interior point method at once. */
-#define MOST_QUICK 1500
-/* Steps of conjugate gradients. */
-#define QUICK_STEPS 400
 
 void sunder_i_quadratic_place(sunder_i_quadratic *p)
 {
@@ -64,8 +60,8 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *p, double softness)
 static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
 {
     sunder_i_quadratic_place(p);
-    for (int k = 0; k < 40; k++) {
-        const bool full = k % 4 == 0;
+    for (int k = 0; k < SWEEPS; k++) {
+        const bool full = k % FULL_SWEEP == 0;
         const double moved = sunder_i_quadratic_sweep(p, softness, !full);
         if (full && moved <= tolerance) break;
     }

@@ -6,21 +6,19 @@
  * other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
  * [conflict- directed backjumping; Prosser 1993]. */
 #include "displacement/proofs/branching.h"
+#include "displacement/proofs/tuning.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Only overlaps of at least this share of the deepest are weighed: shallow ones tell little. */
-#define DEEP 0.5
 #define TURN 6.28318530717958647692
 
 /* ---- Which pair next --------------------------------------------------------------------------------------------- */
 
 /* A convex polygon, counter-clockwise. */
-enum { CORNERS = 96, DISC_SIDES = 16 };
 typedef struct area {
     size_t n;
-    double xy[2 * CORNERS];
+    double xy[2 * MOST_CORNERS];
 } area;
 
 /* Keeps what has n.u >= d; a cut that would make too many corners is left out. */
@@ -30,7 +28,7 @@ static void cut(area *p, const double n[2], double d)
     for (size_t k = 0; k < p->n; k++) {
         const double *u = p->xy + 2 * k, *v = p->xy + 2 * (k + 1 < p->n ? k + 1 : 0);
         const double su = n[0] * u[0] + n[1] * u[1] - d, sv = n[0] * v[0] + n[1] * v[1] - d;
-        if (out.n + 2 > CORNERS) return;
+        if (out.n + 2 > MOST_CORNERS) return;
         if (su >= 0) memcpy(out.xy + 2 * out.n++, u, 2 * sizeof *u);
         if ((su > 0 && sv < 0) || (su < 0 && sv > 0)) {
             const double s = su / (su - sv);

@@ -13,14 +13,13 @@
  * and the program is solved again and again [proximal point method; Rockafellar 1976]: so the pull vanishes, and with
  * it what it spoils of the forces' balance, where the steps contradict the limits by a millionth of them or less. */
 #include "displacement/proofs/branching.h"
+#include "displacement/proofs/tuning.h"
 
 #include "base/watch.h"
 
 #include <math.h>
 
 #define TANGENT UINT64_MAX
-#define SOFTNESS 1e-6
-#define ROUNDS 24
 
 /* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
@@ -145,7 +144,7 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outc
     double missed = INFINITY, over = INFINITY;
     drop_idle_tangents(c);
     for (int round = 0; round < ROUNDS && !sunder_i_branching_is_over(c); round++) {
-        if (!load(c) || sunder_i_quadratic_solve(&c->program, SOFTNESS, c->hair / 4, c->longest) < 0)
+        if (!load(c) || sunder_i_quadratic_solve(&c->program, SOFTNESS, c->hair / SOLVED_TO, c->longest) < 0)
             return sunder_i_no_memory(err);
         if (!sunder_i_look()) return sunder_i_no_memory(err);
         take_over(c);

@@ -1,5 +1,6 @@
 /* What a candidate runs into: pairs of convex pieces that are nearer than they owe, and the ways out. */
 #include "displacement/proofs/branching.h"
+#include "displacement/proofs/tuning.h"
 
 #include "shape/shape.h"
 
@@ -95,7 +96,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         if (!model->present[f]) continue;
         for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
         sunder_i_box_grow(box, model->rules.gap, grown);
-        c->looked += 16;
+        c->looked += LOOK_WORK;
         if (!sunder_i_index_query(&model->tree, grown, &c->near)) return false;
     }
     for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = model->body_of[c->near.item[k]];

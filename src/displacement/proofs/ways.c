@@ -23,6 +23,9 @@
  * of length l is off by no more than 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's
  * offset up to a share of its square, an arc's up to its own size. */
 #include "displacement/proofs/ways.h"
+#include "displacement/obstacles/obstacle.h"
+
+#include "convex/merge.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -96,17 +99,6 @@ static void turn(walk *w, const double q[2], const side *from, const side *to)
     add_arc(w, q, from->n, to->n, from->tilt + to->tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
 }
 
-/* Least (sign +1) or greatest (sign -1) corner by y, then x. */
-static size_t extreme(const double *p, size_t n, double sign)
-{
-    size_t best = 0;
-    for (size_t k = 1; k < n; k++) {
-        const double dy = sign * (p[2 * k + 1] - p[2 * best + 1]), dx = sign * (p[2 * k] - p[2 * best]);
-        if (dy < 0 || (dy == 0 && dx < 0)) best = k;
-    }
-    return best;
-}
-
 static void measure(walk *w)
 {
     const sunder_i_parting *p = w->parting;
@@ -126,31 +118,24 @@ static void corner(const sunder_i_parting *p, size_t a, size_t b, double out[2])
     for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
 }
 
-/* Does edge u of A come before edge v of -B? Upper half-plane first; within a half the cross product tells. */
-static bool is_before(const double u[2], const double v[2])
-{
-    const bool up = u[1] > 0 || (u[1] == 0 && u[0] > 0), vp = v[1] > 0 || (v[1] == 0 && v[0] > 0);
-    return up != vp ? up : u[0] * v[1] - u[1] * v[0] >= 0;
-}
-
 size_t sunder_i_ways_between(const sunder_i_parting *p, sunder_i_way *out)
 {
     walk w = {.parting = p, .way = out, .holds = true};
     measure(&w);
     /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
-    const size_t a0 = extreme(p->a, p->na, 1), b0 = extreme(p->b, p->nb, -1);
+    const size_t a0 = sunder_i_extreme_corner(p->a, p->na, 1), b0 = sunder_i_extreme_corner(p->b, p->nb, -1);
+    sunder_i_merge m = sunder_i_merge_of((uint32_t)p->na, (uint32_t)p->nb);
     side first = {.tilt = -1}, last = first;
     double start[2] = {0, 0}, from[2], to[2];
     corner(p, a0, b0, from);
-    for (size_t i = 0, j = 0; i < p->na || j < p->nb; from[0] = to[0], from[1] = to[1]) {
-        const size_t a = (a0 + i) % p->na, a1 = (a + 1) % p->na, b = (b0 + j) % p->nb, b1 = (b + 1) % p->nb;
+    for (;; from[0] = to[0], from[1] = to[1]) {
+        const size_t a = (a0 + m.next_a) % p->na, a1 = (a + 1) % p->na, b = (b0 + m.next_b) % p->nb,
+                     b1 = (b + 1) % p->nb;
         const double u[2] = {p->a[2 * a1] - p->a[2 * a], p->a[2 * a1 + 1] - p->a[2 * a + 1]};
         const double v[2] = {p->b[2 * b] - p->b[2 * b1], p->b[2 * b + 1] - p->b[2 * b1 + 1]};
-        const bool take_a = j == p->nb || (i < p->na && is_before(u, v));
-        const double *e = take_a ? u : v, length = sqrt(dot(e, e));
-        i += take_a;
-        j += !take_a;
-        corner(p, (a0 + i) % p->na, (b0 + j) % p->nb, to);
+        if (!SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) break;
+        const double *e = m.of_a ? u : v, length = sqrt(dot(e, e));
+        corner(p, (a0 + m.next_a) % p->na, (b0 + m.next_b) % p->nb, to);
         if (!(length > 0)) continue;
         const side now = {{e[1] / length, -e[0] / length}, w.slack / length};
         if (last.tilt >= 0) {

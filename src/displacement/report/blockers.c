@@ -1,6 +1,7 @@
 /* What stands in the way of a conflict: the features of the proof that it has no room; where there is no proof, those
  * that the two rest against, as they stand. */
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include "separation/separation.h"
 
@@ -20,7 +21,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     const sunder_i_model *model = &s->model;
     const sunder_i_placement *placement = &s->placement;
     const double *own = placement->box + 4 * (size_t)f, size = hypot(own[2] - own[0], own[3] - own[1]);
-    const double reach = model->rules.gap + fmax(model->rules.gap, size) * 0x1p-20;
+    const double reach = model->rules.gap + fmax(model->rules.gap, size) * RESTING;
     double box[4];
     sunder_i_box_grow(own, reach, box);
     near->n = 0;

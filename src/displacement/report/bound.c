@@ -6,10 +6,9 @@
  * >= 0. The multipliers l are found by coordinate ascent; they need not be optimal, only non-negative. The value is
  * then computed with every operation rounded against us: downwards what is added, upwards what is taken away. */
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include <math.h>
-
-#define SWEEPS 400
 
 /* One step down, or up, covers the half unit that a single operation rounds by. */
 static double down(double v) { return nextafter(v, -INFINITY); }
@@ -43,7 +42,7 @@ static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, size_t
             moved = fmax(moved, fabs(change) * (mi + mj));
             scale = fmax(scale, pairs[k].least);
         }
-        if (moved <= 1e-7 * scale) break;
+        if (moved <= STILL * scale) break;
     }
     for (size_t k = 0; k < n; k++)
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;

@@ -6,6 +6,7 @@
  * it. */
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
 #include "base/union_find.h"
@@ -14,20 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Effort, in constraints looked at (some hundred million a second). Searches that found no proof may take so much
- * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
-#define EFFORT 20000000u
-#define EFFORT_EACH 10000u
-/* One subproblem is allowed so much at first, if all that ends it is its effort eight times as much then, and so on. No
- * more bodies than these take part in one: all proofs that were ever found had fewer. */
-#define FIRST 10000u
-#define GROWTH 8
-#define MOST 8000000u
-#define MOST_BODIES 32
-/* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
-#define REDUCING 4
-#define LITTLE 1000000u
 
 /* ---- What listed pairs are required to --------------------------------------------------------------------------- */
 
@@ -45,7 +32,7 @@ static sunder_status below_distance(const sunder_feature *a, const sunder_featur
 {
     const double none[2] = {0, 0};
     *below = 0;
-    for (int bits = 51; near > 0 && bits > 10; bits -= 8) {
+    for (int bits = FIRST_BITS; near > 0 && bits > LAST_BITS; bits -= BITS_A_STEP) {
         bool apart;
         const double length = near * (1 - ldexp(1, -bits));
         const sunder_status status = sunder_i_apart(a->shape, none, b->shape, none, length, &apart, err);
@@ -120,7 +107,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
     const size_t n = status ? 0 : features_of(*proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
-    q.effort = subproblem->effort < LITTLE ? LITTLE : subproblem->effort;
+    q.effort = subproblem->effort < LITTLE_EFFORT ? LITTLE_EFFORT : subproblem->effort;
     uint64_t budget = REDUCING * q.effort;
     q.reserves = 0;
     for (size_t k = 0; k < n && !status; k++) {
@@ -217,7 +204,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         uint64_t pool = EFFORT + EFFORT_EACH * (uint64_t)(q.reserves + 2);
-        for (uint64_t effort = FIRST; effort <= MOST && pool; effort *= GROWTH)
+        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT && pool; effort *= GROWTH)
             for (matter *m = first; m < last && pool; m++) {
                 if (!m->open) continue;
                 q.effort = effort < pool ? effort : pool;

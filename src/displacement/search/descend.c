@@ -10,20 +10,13 @@
  * Pairs that clash may ask for contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define MOST_ROUNDS 40   /* rounds in all: a bound that is not met in practice */
-#define MOST_CLASHING 12 /* rounds that end in a clash before the search gives up ... */
-#define MOST_IDLE 3      /* ... and those of them that do not halve what is missed */
-#define SOFT 1e-3 /* at first; less each round that clashes, so that long chains are not taken for contradictions */
-#define HARDEST 1e-6
-#define HOPEFUL 4
-#define MOST_ADDITIONS 24 /* times that constraints are added to one program */
 
 /* ---- Constraints ------------------------------------------------------------------------------------------------- */
 
@@ -46,7 +39,7 @@ static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_cons
     sunder_i_quadratic *p = &s->program;
     for (size_t k = first; k < p->n; k++) {
         sunder_i_constraint *other = &p->constraint[k];
-        if (fabs(other->n[0] - c->n[0]) > 1e-7 || fabs(other->n[1] - c->n[1]) > 1e-7) continue;
+        if (fabs(other->n[0] - c->n[0]) > SAME_NORMAL || fabs(other->n[1] - c->n[1]) > SAME_NORMAL) continue;
         if (other->d < c->d) {
             const double force = other->force + c->force;
             *other = *c;
@@ -168,7 +161,7 @@ static bool constrain_limits(sunder_i_search *s)
     bool any = false;
     for (uint32_t k = 0; k < s->n; k++) {
         const double limit = sunder_i_search_limit(s, k), *t = s->next + 2 * k, length = hypot(t[0], t[1]);
-        if (!(s->mass[k] > 0) || length <= limit * (1 + 1e-12)) continue;
+        if (!(s->mass[k] > 0) || length <= limit * (1 + LIMIT_SLACK)) continue;
         any = true;
         const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
         add_constraint(
@@ -209,19 +202,20 @@ static bool is_out_of_patience(const sunder_i_search *s) { return sunder_i_searc
 static double solve(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
-    /* A compromise need not be found to the last digit. */
-    const double hurry = fmax(s->tolerance / 8, softness > 0 ? 1e-4 * fmax(s->gap, s->extent / 50) : 0);
+    const double hurry =
+        fmax(s->tolerance / SOLVED_TO, softness > 0 ? COMPROMISE_TO * fmax(s->gap, s->extent / SMALL_PART) : 0);
     p->most_work = s->patience < UINT64_MAX ? (s->patience > s->steps ? s->patience - s->steps : 1) : 0;
     double v = sunder_i_quadratic_solve(p, softness, hurry, s->extent);
     if (v < 0 || !sunder_i_look()) s->failed = true;
     keep_still(s);
     if (softness > 0 || v <= s->tolerance) return v;
     double asked = 0;
-    for (int k = 0; k < 4 && v > s->tolerance && v <= 1e-3 * (s->extent + s->gap) && !s->failed; k++) {
-        const double more = 1.5 * v;
+    for (int k = 0; k < MOST_CORRECTIONS && v > s->tolerance && v <= NO_SOLUTION * (s->extent + s->gap) && !s->failed;
+         k++) {
+        const double more = CORRECTION * v;
         asked += more;
         for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
-        v = sunder_i_quadratic_solve(p, 0, s->tolerance / 8, s->extent);
+        v = sunder_i_quadratic_solve(p, 0, s->tolerance / SOLVED_TO, s->extent);
         if (v < 0 || !sunder_i_look()) s->failed = true;
         keep_still(s);
         v = fmax(0, v - asked);
@@ -233,11 +227,11 @@ static double solve(sunder_i_search *s, double softness)
 static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
-    const int most = softness > 0 ? MOST_ADDITIONS / 6 : MOST_ADDITIONS;
+    const int most = softness > 0 ? MOST_SOFT_ADDITIONS : MOST_ADDITIONS;
     for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
         v = solve(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
-        if (softness == 0 && v > 1e-3 * (s->extent + s->gap)) break;
+        if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
         bool more = constrain_limits(s);
         sort_constraints(s);
         const size_t before = s->program.n;
@@ -272,7 +266,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
 static double compromise(sunder_i_search *s, double softness)
 {
     const double v = solve_lazily(s, softness);
-    if (v > 0.03 * (longest_move(s) + s->gap) || s->failed) return v;
+    if (v > NEARLY_SOLVED * (longest_move(s) + s->gap) || s->failed) return v;
     const size_t n = s->program.n;
     sunder_i_constraint *constraint = sunder_i_alloc(n, sizeof *constraint);
     double *next = sunder_i_alloc(2 * s->n, sizeof *next);
@@ -305,7 +299,7 @@ static void stop_short(sunder_i_search *s)
         const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
         if (there < 0 && there < here) share = fmin(share, fmax(0, here) / (here - there));
     }
-    for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + 0.999 * share * (s->next[k] - s->t[k]);
+    for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + JUST_BEFORE * share * (s->next[k] - s->t[k]);
 }
 
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
@@ -313,7 +307,7 @@ static void stop_short(sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *s)
 {
     double reach = s->gap, cost = INFINITY, softness = SOFT;
-    const double longest_reach = fmax(s->gap / 2, s->extent / 50);
+    const double longest_reach = fmax(s->gap / 2, s->extent / SMALL_PART);
     bool free_now = false;
     int clashing_rounds = 0, idle = 0;
     double least_missed = INFINITY, least_left = INFINITY;
@@ -325,7 +319,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
         double v;
         if (clashing) {
             v = compromise(s, softness);
-            softness = fmax(softness / 5, HARDEST);
+            softness = fmax(softness / HARDENING, HARDEST);
         } else {
             v = solve_lazily(s, 0);
             if (v > s->tolerance) stop_short(s);
@@ -335,7 +329,6 @@ bool sunder_i_search_descend(sunder_i_search *s)
         const bool free_next = left <= s->tolerance;
         const double next_cost = sunder_i_search_cost(s, s->next);
         const double step = longest_step(s);
-        /* Rounds gain less and less: what so many times the last gain does not reach is out of reach. */
         if (free_now && free_next && next_cost - HOPEFUL * (cost - next_cost) > s->hope) break;
         if (free_now && (!free_next || next_cost > cost - s->settled * cost)) {
             /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
@@ -350,7 +343,7 @@ bool sunder_i_search_descend(sunder_i_search *s)
         }
         free_now = free_next;
         cost = next_cost;
-        reach = fmin(fmax(1.5 * step, s->gap / 8), longest_reach);
+        reach = fmin(fmax(STEPS_AHEAD * step, s->gap / LEAST_REACH), longest_reach);
         if (free_now) continue;
         idle = v > least_missed / 2 ? idle + 1 : 0;
         least_missed = fmin(least_missed, v);

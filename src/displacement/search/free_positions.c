@@ -1,17 +1,13 @@
 /* Where there is room in a cluster as it stands: for one of a pair beside the other, for a body among all. */
 #include "displacement/obstacles/free_places.h"
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include "base/watch.h"
 #include "separation/separation.h"
 
 #include <math.h>
 #include <string.h>
-
-/* More pairs of pieces than this are too many to make an obstacle of each. */
-#define MANY_PAIRS 1500
-/* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
-#define MANY_AROUND 5000
 
 /* ---- Where there is room ----------------------------------------------------------------------------------------- */
 
@@ -89,7 +85,7 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 s->failed = true;
                 return;
             }
-            s->steps += 16;
+            s->steps += OBSTACLE_WORK;
             const double gap =
                 relaxation ? fmin(s->gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n)) : s->gap;
             /* A little more room than is asked, so that no rounding makes a clash of it. */
@@ -152,12 +148,12 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     double shift;
     const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
-    const double shallow = fmax(2 * s->gap, 0.1 * fmin(extent(p->box), extent(q->box)));
+    const double shallow = fmax(2 * s->gap, SHALLOW * fmin(extent(p->box), extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]))
         return 1;
-    const double all = 4 * (extent(p->box) + extent(q->box) + s->gap);
-    for (double reach = fmax(2 * s->gap, 0.05 * fmin(extent(p->box), extent(q->box)));; reach *= 3) {
+    const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
+    for (double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));; reach *= PAIR_GROWTH) {
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
         add_obstacles(s, &o, p, many, q, many, offset, target, reach);
@@ -236,9 +232,9 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
     const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0};
     const sunder_i_index *tree = s->model->standing;
-    const double all = 4 * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
+    const double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
-    for (double reach = 2 * s->gap + fmax(now, 0.1 * extent(p->box));; reach *= 2) {
+    for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         sunder_i_list foreign = {0};
         sunder_i_obstacles o;

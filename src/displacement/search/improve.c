@@ -1,22 +1,11 @@
 /* Better sides: from a free start, cheaper places of single bodies and other sides of pairs, while they are found. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* How much the search for better sides may cost, in constraints looked at, for each body of the cluster: a few
- * milliseconds. */
-#define EFFORT 1200000u
-/* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
- * nothing was ever gained below. */
-#define FAR 1.5
-/* Where more bodies than MANY may move, a change is tried with no more than ABOUT of them. */
-#define MANY 64
-#define ABOUT 32
-/* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
-#define PATIENCE 10000
 
 typedef struct rank {
     double cost;
@@ -40,7 +29,7 @@ bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
     const bool free_now = sunder_i_search_descend(s);
     s->hope = INFINITY;
     const double now = sunder_i_search_cost(s, s->t);
-    if (!s->failed && free_now && now < *cost * (1 - 1e-6)) {
+    if (!s->failed && free_now && now < *cost * (1 - CHEAPER)) {
         memcpy(best, s->t, size);
         *cost = now;
         return true;
@@ -54,8 +43,8 @@ bool sunder_i_search_attempt(sunder_i_search *s, double *best, double *cost)
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     if (!s->neighbourhood) return sunder_i_search_attempt(s, best, cost);
-    const double gain =
-        sunder_i_neighbourhood_descend(s->neighbourhood, i, j, ABOUT, s->gap + s->extent / 4, best, 1e-6 * *cost);
+    const double gain = sunder_i_neighbourhood_descend(s->neighbourhood, i, j, ABOUT, s->gap + s->extent / ABOUT_REACH,
+                                                       best, CHEAPER * *cost);
     if (gain > 0) memcpy(best, s->t, 2 * s->n * sizeof *best);
     *cost -= gain;
     return gain > 0;
@@ -84,7 +73,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
     if (longest > FAR * sunder_i_search_look(s, s->t) && !s->failed) {
         s->cap = below;
-        s->patience = sunder_i_search_work(s) + PATIENCE + sunder_i_search_work(s) / 4;
+        s->patience = sunder_i_search_work(s) + NEAR_PATIENCE + sunder_i_search_work(s) / NEAR_SHARE;
         s->program.n = 0;
         const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
         s->cap = INFINITY;
@@ -108,7 +97,7 @@ static void try_places(sunder_i_search *s, rank *order, double *best, double *co
         const uint32_t i = order[k].index;
         const double length = hypot(s->t[2 * i], s->t[2 * i + 1]);
         double place[2];
-        if (!sunder_i_search_free_body(s, i, 0.98 * length, place)) continue;
+        if (!sunder_i_search_free_body(s, i, NEARER_PLACE * length, place)) continue;
         memcpy(s->t + 2 * i, place, sizeof place);
         attempt_about(s, i, i, best, cost);
     }
@@ -157,10 +146,10 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
         const uint32_t i = order[k].index, j = order[k].other;
         const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
         const double length = hypot(u[0], u[1]);
-        double places[4][2];
-        const size_t found = sunder_i_search_free_pair(s, i, j, home, 0.3 * length, 4, places);
+        double places[MOST_SIDES][2];
+        const size_t found = sunder_i_search_free_pair(s, i, j, home, OTHER_SIDE * length, MOST_SIDES, places);
         for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
-            if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < 0.3 * length) continue;
+            if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < OTHER_SIDE * length) continue;
             /* The lighter goes farther. */
             const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
             for (int c = 0; c < 2; c++) {
@@ -192,10 +181,10 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
 /* Places and sides in turn, until a round of both gains little. */
 static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
-    for (int round = 0; round < 4 && has_time(s) && !s->failed; round++) {
+    for (int round = 0; round < BETTER_ROUNDS && has_time(s) && !s->failed; round++) {
         const double start = *cost;
         try_once(s, order, best, cost);
-        if (!(*cost < start * (1 - 1e-3))) break;
+        if (!(*cost < start * (1 - ROUND_GAIN))) break;
     }
 }
 
@@ -203,7 +192,7 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 static bool is_free_start(sunder_i_search *s)
 {
     const double missed = sunder_i_search_look(s, s->t);
-    return missed <= s->tolerance || (missed <= 8 * s->tolerance && !s->failed && sunder_i_search_descend(s));
+    return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
 /* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
@@ -239,8 +228,8 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
     double *best = sunder_i_alloc(2 * s.n, sizeof *best), *near = sunder_i_alloc(2 * s.n, sizeof *near);
     rank *order = sunder_i_alloc(s.n, sizeof *order);
     if (ok && best && near && order) {
-        s.settled = 1e-5;
-        s.effort = EFFORT * (uint64_t)cluster->n;
+        s.settled = SETTLED_BETTER;
+        s.effort = BETTER_EFFORT * (uint64_t)cluster->n;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {
             improve(&s, order, best, near);

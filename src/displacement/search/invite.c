@@ -4,12 +4,9 @@
  * been sent far because a neighbour, who could have moved a little, stood where it would have gone. So the nearest
  * place of each body is looked for once as if they were not there; whoever clashes with it there joins the cluster. */
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
-
-/* Only bodies that have this part of the cluster's cost, and for places this much nearer. */
-#define COSTLY 0.1
-#define NEARER 0.9
 
 static bool can_move(const sunder_i_model *model, uint32_t body)
 {

@@ -5,15 +5,9 @@
  * farther off is not known to that search; so what moved is looked at among all before it is believed. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <string.h>
-
-/* What a descent among so many bodies may take, in constraints looked at: so much, and so much for each of them. */
-#define PATIENCE 200000u
-#define PATIENCE_EACH 1500u
-/* ... where it is only to make a solution cheaper. */
-#define SHORT 20000u
-#define SHORT_EACH 600u
 
 static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
 {
@@ -222,7 +216,7 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *v, uint32_t i, uin
     if (!open_part(v, i, j, most, reach, &part)) return 0;
     for (size_t k = 0; k < v->n; k++) memcpy(v->t + 2 * k, best + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
     part.settled = v->all->settled;
-    part.patience = part.steps + SHORT + SHORT_EACH * (uint64_t)v->n;
+    part.patience = part.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)v->n;
     part.hope = sunder_i_search_cost(&part, v->t);
     if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(v, part.t, best);
     if (gain > least) {

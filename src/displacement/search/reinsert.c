@@ -6,35 +6,13 @@
  * overlapped another by much, for which another side is not much farther, and those that went much farther than any
  * pair was in conflict by. */
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include "base/random.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* An overlap is deep from this part of the smaller body's extent on ... */
-#define DEEP 0.125
-/* ... and a move is long from so many times the worst conflict on. */
-#define LONG 1.5
-/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was
- * tried before counts as so many; of clusters in which no more than so many may move; and for no more than this part
- * of the work that was done before. */
-#define MOST_ORDERS 64
-#define MOST_USELESS 32
-#define KNOWN 4
-#define SHARE 1
-#define MOST_MOVING 32
-/* The same where nobody's sides are in doubt: all of them are put back then, if they are no more than so many. */
-#define SURE_USELESS 3
-#define SURE_SHARE 4
-#define SURE_MOVING 16
-/* From 2 to so many are taken out. */
-#define MOST_OUT 6
-/* Those who stand in the way may share what the place costs, so it may be so many times as far as the limit, or as a
- * move that costs as much as all do now. */
-#define BEYOND_LIMIT 2
-#define BEYOND_COST 1.5
 
 /* A body, and what it is sorted by. */
 typedef struct ranked {
@@ -133,7 +111,7 @@ static void shuffle(uint32_t *order, size_t n, uint64_t *state)
 static bool is_known(const reordering *r, double cost)
 {
     for (size_t k = 0; k < r->tries; k++)
-        if (fabs(r->tried[k] - cost) <= 1e-9 * cost) return true;
+        if (fabs(r->tried[k] - cost) <= SAME_COST * cost) return true;
     return false;
 }
 

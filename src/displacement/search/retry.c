@@ -9,27 +9,14 @@
  * questions have been put; it grows with the number of bodies and of pairs, and with nothing else. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* How many may move at each stage, before all may. A cluster of no more than FEW is asked as a whole at once. */
-static const size_t stage[] = {2, 8, 32, 128};
+static const size_t stage[] = RETRY_STAGES;
 #define STAGES (sizeof stage / sizeof *stage)
-#define FEW 8
-/* Effort, in constraints looked at: for a cluster, for each of its bodies, and for each pair that is asked. */
-#define EFFORT 2000000u
-#define EFFORT_EACH 5000u
-#define EFFORT_RETRY 200000u
-#define MOST_RETRIES 50 /* ... of no more than these */
-/* So many in vain, one after the other, and with so many who move none of the others is asked. */
-#define USELESS 32
-/* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
-#define MOST_TRADING 64
-/* What one descent of the whole may take: so much, and so much for each body. */
-#define PATIENCE 200000u
-#define PATIENCE_EACH 1500u
 
 typedef struct retrying {
     sunder_i_search *search;
@@ -210,7 +197,7 @@ static void ask_all(retrying *p, const request *r)
     for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
         size_t useless = 0;
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
-            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == USELESS)) continue;
+            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || (level && useless == RETRIES_IN_VAIN)) continue;
             p->settled[k] = grant(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
             useless = p->settled[k] ? 0 : useless + 1;
@@ -322,7 +309,7 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
     if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_neighbourhood_init(&p.neighbourhood, s)))
         s->failed = true;
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
-    const uint64_t effort = EFFORT + EFFORT_EACH * (uint64_t)p.moving + EFFORT_RETRY * pairs;
+    const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
         if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
         ask_all(&p, &requests[k]);

@@ -1,5 +1,6 @@
 /* One cluster as the search sees it: its bodies, where they stand, and what that costs. */
 #include "displacement/search/search.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,7 +14,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     s->n = s->own = n;
     s->gap = model->rules.gap + margin;
     s->tolerance = margin / 4;
-    s->settled = 1e-3;
+    s->settled = SETTLED;
     s->cap = INFINITY;
     s->patience = UINT64_MAX;
     s->hope = INFINITY;

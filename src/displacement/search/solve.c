@@ -2,6 +2,7 @@
  * find no solution are given up; then round. */
 #include "displacement/layer/rounding.h"
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include <string.h>
 
@@ -27,7 +28,7 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     sunder_i_search s;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     bool done = !s.failed && sunder_i_search_descend(&s);
-    for (int k = 0; k < 3 && !done && !s.failed; k++) {
+    for (int k = 0; k < MOST_JUMPS && !done && !s.failed; k++) {
         if (!sunder_i_search_jump(&s) && cluster->limited) break;
         done = sunder_i_search_descend(&s);
     }

@@ -1,5 +1,6 @@
 /* Neighbours of a cluster that stay where they stand, for searches that must not run into them. */
 #include "displacement/search/search.h"
+#include "displacement/search/tuning.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,7 +30,7 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
     for (size_t k = 0; k < cluster->n; k++) {
         const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
-        const double reach = model->rules.gap + cluster->margin + 3 * fmax(farthest(own + 2 * k), mean);
+        const double reach = model->rules.gap + cluster->margin + MOVES_ABOUT * fmax(farthest(own + 2 * k), mean);
         double box[4];
         sunder_i_body_box(b, none, reach, box);
         if (!sunder_i_index_query(model->standing, box, hits)) return false;

@@ -1,0 +1,25 @@
+/* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find, never
+ * whether what is said of it is true. */
+#ifndef SUNDER_I_CLUSTERS_TUNING_H
+#define SUNDER_I_CLUSTERS_TUNING_H
+
+/* ---- Rounds (settle.c) ------------------------------------------------------------------------------------------- */
+
+/* How often a cluster's margin, which grows fourfold each time, may grow: 28 bits, which leaves half of a double. */
+#define MOST_MARGINS 14
+
+/* ---- Better proofs (reconsider.c) -------------------------------------------------------------------------------- */
+
+/* How long a solution is looked for, in constraints looked at: so many for each body. Among more than these bodies none
+ * was ever found, and the pairs are asked about one by one. */
+#define EFFORT 100000u
+#define MOST_BODIES 64
+
+/* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
+
+/* Moves are alike that differ by no more than so many units: what a row that was pushed along gathers by rounding. */
+#define ALIKE 16
+/* So many bodies in all may be moved together in vain: rows of a few hundred, some dozens of them. */
+#define IN_VAIN 20000
+
+#endif

@@ -1,0 +1,35 @@
+/* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find, never
+ * whether what is said of it is true. */
+#ifndef SUNDER_I_OBSTACLES_TUNING_H
+#define SUNDER_I_OBSTACLES_TUNING_H
+
+/* ---- Free places ------------------------------------------------------------------------------------------------- */
+
+/* Round corners are cut by tangents so that normals turn by no more than this: the place proposed keeps at most 2 %
+ * more than the gap. */
+#define CORNER_TURN (PI / 8)
+/* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
+ * stands amid hundreds of neighbours. */
+#define MOST_CROSSED 1500
+/* Places are computed on sides: within this share of the obstacle's size of one counts as on it. Above the rounding of
+ * a crossing of sides that do not nearly coincide, below any gap that is asked for. */
+#define ON_A_SIDE 1e-12
+/* More places than this are never asked for at once. */
+#define MOST_PLACES 16
+/* Places that may be free are tested against obstacles, most of them briefly: a test counts as this part of a
+ * constraint looked at, and as this part of a step of the watch. */
+#define TESTS_A_STEP 2
+#define TESTS_A_WATCH 16
+
+/* ---- Support lines ----------------------------------------------------------------------------------------------- */
+
+/* Nearer to a corner than this share of the perimeter the direction to it is noise. */
+#define AT_A_CORNER 1e-9
+
+/* ---- The cache --------------------------------------------------------------------------------------------------- */
+
+/* Beyond so many edges all are thrown away: some megabytes. */
+#define MOST_EDGES 131072u
+#define FEWEST_SLOTS 64u
+
+#endif

@@ -1,0 +1,58 @@
+/* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find, never
+ * whether what is said of it is true. Where no trial is named, what a number balances is all that is known. */
+#ifndef SUNDER_I_PROGRAMS_TUNING_H
+#define SUNDER_I_PROGRAMS_TUNING_H
+
+/* ---- Which method (quadratic.c) ---------------------------------------------------------------------------------- */
+
+/* Programs with more constraints go to the interior point method at once: the dual methods are quick for the dozens of
+ * contacts of almost every cluster, and had not ended after minutes for one of 300 blocks of a dense old town. */
+#define MOST_QUICK 1500
+/* Passes of Hildreth's method, every fourth over all constraints, the others over those that act: enough to tell which
+ * act, the forces are left to what follows. */
+#define SWEEPS 40
+#define FULL_SWEEP 4
+/* Steps of conjugate gradients: chains of some hundred contacts take as many. */
+#define QUICK_STEPS 400
+
+/* ---- Conjugate gradients ----------------------------------------------------------------------------------------- */
+
+/* Powers to find the largest eigenvalue by, and what covers that the value found is too small. */
+#define POWERS 12
+#define ABOVE_FOUND 1.2
+/* Length of a projected gradient step over the reciprocal of that eigenvalue: it has to be less than 2 [Dostal]. */
+#define GRADIENT_STEP 1.9
+/* The running gradient gathers rounding; so often it is computed anew. */
+#define REFRESH 64
+
+/* ---- Active set -------------------------------------------------------------------------------------------------- */
+
+/* Up to this many acting constraints are solved as dense equations: cubic, some milliseconds. */
+#define MOST_ACTIVE 300
+/* Constraints that may come in besides those that act when it begins. */
+#define MORE_ACTIVE 64
+/* Factorisations before the set is left as it is; rounds of adding what is violated. */
+#define MOST_FACTORS 60
+#define MOST_ADDING 40
+/* So often all forces that pull are dropped at once, which mostly is right and saves a hundred factorisations; then one
+ * by one, which always ends. */
+#define HASTY 12
+/* The diagonal is raised by this part of itself: constraints that say the same twice are common (a long wall cut into
+ * pieces), and any split of their force will do. Far above rounding, far below what the tolerance shows. */
+#define RAISED 1e-11
+
+/* ---- Interior point ---------------------------------------------------------------------------------------------- */
+
+/* Steps, of which ten to thirty are the rule; one that is shorter than the least leads nowhere. */
+#define MOST_STEPS 60
+#define LEAST_STEP 1e-8
+/* The products of slacks and forces that are left, as a share of the cost: then the method has converged. */
+#define GAP_LEFT 1e-8
+/* A step goes this share of the way to where a slack or force would be zero [Mehrotra 1992]. */
+#define SHARE_OF_STEP 0.99
+/* Slacks begin no less than this share of a length such as bodies move by, forces so that the products are alike. */
+#define FIRST_SLACK 0.1
+/* Forces that fade below this share of the mean are of constraints that do not act. */
+#define FADED 1e-9
+
+#endif

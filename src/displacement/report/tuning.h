@@ -1,0 +1,39 @@
+/* Numbers of this room that are no error bounds: they decide how many proofs are found and how near the lower bound
+ * comes, never whether these are right. */
+#ifndef SUNDER_I_REPORT_TUNING_H
+#define SUNDER_I_REPORT_TUNING_H
+
+/* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
+
+/* Effort, in constraints looked at (some hundred million a second). Searches that found no proof may take so much
+ * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
+#define EFFORT 20000000u
+#define EFFORT_EACH 10000u
+/* One conflict is allowed so much at first, if all that ends it is its effort eight times as much then, and so on, up
+ * to a tenth of a second. No more bodies than these take part in one: of all proofs found in the tests none had more
+ * than 20. */
+#define FIRST_EFFORT 10000u
+#define GROWTH 8
+#define MOST_EFFORT 8000000u
+#define MOST_BODIES 32
+/* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
+#define REDUCING 4
+#define LITTLE_EFFORT 1000000u
+/* A length below a distance is taken 2^-51 of it below, and 2^8 times as far at each failure, down to 2^-10. */
+#define FIRST_BITS 51
+#define BITS_A_STEP 8
+#define LAST_BITS 10
+
+/* ---- The lower bound (bound.c) ----------------------------------------------------------------------------------- */
+
+/* Sweeps of coordinate ascent, and the share of the lengths that a sweep has to move the solution by to go on: the
+ * bound holds wherever it ends. */
+#define SWEEPS 400
+#define STILL 1e-7
+
+/* ---- What stands in the way (blockers.c) ------------------------------------------------------------------------- */
+
+/* Two that are apart by the gap and this share of the gap or of a feature's size still rest against each other. */
+#define RESTING 0x1p-20
+
+#endif

@@ -1,0 +1,176 @@
+/* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find,
+ * never whether what is said of it is true. "On real layers" means the benchmark layers of the project
+ * (tests/bench/layers.sh), where they were tried; of a number of which nothing else is said, what it balances is all
+ * that is known. */
+#ifndef SUNDER_I_SEARCH_TUNING_H
+#define SUNDER_I_SEARCH_TUNING_H
+
+/* ---- One descent (descend.c) ------------------------------------------------------------------------------------- */
+
+/* Rounds in all: far above what a descent takes, which converges or gives up before. */
+#define MOST_ROUNDS 40
+/* Rounds that end in a clash before it gives up, and those of them that do not halve what is missed: contradictions are
+ * solved by jumps, and more rounds only move the bodies about. */
+#define MOST_CLASHING 12
+#define MOST_IDLE 3
+/* The softness of a program with clashes, relative to masses: at first, what it is divided by after each round that
+ * clashes, and at last. It falls, so that long chains of contacts are not taken for contradictions. */
+#define SOFT 1e-3
+#define HARDENING 5
+#define HARDEST 1e-6
+/* From a free position rounds gain less and less: what so many times the last gain does not reach is out of reach. */
+#define HOPEFUL 4
+/* Times that constraints are added to one program; to a soft one, of which the solution is no place to stay, fewer. */
+#define MOST_ADDITIONS 24
+#define MOST_SOFT_ADDITIONS 4
+/* Two lines of one pair are the same if their normals differ by no more: pieces cut from one wall differ by rounding,
+ * and a true turn by less shifts nothing that is not within the margin of a body's size. */
+#define SAME_NORMAL 1e-7
+/* A limit of moves is overstepped from this share of it on: else a tangent would be added for rounding. */
+#define LIMIT_SLACK 1e-12
+/* Programs are solved to this part of the tolerance; soft ones to this part of the gap, or of a small part of a body:
+ * a compromise need not be found to the last digit. */
+#define SOLVED_TO 8
+#define COMPROMISE_TO 1e-4
+/* A small part of a body: its extent divided by so much. Pieces no farther off than that are looked at beforehand. */
+#define SMALL_PART 50
+/* What long chains leave of hard constraints is asked for in addition, so many times as much, so often. */
+#define CORRECTION 1.5
+#define MOST_CORRECTIONS 4
+/* A hard program that misses more than this share of sizes has no solution. */
+#define NO_SOLUTION 1e-3
+/* A compromise that misses no more than this share of how far things go may have a solution in full. */
+#define NEARLY_SOLVED 0.03
+/* A way that is free up to some point is gone to just before it. */
+#define JUST_BEFORE 0.999
+/* The next round looks so many times as far as the longest step of this one, and this part of the gap at least. */
+#define STEPS_AHEAD 1.5
+#define LEAST_REACH 8
+/* A round that gains less than this share of the cost is the last; in search of better sides less will do. */
+#define SETTLED 1e-3
+#define SETTLED_BETTER 1e-5
+/* Descents after jumps, before pairs are given up. */
+#define MOST_JUMPS 3
+
+/* ---- Where there is room (free_positions.c) ---------------------------------------------------------------------- */
+
+/* More pairs of pieces than this are too many to make an obstacle of each: the exact search for two shapes is
+ * quicker. */
+#define MANY_PAIRS 1500
+/* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
+#define MANY_AROUND 5000
+/* What an obstacle costs, in constraints looked at. */
+#define OBSTACLE_WORK 16
+/* Two shapes that overlap by no more than this part of the smaller one are parted by the exact search, whose cost grows
+ * with the depth. */
+#define SHALLOW 0.1
+/* Obstacles are first looked for within this part of the smaller body about a place of a pair, then so many times as
+ * far. */
+#define PAIR_REACH 0.05
+#define PAIR_GROWTH 3
+/* The same for a body among all. */
+#define BODY_REACH 0.1
+#define BODY_GROWTH 2
+/* Nothing is farther off than so many times the sizes of all there is. */
+#define BEYOND_ALL 4
+
+/* ---- A few bodies by themselves (neighbourhood.c), and the whole (retry.c) --------------------------------------- */
+
+/* What a descent may take, in constraints looked at (some hundred million a second): so much, and so much for each
+ * body; and where it is only to make a solution cheaper. With the latter a crowd of 1,500 houses takes
+ * 9.4 s for 11.4, and ends no dearer. */
+#define PATIENCE 200000u
+#define PATIENCE_EACH 1500u
+#define SHORT_PATIENCE 20000u
+#define SHORT_PATIENCE_EACH 600u
+
+/* ---- Pairs asked once more (retry.c) ----------------------------------------------------------------------------- */
+
+/* How many may move at each stage, before all may: fourfold, since what one more stage costs is then a quarter of the
+ * next. A cluster of no more than FEW is asked as a whole at once. */
+#define RETRY_STAGES                                                                                                   \
+    {                                                                                                                  \
+        2, 8, 32, 128                                                                                                  \
+    }
+#define FEW 8
+/* Effort, in constraints looked at: for a cluster, for each of its bodies, and for each pair that is asked, of no more
+ * than so many. */
+#define RETRY_EFFORT 2000000u
+#define RETRY_EFFORT_EACH 5000u
+#define RETRY_EFFORT_PAIR 200000u
+#define MOST_RETRIES 50
+/* So many in vain, one after the other, and with so many who move none of the others is asked. Of a layer of lanes
+ * that are too narrow (bench_layer lanes 4000) 400 million steps went into such questions. */
+#define RETRIES_IN_VAIN 32
+/* Overlaps are parted at the cost of other pairs in clusters of which no more than so many may move. */
+#define MOST_TRADING 64
+
+/* ---- Better sides (improve.c) ------------------------------------------------------------------------------------ */
+
+/* How much it may cost, in constraints looked at, for each body of the cluster: some ten milliseconds. */
+#define BETTER_EFFORT 1200000u
+/* Rounds of places and sides in turn; one that gains less than this share of the cost is the last. */
+#define BETTER_ROUNDS 4
+#define ROUND_GAIN 1e-3
+/* A solution is cheaper if it is so by this share: less is rounding, and would be found for ever. */
+#define CHEAPER 1e-6
+/* A move this many times as long as the worst conflict was deep may have been sent farther than need be. On real layers
+ * nothing was ever gained below. */
+#define FAR 1.5
+/* What a search that keeps them near may take besides a quarter of what was done before: enough for a few bodies. */
+#define NEAR_PATIENCE 10000
+#define NEAR_SHARE 4
+/* Where more bodies than MANY may move, a change is tried with no more than ABOUT of them, who stand within the gap and
+ * a part of the mean body of each other. */
+#define MANY 64
+#define ABOUT 32
+#define ABOUT_REACH 4
+/* A place for a body is worth a descent if it is nearer to where it came from by more than what is left of this. */
+#define NEARER_PLACE 0.98
+/* Another side of a pair is one that differs from the present by this share of the distance; so many are tried. */
+#define OTHER_SIDE 0.3
+#define MOST_SIDES 4
+/* A start that rounding took this many tolerances from is mended. */
+#define MENDED 8
+
+/* ---- Other orders of putting back (reinsert.c) ------------------------------------------------------------------- */
+
+/* Sides are in doubt of what overlapped by this part of the smaller body's extent ... */
+#define DEEP 0.125
+/* ... and of what moved so many times as far as the worst conflict was deep. */
+#define LONG 1.5
+/* So many orders are tried, until so many one after the other were of no use, of which one that leads to what was tried
+ * before counts as so many; of clusters in which no more than so many may move; and for no more than this part of the
+ * work that was done before. Without these ends real layers were dearer by up to two thirds (Saint-Jean at gap 3: 729
+ * million instructions for 443), and not better. */
+#define MOST_ORDERS 64
+#define MOST_USELESS 32
+#define KNOWN 4
+#define SHARE 1
+#define MOST_MOVING 32
+/* The same where nobody's sides are in doubt: all of them are put back then, if they are no more than so many. */
+#define SURE_USELESS 3
+#define SURE_SHARE 4
+#define SURE_MOVING 16
+/* From 2 to so many are taken out. */
+#define MOST_OUT 6
+/* Those who stand in the way may share what the place costs, so it may be so many times as far as the limit, or as a
+ * move that costs as much as all do now. */
+#define BEYOND_LIMIT 2
+#define BEYOND_COST 1.5
+/* Starts whose costs differ by no more than this share are the same: less is rounding. */
+#define SAME_COST 1e-9
+
+/* ---- Who is in the way (invite.c) -------------------------------------------------------------------------------- */
+
+/* Only bodies that have this part of the cluster's cost, and for places this much nearer: a neighbour who joins makes
+ * the cluster dearer to solve. */
+#define COSTLY 0.1
+#define NEARER 0.9
+
+/* ---- Who stands about (surroundings.c) --------------------------------------------------------------------------- */
+
+/* A body looks about itself so many times as far as it moved, or as the mean of its cluster did. */
+#define MOVES_ABOUT 3
+
+#endif
