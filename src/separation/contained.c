@@ -7,6 +7,7 @@
  * (members may overlap and touch): almost everywhere, which is decided by closed intervals on the edge. */
 #include "separation/separation.h"
 
+#include "base/invariant.h"
 #include "separation/operands/operands.h"
 
 typedef struct interval {
@@ -41,6 +42,7 @@ static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int s
         } else if (sunder_i_fraction_cmp(l, &t, &out->high) < 0)
             out->high = t;
     }
+    SUNDER_I_ASSERT((out->low.value >= 0 && out->high.value <= 1) || l->arena.failed);
     return sunder_i_fraction_cmp(l, &out->low, &out->high) < 0;
 }
 

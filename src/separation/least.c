@@ -1,6 +1,7 @@
 /* Which least translation of Q parts it from P? The box test first; then the search without a gap, where touching is
  * apart, or that with one. */
 #include "separation/least.h"
+#include "base/invariant.h"
 #include "separation/gap/gap.h"
 #include "separation/penetration/penetration.h"
 #include "separation/separation.h"
@@ -22,6 +23,7 @@ sunder_status sunder_i_least(const sunder_shape *p, const sunder_shape *q, const
     else
         status = sunder_i_least_without_gap(p, q, o, &result, &far, err);
     if (status) return status;
+    SUNDER_I_ASSERT(result.lower_bound <= result.distance || far);
     *out = result;
     if (beyond) *beyond = far;
     return SUNDER_OK;

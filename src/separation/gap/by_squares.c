@@ -8,6 +8,7 @@
  * Squares are held by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
  * counts as near: a point may be asked in either of two squares where it cannot be told in which it is, and so may one
  * beside it (rational.c). */
+#include "base/invariant.h"
 #include "separation/gap/gap.h"
 #include "separation/squares/squares_inner.h"
 
@@ -178,6 +179,7 @@ static bool number_pairs(gathering *c)
             else
                 high = m;
         }
+        SUNDER_I_ASSERT(key[low] == c->pair[k]);
         c->to->list[k] = (uint32_t)low;
     }
     return sunder_i_steps(c->pairs);
@@ -246,6 +248,7 @@ const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *q, double x,
         memcpy(box, part, sizeof box);
         at = q->place + at->child + k;
     }
+    SUNDER_I_ASSERT(at->from <= at->to);
     *n = at->to - at->from;
     return q->list + at->from;
 }

@@ -1,3 +1,9 @@
+/* Which least translation leaves a gap g between two sets?
+ *
+ * The problem is set up on the lattice, with the gap beside it as a fraction of its own: a gap of many digits does not
+ * make the lattice finer. The origin is asked first. Then candidates for boundary are listed, all of them or those that
+ * the search by squares finds to matter, and the search begins (search.c). What it finds is asked again of every pair
+ * of pieces, as are the doubles nearest to it (verify.c). */
 #include "separation/gap/search.h"
 
 #include "base/sort.h"
@@ -192,10 +198,7 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
         status = set_up(&g, &problem, p, q, o, true, err);
         if (status) return status;
     }
-    if (problem.gap_units > g.magnitude) {
-        g.magnitude = problem.gap_units;
-        g.error = fmax(g.error, 0x1p-45 * g.magnitude);
-    }
+    sunder_i_operands_admit(&g, problem.gap_units);
     sunder_i_gap_places places = {.place = NULL};
     status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
     sunder_i_gap_places_free(&places);

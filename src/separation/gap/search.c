@@ -10,6 +10,8 @@
  * Where the nearest point is irrational, a rational one beside it is given (rational.c). */
 #include "separation/gap/search.h"
 
+#include "base/invariant.h"
+
 #include <float.h>
 #include <math.h>
 
@@ -39,6 +41,7 @@ static void push_item(sunder_i_gap_state *s, sunder_i_gap_item v)
 
 static sunder_i_gap_item pop_item(sunder_i_gap_state *s)
 {
+    SUNDER_I_ASSERT(s->heap_n > 0);
     const sunder_i_gap_item top = s->heap[0], last = s->heap[--s->heap_n];
     size_t i = 0;
     for (;;) {
@@ -151,6 +154,7 @@ static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, s
     else if (!sunder_i_gap_rational_beside(s, f, &way, xy, bits, &out->at))
         return s->failed ? sunder_i_no_memory(err)
                          : sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no way off a free point");
+    SUNDER_I_ASSERT(s->failed || out->at.roots.n == 0);
     return SUNDER_OK;
 }
 

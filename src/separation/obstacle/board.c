@@ -5,6 +5,7 @@
  * of all subsums that come within that error. */
 #include "separation/obstacle/board.h"
 
+#include "base/invariant.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -148,6 +149,7 @@ static bool arrange(sunder_i_board *h, const uint32_t *start)
         at += length;
         h->list_end[q] = (uint32_t)at;
     }
+    SUNDER_I_ASSERT(at == h->list_n);
     sunder_i_free(h->list);
     h->list = list;
     for (size_t y = 0; y <= n; y++)

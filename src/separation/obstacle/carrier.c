@@ -1,4 +1,11 @@
+/* Is a point of a line covered by a subsum, and where does the line leave that?
+ *
+ * A point is a + t d with an exact fraction t, so that no point is ever constructed: the side of a subsum's side that
+ * it is on is the sign of A + t B, with A and B cross products on the lattice, and the line leaves at t = -A / B.
+ * Doubles settle what clears their error bound; of subsums with many sides they find the few that have to be asked
+ * (fan.h, and by halving between the corners farthest to either side of the line). */
 #include "separation/obstacle/carrier.h"
+#include "base/invariant.h"
 #include "separation/obstacle/board.h"
 #include "separation/operands/fan.h"
 
@@ -276,5 +283,6 @@ sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *g, const sunder_i_car
         take_first(g, &t, forwards, &best, &any);
     }
     l->counts.segment_intersections++;
+    SUNDER_I_ASSERT(any || l->arena.failed); /* whoever meets the interior of a bounded set leaves it */
     return best;
 }

@@ -1,3 +1,8 @@
+/* Two operands on one lattice, and doubles for all that is on it.
+ *
+ * Mostly the coordinates of both, and the vectors that they stand moved by, are integers below 2^53 in one unit, a
+ * power of two: then no general lattice has to be chosen, and a pair of buildings takes no longer to set up than to
+ * ask. Everything else goes the general way (shape/place.c). */
 #include "separation/operands/operands.h"
 
 #include <math.h>
@@ -190,6 +195,12 @@ static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options
     return SUNDER_OK;
 }
 
+void sunder_i_operands_admit(sunder_i_operands *g, double magnitude)
+{
+    g->magnitude = fmax(g->magnitude, magnitude);
+    g->error = fmax(g->error, COORDINATE_ERROR * g->magnitude);
+}
+
 sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p, const sunder_shape *q,
                                      const sunder_i_operands_options *options, sunder_error *err)
 {
@@ -201,7 +212,7 @@ sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p
     sunder_i_lattice *l = &g->placed.lattice;
     sunder_i_operands_fill_boxes(g, 0);
     sunder_i_operands_fill_boxes(g, 1);
-    g->error = COORDINATE_ERROR * g->magnitude;
+    sunder_i_operands_admit(g, 0);
     /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
     g->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
     g->coarse = l->narrow && g->magnitude < 0x1p52 ? 0 : g->error;

@@ -60,6 +60,9 @@ sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_s
                                      const sunder_i_operands_options *options, sunder_error *err);
 void sunder_i_operands_free(sunder_i_operands *operands);
 
+/* Numbers up to that magnitude, in units, are to be as good as coordinates: raises the bounds. */
+void sunder_i_operands_admit(sunder_i_operands *operands, double magnitude);
+
 /* The boxes of an operand's pieces, and its own. */
 void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side);
 

@@ -2,6 +2,7 @@
  * by direction. */
 #include "separation/operands/operands.h"
 
+#include "base/invariant.h"
 #include "base/sort.h"
 #include "base/watch.h"
 #include "convex/merge.h"
@@ -147,6 +148,22 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, cons
     return n;
 }
 
+#ifndef NDEBUG
+/* NULL, or what is wrong: a subsum is strictly convex, closed, and begins at its lowest corner. */
+static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
+{
+    const char *wrong = s->sides < 3 ? "a subsum has fewer than three sides" : NULL;
+    for (uint32_t k = 0; k < s->sides; k++) {
+        const uint32_t next = k + 1 < s->sides ? k + 1 : 0;
+        const sunder_i_point end = sunder_i_operands_add(g, s->corner[k], s->side[k]);
+        if (sunder_i_operands_cross(g, s->side[k], s->side[next]) <= 0) wrong = "a subsum is not strictly convex";
+        if (!sunder_i_point_equal(&g->placed.lattice, end, s->corner[next])) wrong = "a subsum is not closed";
+        if (s->cy[k] < s->cy[0] - 2 * g->error) wrong = "a subsum does not begin at its lowest corner";
+    }
+    return g->placed.lattice.arena.failed ? NULL : wrong;
+}
+#endif
+
 bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -175,5 +192,6 @@ bool sunder_i_subsum_make(sunder_i_operands *g, sunder_i_subsum *s)
         s->bound[k] = (fabs(s->sx[k]) + fabs(s->sy[k])) * per_length + fixed;
     }
     s->sides = n;
+    SUNDER_I_CHECK(check(g, s), n);
     return !l->arena.failed;
 }

@@ -1,3 +1,5 @@
+/* How deep are two sets in each other? The nearest point that no subsum covers is looked for (search.c), classified
+ * (contact.c), asked again of every pair of pieces (verify.c), and written down. Only then is anything given. */
 #include "separation/penetration/penetration.h"
 
 #include "separation/penetration/search.h"

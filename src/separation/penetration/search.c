@@ -2,6 +2,7 @@
  * the point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments
  * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
 #include "separation/penetration/search.h"
+#include "base/invariant.h"
 #include "separation/obstacle/board.h"
 #include "separation/obstacle/reduced_convolution.h"
 #include "separation/squares/squares.h"
@@ -148,6 +149,7 @@ static void try_all(search *s, sunder_i_candidates *heap)
     while (heap->n && sqrt(heap->item[0].square) - 4 * g->error <= s->limit && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
         const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
+        SUNDER_I_ASSERT(heap->n == 0 || c.square <= heap->item[0].square);
         try_candidate(s, &line);
     }
 }
@@ -257,7 +259,8 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bo
 #define SQUARES_FROM 16384
 /* Where squares are not the way, most of the pairs may still be far off, as of neighbouring countries, and would fill
  * the memory: so the search begins in a small disc then, and in one so many times as wide where that holds no free
- * point, and so on, so many times. Countries that overlap by a sliver are parted within the first, 8^-4 of the way out. */
+ * point, and so on, so many times. Countries that overlap by a sliver are parted within the first, 8^-4 of the way out.
+ */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 

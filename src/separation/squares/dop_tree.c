@@ -2,6 +2,7 @@
  * pieces are parted from short ones, and those of one direction from those of another. */
 #include "separation/squares/dop_tree.h"
 
+#include "base/invariant.h"
 #include "base/random.h"
 #include "base/watch.h"
 
@@ -152,6 +153,30 @@ static bool plant(planter *p, uint32_t node, size_t from, size_t n)
     return true;
 }
 
+#ifndef NDEBUG
+static bool has(const sunder_i_dop *all, const sunder_i_dop *one)
+{
+    for (int k = 0; k < SUNDER_I_DOP_WAYS; k++)
+        if (one->low[k] < all->low[k] || one->high[k] > all->high[k]) return false;
+    return true;
+}
+
+/* NULL, or what is wrong. */
+static const char *check(const sunder_i_dop_tree *t, const sunder_i_dop *extent, uint32_t n)
+{
+    uint32_t pieces = 0;
+    for (uint32_t k = 1; k < t->leaves; k++)
+        if (!has(&t->extent[k], &t->extent[2 * k]) || !has(&t->extent[k], &t->extent[2 * k + 1]))
+            return "a node does not hold its children";
+    for (uint32_t i = 0; i < t->leaves; i++) {
+        if (t->piece[i] == UINT32_MAX) continue;
+        if (!has(&t->extent[t->leaves + i], &extent[t->piece[i]])) return "a leaf does not hold its piece";
+        pieces++;
+    }
+    return pieces == n ? NULL : "pieces are missing";
+}
+#endif
+
 bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n)
 {
     *tree = (sunder_i_dop_tree){.leaves = 1};
@@ -162,6 +187,7 @@ bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent
     bool ok = tree->piece && tree->extent && p.list && p.key;
     for (uint32_t i = 0; ok && i < n; i++) p.list[i] = i;
     ok = ok && plant(&p, 1, 0, n);
+    SUNDER_I_CHECK(ok ? check(tree, extent, n) : NULL, n);
     sunder_i_free(p.list);
     sunder_i_free(p.key);
     return ok;

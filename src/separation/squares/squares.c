@@ -1,6 +1,7 @@
 /* Squares that something holds whole (holders.c) are closed; those that few pairs of pieces come near are open,
  * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
  * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
+#include "base/invariant.h"
 #include "separation/squares/squares_inner.h"
 #include "separation/squares/tuning.h"
 
@@ -63,6 +64,7 @@ bool sunder_i_squares_cut(sunder_i_squares *q, const sunder_i_square *s)
         sunder_i_square part = {.depth = s->depth + 1, .place = first + (uint32_t)k, .best = {q->best[0], q->best[1]}};
         sunder_i_quadtree_quarter(s->box, k, part.box);
         part.distance = distance_of(part.box);
+        SUNDER_I_ASSERT(part.distance >= s->distance); /* so that squares come nearest first */
         if (!push(q, part)) return false;
     }
     return true;
