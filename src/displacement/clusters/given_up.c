@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-/* Pairs that are resolved again: they are under no relaxation, and bodies between which none is left are not given
- * up. */
+/* Pairs of which the requirement is restored: they have no relaxation, and bodies between which none is left are not
+ * given up. */
 static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     size_t n = 0, out = 0;
@@ -26,8 +26,8 @@ static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size
     return true;
 }
 
-/* The clusters' relaxations, in place of what the model had for the same features; those that are not infeasible are
- * given up. */
+/* The clusters' relaxations, in place of what the model had for the same features; those that were not proved
+ * infeasible are given up. */
 static bool take_relaxations(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     sunder_i_relaxations *all = &model->relaxations;

@@ -1,7 +1,7 @@
 /* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of
  * the layer's conflicts (proofs/feasibility.c): either it is proved that limits and fixed features leave no room for
  * all of them, or there is a solution to go on from, or the question stays open. What is said of those that remain
- * is for verdicts.c. */
+ * is for report/no_room.c. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
@@ -159,7 +159,7 @@ static void mark(const components *all, const sunder_i_model *model, uint32_t bo
     if (!model->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
 }
 
-/* What is infeasible is required to the clearance of its relaxation; ascending, as relaxations are. */
+/* What was proved infeasible is held to the clearance of its relaxation; ascending, as relaxations are. */
 static size_t list_held(const sunder_i_model *model, sunder_i_requirement *required)
 {
     size_t n = 0;

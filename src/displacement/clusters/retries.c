@@ -1,4 +1,4 @@
-/* Whom to ask once more: the pairs of bodies relaxed that might have a solution, by the clusters they are of. */
+/* Whom to ask once more: the relaxed pairs of bodies that might have a solution, by the clusters they are of. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 
@@ -56,7 +56,7 @@ static size_t list_claims(const sunder_i_solver *s, claim *list)
     return n;
 }
 
-/* The retry of relaxations between two bodies. */
+/* The retry of these relaxations between two bodies. */
 static sunder_i_retry retry_of(const sunder_i_model *model, const claim *c, const uint32_t *relaxation, size_t n)
 {
     sunder_i_retry x = {.root = c->root, .body = c->body, .relaxation = relaxation, .relaxations = n};
@@ -143,7 +143,7 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
     return status;
 }
 
-/* Pairs that cannot be resolved, but off each other, become members of clusters. */
+/* Pairs that cannot be resolved, but taken off each other, become members of clusters. */
 static bool join_relaxed(sunder_i_solver *s)
 {
     const sunder_i_model *model = &s->model;
@@ -177,7 +177,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     return true;
 }
 
-/* What is to be asked may take others to make way: those about who stands relaxed that might end. */
+/* What is to be asked may take others to make way: those about a pair of which the relaxation might end. */
 static bool join_neighbours(sunder_i_solver *s)
 {
     const sunder_i_model *model = &s->model;

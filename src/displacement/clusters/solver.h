@@ -50,7 +50,7 @@ typedef struct sunder_i_solver {
     size_t clusters;
 } sunder_i_solver;
 
-/* From w->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
+/* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
 sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_solver_free(sunder_i_solver *solver);
 

@@ -8,8 +8,8 @@
 
 /* What lies in two that are in conflict is kept in one of them. */
 sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
-/* Finds, exactly, the pairs that cannot be resolved within their limits, and puts them relaxed; and those
- * that cannot be parted, but may go inside, which are kept there from then on. Before the model is cut. */
+/* Finds, exactly, the pairs that cannot be resolved within their limits, and relaxes them; and those that cannot be
+ * parted, but may go inside, which are kept there from then on. Before the model is cut. */
 sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
@@ -26,7 +26,7 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, bool *any,
 
 /* ---- given_up.c -------------------------------------------------------------------------------------------------- */
 
-/* Takes over the relaxations that clusters made, and restored. */
+/* Takes over the relaxations that clusters made, and those that they ended. */
 sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- retries.c --------------------------------------------------------------------------------------------------- */

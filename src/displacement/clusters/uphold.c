@@ -108,7 +108,7 @@ static bool take(trial *t, uint32_t b)
     return true;
 }
 
-/* Is the pair in no conflict but one that it was in, in no overlap that was restored, and no worse than at the
+/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the
  * start? */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {

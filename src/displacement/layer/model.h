@@ -63,8 +63,7 @@ struct sunder_i_model {
     sunder_i_inclusion *nested; /* pairs in conflict of which the one lies in the other at the start; sorted */
     size_t nested_n;
     sunder_i_relaxations relaxations;
-    sunder_i_id_pair
-        *given_up; /* bodies given up: no solution was found in which this pair, too, is resolved; sorted */
+    sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
     bool *inexact; /* [features] the translate was rounded */

@@ -2,14 +2,15 @@
  *
  *   near       their interiors meet, or their distance is less than the gap
  *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or
- * their interiors meet and the least translation that takes these apart is no longer than the tolerance contained their
- * interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of 16 corners in the
- *              disc whose radius is the tolerance (a point of P may then stand outside Q by the tolerance at most, and
- * by 0.93 of it in any direction), and the corners of Q + D are taken as the nearest doubles duplicate  each lies in
- * the other, with no tolerance
+ *              their interiors meet and the least translation that takes these apart is no longer than the tolerance
+ *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of
+ *              16 corners in the disc whose radius is the tolerance (a point of P may then stand outside Q by the
+ *              tolerance at most, and by 0.93 of it in any direction), and the corners of Q + D are taken as the
+ *              nearest doubles
+ *   duplicate  each lies in the other, with no tolerance
  *
- * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is positive.
- */
+ * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is
+ * positive. */
 #include "displacement/layer/resolution.h"
 
 #include "base/list.h"

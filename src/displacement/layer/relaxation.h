@@ -25,7 +25,7 @@ typedef struct sunder_i_relaxed_bodies {
     size_t n;
 } sunder_i_relaxed_bodies;
 
-/* A relaxation that does not count any longer: of these bodies, i < j, and these features, a < b. */
+/* A relaxation that has ended, so that its pair owes all again: of these bodies, i < j, and these features, a < b. */
 typedef struct sunder_i_restored {
     sunder_i_id_pair body, feature;
 } sunder_i_restored;
@@ -53,7 +53,7 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
 /* Is it a conflict between two bodies? And one that is to be resolved, with no relaxation? */
 bool sunder_i_is_conflict_of_bodies(const sunder_i_model *model, const sunder_i_relation *r);
 bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relation *r);
-/* Those that were restored, n of them, sorted, are no more; to be indexed again. */
+/* Takes out those of the n pairs, sorted, which owe all again; to be indexed again. */
 void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                   const sunder_i_restored *restored, size_t n);
 /* Where it is, or belongs, among n of them, sorted. */

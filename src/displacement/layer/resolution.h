@@ -1,4 +1,4 @@
-/* The ways in which two features may be resolved: the one definition that relations, search, verdicts and bound ask.
+/* What two features owe each other: the one definition that relations, search, proofs and bound ask.
  *
  *   apart    their interiors are disjoint and their distance is at least the gap
  *   inside   one lies in the other, up to the tolerance, and the rules let contained features overlap

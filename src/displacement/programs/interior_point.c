@@ -1,9 +1,13 @@
 /* An interior point method for the same program, for clusters in which thousands of constraints compete.
  *
  * Mehrotra's predictor-corrector [Nocedal and Wright, Numerical Optimization, 2nd edition, section 16.6]: with slacks s
- * and forces f, both positive, H x = A'f,   A x + softness f = d + s,   s f = mu -> 0, each step solves (H + A' diag(f
- * / (s + softness f)) A) dx = r. The matrix couples bodies in contact only (sparse.c). The steps number a dozen or two
- * whatever the program, and what comes out lies inside the constraints, not a rounding error beyond them. */
+ * and forces f, both positive,
+ *
+ *     H x = A'f,   A x + softness f = d + s,   s f = mu -> 0,
+ *
+ * each step solves (H + A' diag(f / (s + softness f)) A) dx = r. The matrix couples bodies in contact only (sparse.c).
+ * The steps number a dozen or two whatever the program, and what comes out lies inside the constraints, not a rounding
+ * error beyond them. */
 #include "displacement/programs/methods.h"
 #include "displacement/programs/sparse.h"
 #include "displacement/programs/tuning.h"

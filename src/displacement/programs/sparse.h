@@ -17,12 +17,12 @@ typedef struct sunder_i_sparse {
     uint64_t work;          /* products of blocks in one factorisation */
 } sunder_i_sparse;
 
-/* The structure: entries (a, b) and (b, a) for each couple of different numbers below n, and the diagonal. False if
+/* The structure: entries (a, b) and (b, a) for each pair of different numbers below n, and the diagonal. False if
  * memory is out; free it all the same. */
 bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_id_pair *couple, size_t couples);
 void sunder_i_sparse_free(sunder_i_sparse *matrix);
 void sunder_i_sparse_clear(sunder_i_sparse *matrix);
-/* The block of entry (a, b), a != b, which is one of the couples; *transposed: it holds that of (b, a). */
+/* The block of entry (a, b), a != b, which is one of the pairs; *transposed: it holds that of (b, a). */
 double *sunder_i_sparse_block(sunder_i_sparse *matrix, uint32_t a, uint32_t b, bool *transposed);
 double *sunder_i_sparse_diagonal(sunder_i_sparse *matrix, uint32_t a);
 /* In place. False if the matrix is not positive definite, as far as doubles can tell. */

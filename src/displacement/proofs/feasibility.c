@@ -1,15 +1,15 @@
 /* A few bodies, their limits, and what they run into: is there no solution, or does this one do?
  *
  * The branch and bound starts from the bodies as they stand. A candidate (program.c) shows what is nearer than it
- * owes (candidate.c), and for each there are ways out (ways.c), one of which any solution takes: a branch for each,
+ * owes (violations.c), and for each there are ways out (ways.c), one of which any solution takes: a branch for each,
  * and each void in its turn (branches.c), or there is a candidate in which nothing meets. A body takes part once
  * something met it; who is never met stands where it was, and has no say. So a branch and bound is as large as the
  * conflict.
  *
- * What is asked is never more than what a solution owes: pairs required to less, pairs that may overlap (one lies,
- * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out, gaps and
- * limits are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever
- * called infeasible; and every figure that a verdict stands on is rounded against it. */
+ * What is asked is never more than what a solution owes: pairs that are held to less, pairs that may overlap (one
+ * lies, or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out, gaps
+ * and limits are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is
+ * ever called infeasible; and every figure that a verdict stands on is rounded against it. */
 #include "displacement/proofs/branching.h"
 
 #include <math.h>

@@ -10,7 +10,7 @@ typedef enum sunder_i_verdict {
     SUNDER_I_FEASIBLE    /* the solution does, up to a hair; what it did not meet is not heeded */
 } sunder_i_verdict;
 
-/* Two features, a < b, that need not be parted, and what they are required to: a clearance as of ways.h; -INFINITY: to
+/* Two features, a < b, that need not be parted, and what they are held to: a clearance as of ways.h; -INFINITY: to
  * nothing. */
 typedef struct sunder_i_requirement {
     uint32_t a, b;
@@ -23,8 +23,8 @@ typedef struct sunder_i_subproblem {
     size_t bodies;
     const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
     size_t reserves;
-    double farthest;                      /* their longest limit that is finite */
-    uint32_t a, b;                        /* features, a < b, that owe the gap, required or not; or SUNDER_I_NOBODY */
+    double farthest; /* their longest limit that is finite */
+    uint32_t a, b;   /* features, a < b, that owe the gap, whatever is listed; or SUNDER_I_NOBODY */
     const sunder_i_requirement *required; /* sorted */
     size_t required_n;
     const uint32_t *feature; /* NULL, or the only features to be heeded, ascending */

@@ -1,7 +1,7 @@
 /* Which conflicts that remain have no room, with the proof of each.
  *
  * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
- * being required no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
+ * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
  * it. */
 #include "displacement/proofs/feasibility.h"
@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- What listed pairs are required to --------------------------------------------------------------------------- */
+/* ---- What listed pairs are held to ------------------------------------------------------------------------------- */
 
 typedef struct requiring {
     const sunder_i_solver *solver;

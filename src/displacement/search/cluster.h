@@ -10,15 +10,14 @@ typedef struct sunder_i_cluster {
     double margin; /* what is demanded beyond the gap, to cover rounding */
     bool limited;  /* a limit or a fixed body is in it: it may have no solution */
     sunder_i_relaxations
-        relaxations; /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
-    sunder_i_restored
-        *restored; /* [restored_n] relaxations of the model that no longer count: these are resolved; owned */
+        relaxations;             /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
+    sunder_i_restored *restored; /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;
     sunder_i_id_pair *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
     size_t guests, guest_capacity;
 } sunder_i_cluster;
 
-/* Two bodies of a cluster relaxed, and what is to be asked for them. */
+/* Two bodies of a cluster with relaxations between them, and what is to be asked for them. */
 typedef struct sunder_i_retry {
     uint32_t root; /* of the cluster */
     sunder_i_id_pair body;
@@ -40,7 +39,7 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
 
 /* ---- retry.c ----------------------------------------------------------------------------------------------------- */
 
-/* Pairs given up are asked for all that is owed once more, and keep it where there is a solution, the first ones
+/* Pairs given up are asked once more for all that they owe, and held to it where there is a solution, the first ones
  * first. All others keep theirs, and neighbours outside the cluster stay where they are. */
 sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
                                      const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err);

@@ -165,7 +165,7 @@ static void put(sunder_i_neighbourhood *v, const double *t)
     }
 }
 
-/* Begins with the pair and those about it as they stand. On failure it has restored. */
+/* Begins with the pair and those about it as they stand. On failure it has ended. */
 static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
                       sunder_i_search *part)
 {

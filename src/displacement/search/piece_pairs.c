@@ -15,7 +15,7 @@ static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *re
     return at == s->restored_n || sunder_i_by_restored(&s->restored[at], &wanted) != 0;
 }
 
-/* Has every relaxation of the model between the two been restored here? */
+/* Has every relaxation of the model between the two ended here? */
 static bool all_restored(const sunder_i_search *s, const sunder_i_relaxed_bodies *relaxed)
 {
     const sunder_i_restored first = {{relaxed->i, relaxed->j}, {0, 0}},

@@ -1,6 +1,6 @@
-/* Pairs that were given up are asked for all that is owed again.
+/* Pairs that were given up are asked again for all that they owe.
  *
- * Pairs that were put relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any
+ * Pairs that were relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any
  * more each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several
  * members are in conflict for all of these, and then for each, since one may have no solution where others do. At
  * first nobody but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster.
@@ -207,7 +207,7 @@ static void ask_all(retrying *p, const request *r)
 
 /* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
 
-/* Lets the pairs that were in conflict at the start, and are resolved, be as they were then, but that none overlaps:
+/* Lets the pairs that were in conflict at the start, and are not now, be as they were then, but that none overlaps:
  * their relaxations are in `list`. */
 static void sacrifice(sunder_i_search *s, sunder_i_relaxations *list)
 {

@@ -108,7 +108,7 @@ const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *sea
                                                       const sunder_i_body_piece *b);
 /* Shifts the n corners of an obstacle as the relaxation says; returns the gap that it leaves. */
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
-/* The part's obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out),
+/* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out),
  * and the gap that it owes. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
 /* The same as edges, *n of them, which stay until the next call; NULL: memory is out. */

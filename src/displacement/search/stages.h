@@ -27,7 +27,7 @@ bool sunder_i_search_jump(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* From where the search restored, with clashes, to where the pairs that clashed at the start are relaxed and nothing
+/* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing
  * clashes; then down from there. The new relaxations are in search->relaxations. */
 void sunder_i_search_give_up(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
