@@ -30,7 +30,7 @@ static gis_leftover *leftovers;
 static pthread_t main_thread;
 static int held;
 
-/* ---- In the handler --------------------------------------------------------------------------------------- */
+/* ---- In the handler ---------------------------------------------------------------------------------------------- */
 
 static void clear_away(void)
 {
@@ -89,7 +89,7 @@ static sigset_t all_of_them(void)
     return set;
 }
 
-/* ---- Outside ---------------------------------------------------------------------------------------------- */
+/* ---- Outside ----------------------------------------------------------------------------------------------------- */
 
 /* Waiting reads and writes are interrupted: no SA_RESTART. */
 static void catch(int number)

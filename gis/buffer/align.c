@@ -86,7 +86,7 @@ static bool round_result(sunder_status status, const sunder_sum *sum, const sund
 /* What finding the blocks and making them take of the whole, about; the rest is uniting them. For the bar alone. */
 static const double find_share = 0.2, make_share = 0.6;
 
-/* ---- Blocks ----------------------------------------------------------------------------------------------- */
+/* ---- Blocks ------------------------------------------------------------------------------------------------------ */
 
 typedef struct in_block {
     size_t block, feature;

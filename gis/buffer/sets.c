@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Sets ---- */
+/* ---- Sets -------------------------------------------------------------------------------------------------------- */
 
 typedef struct dissolve_key {
     char *key; /* the value of the field as text; NULL: null */
@@ -112,7 +112,7 @@ bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
     return true;
 }
 
-/* ---- One set ---- */
+/* ---- One set ----------------------------------------------------------------------------------------------------- */
 
 static bool has_shape(const gis_buffer *buffer, size_t feature)
 {

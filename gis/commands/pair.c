@@ -1,5 +1,5 @@
-/* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer
- * `pair`: the line from the anchor of Q to where it goes. */
+/* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer `pair`:
+ * the line from the anchor of Q to where it goes. */
 #include "base/core.h"
 #include "base/message.h"
 #include "commands/commands.h"

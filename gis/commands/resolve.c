@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Words ------------------------------------------------------------------------------------------------- */
+/* ---- Words ------------------------------------------------------------------------------------------------------- */
 
 bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned), unsigned *number,
                         gis_error *error)
@@ -71,7 +71,7 @@ static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_er
     return true;
 }
 
-/* ---- What several requests share --------------------------------------------------------------------------- */
+/* ---- What several requests share --------------------------------------------------------------------------------- */
 
 /* More threads than any machine has processors would be a slip of the pen. */
 static const double most_threads = 4096;
@@ -108,7 +108,7 @@ static gis_shape_request resolve_shape(const gis_options *options, gis_option_id
     return (gis_shape_request){gis_option_table[id].names, options->text[id], invalid};
 }
 
-/* ---- The commands' requests -------------------------------------------------------------------------------- */
+/* ---- The commands' requests -------------------------------------------------------------------------------------- */
 
 /* Symbols that lie on each other are what a layer of points is separated for; buildings that do belong together. */
 static bool resolve_contained(const gis_options *options, sunder_containment *out, gis_error *error)
@@ -257,7 +257,7 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
     return true;
 }
 
-/* ---- Where results go ---------------------------------------------------------------------------------------- */
+/* ---- Where results go -------------------------------------------------------------------------------------------- */
 
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer)
 {

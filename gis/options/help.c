@@ -5,8 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SCREEN_WIDTH 96
-#define HELP_COLUMN 37
+/* Lists of names are wrapped before the one column, so that a terminal of a hundred shows them; what is said of an
+ * option of our own begins at the other, or after the option where that is longer. */
+enum { SCREEN_WIDTH = 96, HELP_COLUMN = 37 };
 
 static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_OWN] = "Options [default]:",
@@ -57,7 +58,7 @@ static void print_packed(unsigned command, gis_option_group group)
         if (option->group != group || !(option->commands & command)) continue;
         char name[256];
         size_t length = describe(option, true, name, sizeof name);
-        if (column && column + 2 + length > SCREEN_WIDTH) {
+        if (column && column + 2 + length > (size_t)SCREEN_WIDTH) {
             printf(",\n");
             column = 0;
         } else if (column) {

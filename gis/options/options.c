@@ -5,7 +5,7 @@
 
 #include "base/nearest.h"
 
-#include <math.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -107,10 +107,13 @@ static bool read_box(arguments *in, const char *value, double box[4], gis_error 
     return true;
 }
 
+/* Whole numbers of so many digits are doubles, all of them. */
+enum { COUNT_DIGITS = DBL_DIG };
+
 static bool read_count(const gis_option *option, const char *value, double *number, gis_error *error)
 {
     size_t n = strlen(value);
-    if (n == 0 || strspn(value, "0123456789") != n || n > 15)
+    if (n == 0 || strspn(value, "0123456789") != n || n > COUNT_DIGITS)
         return gis_fail_usage(error, "%s %s: not a whole number", option->names, value);
     *number = strtod(value, NULL);
     return true;

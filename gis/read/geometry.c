@@ -19,7 +19,7 @@ static bool is_leaf(OGRwkbGeometryType flat)
     return flat == wkbPoint || flat == wkbLineString || flat == wkbCircularString;
 }
 
-/* ---- What is in it ---------------------------------------------------------------------------------------- */
+/* ---- What is in it ----------------------------------------------------------------------------------------------- */
 
 enum { HAS_POLYGON = 1, HAS_LINE = 2, HAS_POINT = 4 };
 
@@ -58,7 +58,7 @@ bool gis_geometry_is_finite(OGRGeometryH geometry)
     return true;
 }
 
-/* ---- Polygons to arrays ----------------------------------------------------------------------------------- */
+/* ---- Polygons to arrays ------------------------------------------------------------------------------------------ */
 
 static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *error)
 {
@@ -208,7 +208,7 @@ bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_erro
     return true;
 }
 
-/* ---- Translation ------------------------------------------------------------------------------------------ */
+/* ---- Translation ------------------------------------------------------------------------------------------------- */
 
 static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
 {
@@ -245,7 +245,7 @@ bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_err
     return true;
 }
 
-/* ---- New geometries --------------------------------------------------------------------------------------- */
+/* ---- New geometries ---------------------------------------------------------------------------------------------- */
 
 OGRGeometryH gis_geometry_line(const double from[2], const double to[2])
 {

@@ -28,7 +28,7 @@ struct gis_source {
     gis_list warnings;
 };
 
-/* ---- Opening ---------------------------------------------------------------------------------------------- */
+/* ---- Opening ----------------------------------------------------------------------------------------------------- */
 
 static void keep_warnings(gis_source *source, const gis_listener *listener)
 {
@@ -128,7 +128,7 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
     return true;
 }
 
-/* ---- Reading ---------------------------------------------------------------------------------------------- */
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
 static bool keep(gis_source *source, OGRFeatureH feature)
 {
@@ -252,7 +252,7 @@ void gis_source_close(gis_source *source)
     free(source);
 }
 
-/* ---- Getters ---------------------------------------------------------------------------------------------- */
+/* ---- Getters ----------------------------------------------------------------------------------------------------- */
 
 size_t gis_source_count(const gis_source *source)
 {

@@ -1,5 +1,5 @@
-/* wkt.c: see wkt.h. A reader of our own, since GDAL's takes much that is not WKT and says little of
- * what is wrong. */
+/* wkt.c: see wkt.h. A reader of our own, since GDAL's takes much that is not WKT and says little of what
+ * is wrong. */
 #include "read/wkt.h"
 
 #include <ctype.h>

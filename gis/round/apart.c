@@ -196,7 +196,7 @@ static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, d
     return ok && gis_go_on(error);
 }
 
-/* ---- One group -------------------------------------------------------------------------------------------- */
+/* ---- One group --------------------------------------------------------------------------------------------------- */
 
 static bool unite(const gis_polygons *group, sunder_validity validity, sunder_sum **out, gis_error *error)
 {
@@ -229,7 +229,7 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
     return ok;
 }
 
-/* ---- All of them, until all is well ----------------------------------------------------------------------- */
+/* ---- All of them, until all is well ------------------------------------------------------------------------------ */
 
 /* The set of the next round: groups that are well as they were, the others as what became of them. */
 typedef struct rebuilding {

@@ -98,7 +98,7 @@ bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t firs
     return ok;
 }
 
-/* ---- Bending ---------------------------------------------------------------------------------------------- */
+/* ---- Bending ----------------------------------------------------------------------------------------------------- */
 
 typedef struct bend {
     double t, distance, xy[2];
@@ -218,7 +218,7 @@ bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double 
     return true;
 }
 
-/* ---- The even-odd set, rounded ------------------------------------------------------------------------------ */
+/* ---- The even-odd set, rounded ----------------------------------------------------------------------------------- */
 
 /* Appends a polygon of the shape. Of a ring that falls together nothing is appended, and of a polygon whose outer ring
  * does nothing at all. */
@@ -253,7 +253,7 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
     return ok;
 }
 
-/* ---- Both, until all is well -------------------------------------------------------------------------------- */
+/* ---- Both, until all is well ------------------------------------------------------------------------------------- */
 
 /* Appends what is valid to done, and the rest to broken. */
 static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *broken, gis_error *error)

@@ -23,7 +23,7 @@ void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text,
                  gis_source_fid(input->source, i));
 }
 
-/* ---- Lines and points --------------------------------------------------------------------------------------- */
+/* ---- Lines and points -------------------------------------------------------------------------------------------- */
 
 static bool grow(void **array, size_t *capacity, size_t need, size_t size, gis_error *error)
 {
@@ -73,7 +73,7 @@ static bool append_lines(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_
     return true;
 }
 
-/* ---- Obstacles ---------------------------------------------------------------------------------------------- */
+/* ---- Obstacles --------------------------------------------------------------------------------------------------- */
 
 static bool make_room(gis_route_input *input, size_t n, gis_error *error)
 {
@@ -176,7 +176,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     return ok;
 }
 
-/* ---- All of it ------------------------------------------------------------------------------------------------- */
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
 
 static void join_place(double box[4], double x, double y)
 {

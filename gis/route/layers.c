@@ -102,7 +102,7 @@ static bool write_placements(route_writer *w, gis_error *error)
     return write_placement(w, layer, n > 1 ? n - 1 : 0, along, to, error);
 }
 
-/* ---- Free space ----------------------------------------------------------------------------------------------- */
+/* ---- Free space -------------------------------------------------------------------------------------------------- */
 
 static void grow_box(double box[4], const double xy[2])
 {

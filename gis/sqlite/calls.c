@@ -24,7 +24,7 @@ static bool find(const char *name, void *function)
     return found != NULL;
 }
 
-/* ---- Signals ---------------------------------------------------------------------------------------------- */
+/* ---- Signals ----------------------------------------------------------------------------------------------------- */
 
 /* Called every so many steps of a statement, from within it: some thousands of them take a millisecond. */
 enum { STEPS = 1000 };
@@ -52,7 +52,7 @@ void gis_sqlite_heed_signals(void)
     if (find("sqlite3_auto_extension", &auto_extension)) auto_extension((void (*)(void))watch_database);
 }
 
-/* ---- Replacing -------------------------------------------------------------------------------------------- */
+/* ---- Replacing --------------------------------------------------------------------------------------------------- */
 
 /* Copied at a time: some megabytes, between which a signal is heard. */
 enum { PAGES = 1024 };

@@ -1,5 +1,5 @@
-/* lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of
- * the file, locked by fcntl() ("File Locking And Concurrency In SQLite Version 3", and os.h of its source).
+/* lock.h: the locks of a SQLite database seen from outside, as its file format lays them down: byte ranges of the file,
+ * locked by fcntl() ("File Locking And Concurrency In SQLite Version 3", and os.h of its source).
  *
  * Closing any handle of a file gives up the locks that this very process has on it through others: so none of this may
  * be asked while GDAL has the database open. */

@@ -20,7 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* ---- Syncing ---------------------------------------------------------------------------------------------- */
+/* ---- Syncing ----------------------------------------------------------------------------------------------------- */
 
 /* Some file systems know no fsync, of directories above all. */
 static bool cannot_sync(int reason)
@@ -65,7 +65,7 @@ static bool sync_tree(const char *path, gis_error *error)
     return done && sync_path(path, error);
 }
 
-/* ---- The record ------------------------------------------------------------------------------------------- */
+/* ---- The record -------------------------------------------------------------------------------------------------- */
 
 static void record_name(FILE *file, const char *kind, const char *name)
 {
@@ -120,7 +120,7 @@ static void remove_record(const gis_stage *stage)
     CPLFree(path);
 }
 
-/* ---- Renames ---------------------------------------------------------------------------------------------- */
+/* ---- Renames ----------------------------------------------------------------------------------------------------- */
 
 typedef struct renaming {
     char *from, *to;
@@ -200,7 +200,7 @@ static bool put_all(const gis_stage *stage, char **names, bool main_in_one_step,
     return done;
 }
 
-/* ---- Publishing ------------------------------------------------------------------------------------------- */
+/* ---- Publishing -------------------------------------------------------------------------------------------------- */
 
 static bool is_plain(const char *path)
 {

@@ -1,5 +1,5 @@
-/* stage.c: the hidden directory and what is put in it. Its maker holds a lock on it as long
- * as it lives: by that a stage whose maker was killed is told from one at work (remains.c). */
+/* stage.c: the hidden directory and what is put in it. Its maker holds a lock on it as long as it lives: by that a
+ * stage whose maker was killed is told from one at work (remains.c). */
 #define _GNU_SOURCE
 #include "stage/internal.h"
 
@@ -120,7 +120,7 @@ const char *gis_stage_main(const gis_stage *stage)
     return stage->main;
 }
 
-/* ---- Copying in ------------------------------------------------------------------------------------------- */
+/* ---- Copying in -------------------------------------------------------------------------------------------------- */
 
 /* A piece at a time, so that a signal is heard in between. */
 enum { PIECE = 1 << 20 };

@@ -26,7 +26,7 @@ static const double *vertex(const map_run *run, uint32_t half)
     return run->xy + 2 * (size_t)sunder_map_origin(run->map, half);
 }
 
-/* ---- Faces ------------------------------------------------------------------------------------------------ */
+/* ---- Faces ------------------------------------------------------------------------------------------------------- */
 
 /* Is something else than the face on the other side? (An antenna has the face on both.) */
 static bool is_side(const sunder_map *map, uint32_t half)
@@ -107,7 +107,7 @@ static bool write_face(gis_sink_layer *layer, map_run *run, uint32_t face, gis_e
     return gather_face(run, face, error) && gis_write_polygons(layer, &run->face, &value, error);
 }
 
-/* ---- Layers ----------------------------------------------------------------------------------------------- */
+/* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
 static bool write_faces(gis_sink_layer *layer, map_run *run, gis_error *error)
 {

@@ -20,7 +20,7 @@
 
 enum { HEADER = 4, CELL = 24 };
 
-/* ---- SQL -------------------------------------------------------------------------------------------------- */
+/* ---- SQL --------------------------------------------------------------------------------------------------------- */
 
 /* One statement. */
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
@@ -96,7 +96,7 @@ static bool end_rows(rows *all, bool so_far, gis_error *error)
     return done;
 }
 
-/* ---- Gathering -------------------------------------------------------------------------------------------- */
+/* ---- Gathering --------------------------------------------------------------------------------------------------- */
 
 bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_boxes *boxes, gis_error *error)
 {
@@ -155,7 +155,7 @@ void gis_boxes_clear(gis_boxes *boxes)
     *boxes = (gis_boxes){0};
 }
 
-/* ---- Order ------------------------------------------------------------------------------------------------ */
+/* ---- Order ------------------------------------------------------------------------------------------------------- */
 
 typedef struct place {
     uint32_t along; /* position of the centre on the Hilbert curve of a 65536 x 65536 grid */
@@ -220,7 +220,7 @@ static bool sort_boxes(gis_boxes *boxes)
     return true;
 }
 
-/* ---- Nodes ------------------------------------------------------------------------------------------------ */
+/* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
 static char *put_hex(char *to, uint64_t value, int bytes)
 {

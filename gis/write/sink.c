@@ -12,7 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-/* ---- Names ------------------------------------------------------------------------------------------------ */
+/* ---- Names ------------------------------------------------------------------------------------------------------- */
 
 char *gis_sink_inside(const gis_sink *sink, const char *file)
 {
@@ -41,7 +41,7 @@ char *gis_sink_file_for(const gis_sink *sink, const char *suffix)
     return CPLStrdup(CPLSPrintf("%.*s_%s%s", (int)(ending - name), name, suffix, ending));
 }
 
-/* ---- Life ------------------------------------------------------------------------------------------------- */
+/* ---- Life -------------------------------------------------------------------------------------------------------- */
 
 /* SOURCE_DATE_EPOCH (reproducible-builds.org) fixes the dates that GDAL writes into a GeoPackage. */
 static void fix_date(gis_sink *sink)

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* ---- What exists ------------------------------------------------------------------------------------------ */
+/* ---- What exists ------------------------------------------------------------------------------------------------- */
 
 bool gis_sink_exists(const char *path)
 {
@@ -181,7 +181,7 @@ bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
     return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
 }
 
-/* ---- Formats that cannot hold the coordinates ------------------------------------------------------------- */
+/* ---- Formats that cannot hold the coordinates -------------------------------------------------------------------- */
 
 static bool is_wgs84(OGRSpatialReferenceH crs)
 {

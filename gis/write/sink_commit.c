@@ -16,7 +16,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Looking at what was written -------------------------------------------------------------------------- */
+/* ---- Looking at what was written --------------------------------------------------------------------------------- */
 
 static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
 {
@@ -158,7 +158,7 @@ static bool apply_strict(const gis_sink *sink, gis_error *error)
                     sink->losses.n - 1);
 }
 
-/* ---- Out of memory's files -------------------------------------------------------------------------------- */
+/* ---- Out of memory's files --------------------------------------------------------------------------------------- */
 
 /* Copied at a time, in bytes; a signal is heard in between. */
 enum { COPIED_AT_ONCE = 1 << 16 };
@@ -239,7 +239,7 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* ---- Finish and publish ------------------------------------------------------------------------------------ */
+/* ---- Finish and publish ------------------------------------------------------------------------------------------ */
 
 static bool write_styles(gis_sink *sink, gis_error *error)
 {

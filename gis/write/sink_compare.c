@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- One form for polygons -------------------------------------------------------------------------------- */
+/* ---- One form for polygons --------------------------------------------------------------------------------------- */
 
 typedef struct ring_view {
     const double *xy;
@@ -129,7 +129,7 @@ static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *sa
     return done || gis_no_memory(error);
 }
 
-/* ---- How far off ------------------------------------------------------------------------------------------ */
+/* ---- How far off ------------------------------------------------------------------------------------------------- */
 
 /* The largest distance of a vertex of a from the nearest vertex of b. Quadratic, and only run where they differ. */
 static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
@@ -155,7 +155,7 @@ static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
     return fmax(vertex_distance(a, b), vertex_distance(b, a));
 }
 
-/* ---- One feature ------------------------------------------------------------------------------------------ */
+/* ---- One feature ------------------------------------------------------------------------------------------------- */
 
 typedef struct workspace {
     gis_rings sent, kept;
@@ -238,7 +238,7 @@ static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRG
         gis_list_add(losses, "M values are not written: %s has none", format);
 }
 
-/* ---- Attributes ------------------------------------------------------------------------------------------- */
+/* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
 static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
 {
@@ -275,7 +275,7 @@ static gis_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written
     return changes;
 }
 
-/* ---- The layer -------------------------------------------------------------------------------------------- */
+/* ---- The layer --------------------------------------------------------------------------------------------------- */
 
 static bool fail_damaged(const gis_sink_layer *layer, size_t feature, gis_error *error)
 {

@@ -20,7 +20,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* ---- Opening ---------------------------------------------------------------------------------------------- */
+/* ---- Opening ----------------------------------------------------------------------------------------------------- */
 
 bool gis_sink_open_for_update(gis_sink *sink, gis_error *error)
 {
@@ -56,7 +56,7 @@ static bool in_sqlite_file(const gis_sink *sink)
     return sink->place == GIS_PLACE_DATABASE && sink->format.sqlite;
 }
 
-/* ---- The lock of a SQLite file ---------------------------------------------------------------------------- */
+/* ---- The lock of a SQLite file ----------------------------------------------------------------------------------- */
 
 /* What must be the same before GDAL opens the file and after the lock is had: the file itself (another may have been
  * renamed to its place) and the count of changes of the schema, which every layer made or removed is one of. */
@@ -111,7 +111,7 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
                     "changed", sink->request.path, gis_sqlite_patience() / 1000., reason);
 }
 
-/* ---- Nothing outside the transaction ----------------------------------------------------------------------- */
+/* ---- Nothing outside the transaction ----------------------------------------------------------------------------- */
 
 /* SQLite ends a transaction by itself when the disk fails, and GDAL may go on: each further statement would be a
  * transaction of its own, and be committed. Two things are set against that. A second connection reads all the time, so
@@ -201,7 +201,7 @@ bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
     return gis_fail(error, "%s: other programs keep changing it; nothing was changed by this one", sink->request.path);
 }
 
-/* ---- Layers that are there -------------------------------------------------------------------------------- */
+/* ---- Layers that are there --------------------------------------------------------------------------------------- */
 
 /* With the lock held: what was found before the work may have changed. */
 bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
@@ -225,7 +225,7 @@ bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
     return true;
 }
 
-/* ---- The end of the transaction --------------------------------------------------------------------------- */
+/* ---- The end of the transaction ---------------------------------------------------------------------------------- */
 
 bool gis_sink_flush(gis_sink *sink, gis_error *error)
 {

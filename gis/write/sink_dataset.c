@@ -12,7 +12,7 @@
 /* What SQLite leaves beside a file that is open or was not closed well: part of the data. */
 static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
 
-/* ---- What is replaced ------------------------------------------------------------------------------------- */
+/* ---- What is replaced -------------------------------------------------------------------------------------------- */
 
 /* All files of the dataset at `path`, which is about to be replaced, will step aside. */
 static void supersede(gis_sink *sink, const char *path)
@@ -48,7 +48,7 @@ static void supersede_existing(gis_sink *sink, const char *file, bool may_replac
     CPLFree(outside);
 }
 
-/* ---- Making and opening ----------------------------------------------------------------------------------- */
+/* ---- Making and opening ------------------------------------------------------------------------------------------ */
 
 /* A staged file is thrown away if anything fails, and synced before it is published: SQLite need not sync each step. A
  * choice that the user made by --config stands. */
@@ -125,7 +125,7 @@ bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *erro
     return !sink->updating || gis_sink_make_room(sink, layer->name, error);
 }
 
-/* ---- Closing ---------------------------------------------------------------------------------------------- */
+/* ---- Closing ----------------------------------------------------------------------------------------------------- */
 
 static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
 {

@@ -19,7 +19,7 @@ struct gis_digest {
     uint64_t place, values;
 };
 
-/* ---- Numbers of a feature --------------------------------------------------------------------------------- */
+/* ---- Numbers of a feature ---------------------------------------------------------------------------------------- */
 
 enum { START = 1, NOTHING, POLYGON, NO_VALUE, TEXT };
 
@@ -112,7 +112,7 @@ static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
     return done;
 }
 
-/* ---- Fields whose values must come back -------------------------------------------------------------------- */
+/* ---- Fields whose values must come back -------------------------------------------------------------------------- */
 
 /* Of the other types, of a subtype, and of a field with a default of its own, a format may make something
  * equivalent. */
@@ -152,7 +152,7 @@ static void find_fields(gis_digests *all, OGRLayerH as_written)
     }
 }
 
-/* ---- Both lists ------------------------------------------------------------------------------------------- */
+/* ---- Both lists -------------------------------------------------------------------------------------------------- */
 
 static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
 {

@@ -127,7 +127,7 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
     gis_listener_clear(&listener);
 }
 
-/* ---- Beside a Shapefile ------------------------------------------------------------------------------------ */
+/* ---- Beside a Shapefile ------------------------------------------------------------------------------------------ */
 
 static bool esri_knows(OGRSpatialReferenceH crs)
 {

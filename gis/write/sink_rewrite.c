@@ -102,7 +102,7 @@ bool gis_sink_rewrite(gis_sink_layer *layer, gis_error *error)
     return send_again(layer, error) && gis_sink_close(layer->sink, layer, error);
 }
 
-/* ---- Seen beforehand -------------------------------------------------------------------------------------- */
+/* ---- Seen beforehand --------------------------------------------------------------------------------------------- */
 
 static bool has_run(const char *text)
 {

@@ -24,7 +24,7 @@ static bool is_own(const gis_sink_layer *layer, const char *name)
     return !layer->sink->fids_kept && EQUAL(name, FID_FIELD);
 }
 
-/* ---- Creation options ------------------------------------------------------------------------------------- */
+/* ---- Creation options -------------------------------------------------------------------------------------------- */
 
 static char **offer(const gis_sink_layer *layer, char **options, const char *name, const char *value)
 {
@@ -140,7 +140,7 @@ static char **layer_options(const gis_sink_layer *layer)
     return options;
 }
 
-/* ---- The layer -------------------------------------------------------------------------------------------- */
+/* ---- The layer --------------------------------------------------------------------------------------------------- */
 
 /* Some formats (Shapefile) say Polygon and mean Polygon or MultiPolygon. Elsewhere the word binds: there the layer is
  * declared as the wider type, and every feature written as it. */

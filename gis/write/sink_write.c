@@ -33,7 +33,7 @@ void gis_sink_forget_sent(gis_sink_layer *layer)
     layer->n_sent = layer->capacity = 0;
 }
 
-/* ---- Attributes ------------------------------------------------------------------------------------------- */
+/* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
 static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, const gis_value *values,
                            gis_error *error)
@@ -59,7 +59,7 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
     return true;
 }
 
-/* ---- Geometry --------------------------------------------------------------------------------------------- */
+/* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
 static void promote(OGRFeatureH to)
 {
@@ -79,7 +79,7 @@ static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
         gis_list_add(&layer->sink->losses, "arcs are written as chords: %s has no arcs", layer->sink->format.name);
 }
 
-/* ---- Writing ---------------------------------------------------------------------------------------------- */
+/* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
 static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
 {

@@ -86,7 +86,7 @@ static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_
     return done;
 }
 
-/* ---- The user's own styles -------------------------------------------------------------------------------- */
+/* ---- The user's own styles --------------------------------------------------------------------------------------- */
 
 static OGRLayerH own_styles(const gis_source *source)
 {

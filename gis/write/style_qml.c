@@ -126,7 +126,7 @@ static void add_symbol(text *to, kind of, const char *name, const char *colour, 
     add(to, "</symbol>\n");
 }
 
-/* ---- Renderers -------------------------------------------------------------------------------------------- */
+/* ---- Renderers --------------------------------------------------------------------------------------------------- */
 
 /* Of the statuses in sunder_st, whose words are the core's. */
 static const struct {
