@@ -86,7 +86,7 @@ static void dissolve(mesh *m, uint32_t h, uint32_t g)
     m->origin[h] = m->origin[g] = NONE;
 }
 
-static void collect(mesh *m, const sunder_shape *shape, sunder_i_pieces *out)
+static void collect(mesh *m, const sunder_shape *shape, sunder_i_convex_pieces *out)
 {
     for (uint32_t h = 0; h < m->n; h++) {
         if (m->origin[h] == NONE) continue;
@@ -105,11 +105,11 @@ static void collect(mesh *m, const sunder_shape *shape, sunder_i_pieces *out)
 }
 
 bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                              sunder_i_pieces *out)
+                              sunder_i_convex_pieces *out)
 {
     const uint32_t corners = shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
     mesh m = {.lattice = lattice, .at = at};
-    if (!sunder_i_pieces_init(out, shape->pieces, corners)) return false;
+    if (!sunder_i_convex_pieces_init(out, shape->pieces, corners)) return false;
     out->vertex = sunder_i_alloc(corners, sizeof *out->vertex);
     const bool ok = out->vertex && (corners == 0 || mesh_init(&m, shape));
     for (uint32_t h = 0; ok && h < m.n; h++) {
@@ -122,6 +122,6 @@ bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *sha
     }
     if (ok) collect(&m, shape, out);
     mesh_free(&m);
-    if (!ok) sunder_i_pieces_free(out);
+    if (!ok) sunder_i_convex_pieces_free(out);
     return ok;
 }

@@ -11,6 +11,6 @@
 /* The pieces of a shape, joined across diagonals at whose ends no corner becomes reflex [HM83], with the vertex at each
  * corner. at: the shape's vertices on the lattice. False if memory is out. */
 bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                              sunder_i_pieces *out);
+                              sunder_i_convex_pieces *out);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-bool sunder_i_pieces_init(sunder_i_pieces *list, size_t n, size_t corners)
+bool sunder_i_convex_pieces_init(sunder_i_convex_pieces *list, size_t n, size_t corners)
 {
     memset(list, 0, sizeof *list);
     if (n > UINT32_MAX / 2 || corners > UINT32_MAX / 2) return sunder_i_too_many();
@@ -17,11 +17,11 @@ bool sunder_i_pieces_init(sunder_i_pieces *list, size_t n, size_t corners)
     list->rank = sunder_i_alloc(corners, sizeof *list->rank);
     list->candidate = sunder_i_alloc(corners, sizeof *list->candidate);
     if (list->end && list->corner && list->rank && list->candidate) return true;
-    sunder_i_pieces_free(list);
+    sunder_i_convex_pieces_free(list);
     return false;
 }
 
-void sunder_i_pieces_free(sunder_i_pieces *list)
+void sunder_i_convex_pieces_free(sunder_i_convex_pieces *list)
 {
     sunder_i_free(list->end);
     sunder_i_free(list->corner);
@@ -31,14 +31,14 @@ void sunder_i_pieces_free(sunder_i_pieces *list)
     memset(list, 0, sizeof *list);
 }
 
-void sunder_i_pieces_add_shape(sunder_i_pieces *list, const sunder_shape *shape, const sunder_i_point *at)
+void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder_shape *shape, const sunder_i_point *at)
 {
     for (uint32_t i = 0, k = 0; i < shape->pieces; i++) {
         const uint32_t first = k;
         for (; k < shape->piece_end[i]; k++) {
             const uint32_t u = shape->piece_vertex[k];
             const uint32_t v = shape->piece_vertex[k + 1 < shape->piece_end[i] ? k + 1 : first];
-            sunder_i_pieces_add_corner(list, at[u], sunder_i_is_boundary(shape, u, v));
+            sunder_i_convex_pieces_add_corner(list, at[u], sunder_i_is_boundary(shape, u, v));
         }
         list->end[list->n++] = list->corners;
     }
@@ -46,19 +46,19 @@ void sunder_i_pieces_add_shape(sunder_i_pieces *list, const sunder_shape *shape,
 
 /* ---- Ranks ---- */
 
-static uint32_t sides_of(const sunder_i_pieces *list, uint32_t piece)
+static uint32_t sides_of(const sunder_i_convex_pieces *list, uint32_t piece)
 {
-    const uint32_t n = list->end[piece] - sunder_i_pieces_first(list, piece);
+    const uint32_t n = list->end[piece] - sunder_i_convex_pieces_first(list, piece);
     return n < 2 ? 0 : n;
 }
 
 /* The vectors of all sides, one after the other; how many. */
-static size_t side_vectors(sunder_i_lattice *l, const sunder_i_pieces *list, sunder_i_point *side)
+static size_t side_vectors(sunder_i_lattice *l, const sunder_i_convex_pieces *list, sunder_i_point *side)
 {
     size_t sides = 0;
     for (uint32_t i = 0; i < list->n; i++) {
         const uint32_t n = sides_of(list, i);
-        const sunder_i_point *at = list->corner + sunder_i_pieces_first(list, i);
+        const sunder_i_point *at = list->corner + sunder_i_convex_pieces_first(list, i);
         for (uint32_t k = 0; k < n; k++) side[sides++] = sunder_i_point_sub(l, at[k + 1 < n ? k + 1 : 0], at[k]);
     }
     return sides;
@@ -73,7 +73,7 @@ static void rotate(void *array, size_t size, uint32_t n, uint32_t by, void *room
 }
 
 /* Sides on one line have one rank: the first of them comes first, which may stand at the end of the list. */
-static void start_with_least(sunder_i_pieces *list, uint32_t first, uint32_t n, void *room)
+static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint32_t n, void *room)
 {
     uint32_t *rank = list->rank + first, least = 0;
     for (uint32_t k = 1; k < n; k++)
@@ -87,11 +87,11 @@ static void start_with_least(sunder_i_pieces *list, uint32_t first, uint32_t n, 
 }
 
 /* Takes the ranks of its sides, each piece turned to start with its least. */
-static size_t take_ranks(sunder_i_pieces *list, const uint32_t *rank, void *room)
+static size_t take_ranks(sunder_i_convex_pieces *list, const uint32_t *rank, void *room)
 {
     size_t sides = 0;
     for (uint32_t i = 0; i < list->n; i++) {
-        const uint32_t first = sunder_i_pieces_first(list, i), n = sides_of(list, i);
+        const uint32_t first = sunder_i_convex_pieces_first(list, i), n = sides_of(list, i);
         if (n == 0) continue;
         memcpy(list->rank + first, rank + sides, n * sizeof *rank);
         start_with_least(list, first, n, room);
@@ -100,8 +100,8 @@ static size_t take_ranks(sunder_i_pieces *list, const uint32_t *rank, void *room
     return sides;
 }
 
-bool sunder_i_pieces_rank(sunder_i_lattice *lattice, sunder_i_pieces *const *list, size_t lists,
-                          sunder_i_directions *out)
+bool sunder_i_convex_pieces_rank(sunder_i_lattice *lattice, sunder_i_convex_pieces *const *list, size_t lists,
+                                 sunder_i_directions *out)
 {
     size_t most = 0, sides = 0;
     for (size_t i = 0; i < lists; i++) most += list[i]->corners;
@@ -116,17 +116,17 @@ bool sunder_i_pieces_rank(sunder_i_lattice *lattice, sunder_i_pieces *const *lis
         list[i]->lattice = lattice;
         list[i]->classes = out->classes;
         list[i]->direction = out->vector;
-        SUNDER_I_ASSERT(!sunder_i_pieces_check(list[i]));
+        SUNDER_I_ASSERT(!sunder_i_convex_pieces_check(list[i]));
     }
     sunder_i_free(side);
     sunder_i_free(rank);
     return ok;
 }
 
-const char *sunder_i_pieces_check(const sunder_i_pieces *list)
+const char *sunder_i_convex_pieces_check(const sunder_i_convex_pieces *list)
 {
     for (uint32_t i = 0; i < list->n; i++) {
-        const uint32_t first = sunder_i_pieces_first(list, i), n = sides_of(list, i);
+        const uint32_t first = sunder_i_convex_pieces_first(list, i), n = sides_of(list, i);
         if (list->end[i] <= first) return "a piece has no corner";
         for (uint32_t k = 0; k < n; k++) {
             const uint32_t rank = list->rank[first + k];
@@ -142,12 +142,13 @@ const char *sunder_i_pieces_check(const sunder_i_pieces *list)
 
 /* ---- Sums ---- */
 
-bool sunder_i_pieces_init_sum(const sunder_i_pieces *a, const sunder_i_pieces *b, sunder_i_pieces *out)
+bool sunder_i_convex_pieces_init_sum(const sunder_i_convex_pieces *a, const sunder_i_convex_pieces *b,
+                                     sunder_i_convex_pieces *out)
 {
     const size_t m = a->n, n = b->n;
     if (m && n && (m > UINT32_MAX / 2 / n || (size_t)a->corners * n + (size_t)b->corners * m > UINT32_MAX / 2))
         return sunder_i_too_many();
-    if (!sunder_i_pieces_init(out, m * n, a->corners * n + b->corners * m)) return false;
+    if (!sunder_i_convex_pieces_init(out, m * n, a->corners * n + b->corners * m)) return false;
     out->lattice = a->lattice;
     out->classes = a->classes;
     out->direction = a->direction;
@@ -155,29 +156,31 @@ bool sunder_i_pieces_init_sum(const sunder_i_pieces *a, const sunder_i_pieces *b
 }
 
 /* A point only shifts, and two parallel segments make a segment, so nothing is special but two points. */
-static void add_sum(const sunder_i_pieces *a, uint32_t i, const sunder_i_pieces *b, uint32_t j, sunder_i_pieces *out)
+static void add_sum(const sunder_i_convex_pieces *a, uint32_t i, const sunder_i_convex_pieces *b, uint32_t j,
+                    sunder_i_convex_pieces *out)
 {
-    const uint32_t af = sunder_i_pieces_first(a, i), bf = sunder_i_pieces_first(b, j);
+    const uint32_t af = sunder_i_convex_pieces_first(a, i), bf = sunder_i_convex_pieces_first(b, j);
     sunder_i_merge m = sunder_i_merge_of(sides_of(a, i), sides_of(b, j));
     while (SUNDER_I_MERGE_NEXT(&m, sunder_i_rank_cmp(a->rank[af + m.next_a], b->rank[bf + m.next_b]))) {
         const uint32_t u = af + m.a, v = bf + m.b;
         out->rank[out->corners] = m.of_a ? a->rank[u] : b->rank[v];
-        sunder_i_pieces_add_corner(out, sunder_i_point_add(out->lattice, a->corner[u], b->corner[v]),
-                                   (m.of_a && a->candidate[u]) || (m.of_b && b->candidate[v]));
+        sunder_i_convex_pieces_add_corner(out, sunder_i_point_add(out->lattice, a->corner[u], b->corner[v]),
+                                          (m.of_a && a->candidate[u]) || (m.of_b && b->candidate[v]));
     }
     if (!sides_of(a, i) && !sides_of(b, j)) {
         out->rank[out->corners] = 0;
-        sunder_i_pieces_add_corner(out, sunder_i_point_add(out->lattice, a->corner[af], b->corner[bf]), false);
+        sunder_i_convex_pieces_add_corner(out, sunder_i_point_add(out->lattice, a->corner[af], b->corner[bf]), false);
     }
     out->end[out->n++] = out->corners;
 }
 
-bool sunder_i_pieces_sum(const sunder_i_pieces *a, const sunder_i_pieces *b, sunder_i_pieces *out)
+bool sunder_i_convex_pieces_sum(const sunder_i_convex_pieces *a, const sunder_i_convex_pieces *b,
+                                sunder_i_convex_pieces *out)
 {
-    if (!sunder_i_pieces_init_sum(a, b, out)) return false;
+    if (!sunder_i_convex_pieces_init_sum(a, b, out)) return false;
     for (uint32_t i = 0; i < a->n && sunder_i_steps(b->n); i++)
         for (uint32_t j = 0; j < b->n; j++) add_sum(a, i, b, j, out);
     if (!out->lattice->arena.failed && !sunder_i_stopped()) return true;
-    sunder_i_pieces_free(out);
+    sunder_i_convex_pieces_free(out);
     return false;
 }

@@ -9,13 +9,13 @@
  * a merge of two lists (merge.h).
  *
  * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges are, diagonals not. */
-#ifndef SUNDER_I_PIECES_H
-#define SUNDER_I_PIECES_H
+#ifndef SUNDER_I_CONVEX_PIECES_H
+#define SUNDER_I_CONVEX_PIECES_H
 
 #include "convex/directions.h"
 #include "shape/shape.h"
 
-typedef struct sunder_i_pieces {
+typedef struct sunder_i_convex_pieces {
     uint32_t n, corners;
     uint32_t *end;             /* [n] past the last corner of each */
     sunder_i_point *corner;    /* [corners] */
@@ -25,17 +25,20 @@ typedef struct sunder_i_pieces {
     sunder_i_lattice *lattice; /* these three are borrowed, and set by those who rank or sum */
     uint32_t classes;
     const sunder_i_point *direction; /* [classes] */
-} sunder_i_pieces;
+} sunder_i_convex_pieces;
 
 /* Room for so many; false if memory is out. */
-bool sunder_i_pieces_init(sunder_i_pieces *list, size_t n, size_t corners);
-void sunder_i_pieces_free(sunder_i_pieces *list);
+bool sunder_i_convex_pieces_init(sunder_i_convex_pieces *list, size_t n, size_t corners);
+void sunder_i_convex_pieces_free(sunder_i_convex_pieces *list);
 
 /* Piece i has the corners from this index on, up to end[i]. */
-static inline uint32_t sunder_i_pieces_first(const sunder_i_pieces *list, size_t i) { return i ? list->end[i - 1] : 0; }
+static inline uint32_t sunder_i_convex_pieces_first(const sunder_i_convex_pieces *list, size_t i)
+{
+    return i ? list->end[i - 1] : 0;
+}
 
 /* The next corner of the piece that is being added; its end is set by whoever adds it. */
-static inline void sunder_i_pieces_add_corner(sunder_i_pieces *list, sunder_i_point at, bool candidate)
+static inline void sunder_i_convex_pieces_add_corner(sunder_i_convex_pieces *list, sunder_i_point at, bool candidate)
 {
     list->corner[list->corners] = at;
     list->candidate[list->corners++] = candidate;
@@ -43,20 +46,23 @@ static inline void sunder_i_pieces_add_corner(sunder_i_pieces *list, sunder_i_po
 
 /* The convex pieces of a shape, whose vertices stand at these places (turned by half a turn, perhaps). There is room.
  */
-void sunder_i_pieces_add_shape(sunder_i_pieces *list, const sunder_shape *shape, const sunder_i_point *at);
+void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder_shape *shape,
+                                      const sunder_i_point *at);
 
 /* Ranks the directions of all sides of `lists` lists and turns each piece so that its ranks rise from the first side.
  * The directions have to live as long as the lists. False if memory is out. */
-bool sunder_i_pieces_rank(sunder_i_lattice *lattice, sunder_i_pieces *const *list, size_t lists,
-                          sunder_i_directions *out);
+bool sunder_i_convex_pieces_rank(sunder_i_lattice *lattice, sunder_i_convex_pieces *const *list, size_t lists,
+                                 sunder_i_directions *out);
 
 /* An empty list with room for all sums of a piece of a with a piece of b, ranked as these are. False if memory is out.
  */
-bool sunder_i_pieces_init_sum(const sunder_i_pieces *a, const sunder_i_pieces *b, sunder_i_pieces *out);
+bool sunder_i_convex_pieces_init_sum(const sunder_i_convex_pieces *a, const sunder_i_convex_pieces *b,
+                                     sunder_i_convex_pieces *out);
 /* All those sums, a's pieces in the outer loop. False if memory is out. */
-bool sunder_i_pieces_sum(const sunder_i_pieces *a, const sunder_i_pieces *b, sunder_i_pieces *out);
+bool sunder_i_convex_pieces_sum(const sunder_i_convex_pieces *a, const sunder_i_convex_pieces *b,
+                                sunder_i_convex_pieces *out);
 
 /* What is wrong with a ranked list, or NULL. */
-const char *sunder_i_pieces_check(const sunder_i_pieces *list);
+const char *sunder_i_convex_pieces_check(const sunder_i_convex_pieces *list);
 
 #endif

@@ -11,13 +11,13 @@
 
 typedef struct operand {
     const sunder_shape *shape;
-    sunder_i_pieces pieces;
+    sunder_i_convex_pieces pieces;
     uint32_t *edge_rank; /* [vertices] rank of the boundary edge (v, next[v]) */
 } operand;
 
 static void operand_free(operand *o)
 {
-    sunder_i_pieces_free(&o->pieces);
+    sunder_i_convex_pieces_free(&o->pieces);
     sunder_i_free(o->edge_rank);
 }
 
@@ -51,10 +51,11 @@ static bool is_candidate(const operand *a, uint32_t k, const operand *b, uint32_
     return a->pieces.candidate[k] && holds(b, vertex, a->pieces.rank[k], classes);
 }
 
-static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t j, sunder_i_pieces *out)
+static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t j, sunder_i_convex_pieces *out)
 {
-    const sunder_i_pieces *a = &p->pieces, *b = &q->pieces;
-    const uint32_t af = sunder_i_pieces_first(a, i), bf = sunder_i_pieces_first(b, j), classes = out->classes;
+    const sunder_i_convex_pieces *a = &p->pieces, *b = &q->pieces;
+    const uint32_t af = sunder_i_convex_pieces_first(a, i), bf = sunder_i_convex_pieces_first(b, j);
+    const uint32_t classes = out->classes;
     const bool narrow = out->lattice->narrow;
     uint32_t at = out->corners;
     sunder_i_merge m = sunder_i_merge_of(a->end[i] - af, b->end[j] - bf);
@@ -72,10 +73,10 @@ static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t 
     out->end[out->n++] = out->corners = at;
 }
 
-static bool add_all(const operand *p, const operand *q, sunder_i_pieces *out)
+static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *out)
 {
     const uint32_t m = p->pieces.n, n = q->pieces.n;
-    if (!sunder_i_pieces_init_sum(&p->pieces, &q->pieces, out)) return false;
+    if (!sunder_i_convex_pieces_init_sum(&p->pieces, &q->pieces, out)) return false;
     for (uint32_t i = 0; i < m; i++) {
         if (!sunder_i_steps(n)) return false;
         for (uint32_t j = 0; j < n; j++) add_subsum(p, i, q, j, out);
@@ -85,14 +86,14 @@ static bool add_all(const operand *p, const operand *q, sunder_i_pieces *out)
 
 sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *vp,
                                      const sunder_shape *q, const sunder_i_point *vq, sunder_i_directions *directions,
-                                     sunder_i_pieces *out, sunder_error *err)
+                                     sunder_i_convex_pieces *out, sunder_error *err)
 {
     operand a = {0}, b = {0};
-    sunder_i_pieces *const list[2] = {&a.pieces, &b.pieces};
+    sunder_i_convex_pieces *const list[2] = {&a.pieces, &b.pieces};
     memset(directions, 0, sizeof *directions);
     memset(out, 0, sizeof *out);
     bool ok = operand_init(&a, lattice, p, vp) && operand_init(&b, lattice, q, vq) &&
-              sunder_i_pieces_rank(lattice, list, 2, directions);
+              sunder_i_convex_pieces_rank(lattice, list, 2, directions);
     if (ok) {
         take_edge_ranks(&a);
         take_edge_ranks(&b);
@@ -102,6 +103,6 @@ sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_sha
     operand_free(&b);
     if (ok) return SUNDER_OK;
     sunder_i_directions_free(directions);
-    sunder_i_pieces_free(out);
+    sunder_i_convex_pieces_free(out);
     return sunder_i_no_memory(err);
 }

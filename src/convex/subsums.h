@@ -16,6 +16,6 @@
  * free. Fails only with SUNDER_ENOMEM. */
 sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *vp,
                                      const sunder_shape *q, const sunder_i_point *vq, sunder_i_directions *directions,
-                                     sunder_i_pieces *out, sunder_error *err);
+                                     sunder_i_convex_pieces *out, sunder_error *err);
 
 #endif

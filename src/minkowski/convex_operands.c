@@ -36,8 +36,8 @@ static int order(sunder_i_lattice *l, const side *s, const side *t)
 
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q) { return p->pieces == 1 && q->pieces == 1; }
 
-sunder_status sunder_i_convex_build(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
-                                    const sunder_shape *q, const sunder_i_point *at_q, sunder_error *err)
+sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
+                                           const sunder_shape *q, const sunder_i_point *at_q, sunder_error *err)
 {
     sunder_i_lattice *l = &sum->lattice;
     const size_t most = (size_t)p->vertices + q->vertices;

@@ -35,17 +35,17 @@
 /* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
  * stop_begin(i) + i on, one more than it has stops. */
 typedef struct walker {
-    const sunder_i_curve *curve;
+    const sunder_i_convolution *curve;
     int32_t *right; /* [pieces] the winding number on the right hand */
     bool *done;     /* [pieces] */
     bool tame;      /* nothing was found that cannot be */
 } walker;
 
-static uint32_t stop_begin(const sunder_i_curve *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
+static uint32_t stop_begin(const sunder_i_convolution *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
 
 /* ---- Winding numbers ---- */
 
-static uint32_t smallest_corner(const sunder_i_curve *c, uint32_t begin, uint32_t end)
+static uint32_t smallest_corner(const sunder_i_convolution *c, uint32_t begin, uint32_t end)
 {
     uint32_t least = begin;
     for (uint32_t i = begin + 1; i < end; i++) {
@@ -57,7 +57,7 @@ static uint32_t smallest_corner(const sunder_i_curve *c, uint32_t begin, uint32_
 
 /* How often links outside [begin, end) wind around a place that none of them touches: those that cross the ray from
  * there to the left. */
-static int32_t winding_of_others(const sunder_i_curve *c, sunder_i_point at, uint32_t begin, uint32_t end)
+static int32_t winding_of_others(const sunder_i_convolution *c, sunder_i_point at, uint32_t begin, uint32_t end)
 {
     int32_t winding = 0;
     for (uint32_t i = 0; i < c->links; i++) {
@@ -74,7 +74,7 @@ static int32_t winding_of_others(const sunder_i_curve *c, sunder_i_point at, uin
 
 /* At a ring's smallest corner the outside of the ring is to the left of the bend: a left turn has it on the right hand,
  * a right turn on the left, and there the ring itself counts -1 on the right. */
-static int32_t number_at(const sunder_i_curve *c, uint32_t least, uint32_t begin, uint32_t end)
+static int32_t number_at(const sunder_i_convolution *c, uint32_t least, uint32_t begin, uint32_t end)
 {
     const uint32_t last = least > begin ? least - 1 : end - 1;
     const int32_t others = c->p->rings > 1 ? winding_of_others(c, c->corner[least], begin, end) : 0;
@@ -83,7 +83,7 @@ static int32_t number_at(const sunder_i_curve *c, uint32_t least, uint32_t begin
 
 static void number_ring(walker *w, uint32_t begin, uint32_t end)
 {
-    const sunder_i_curve *c = w->curve;
+    const sunder_i_convolution *c = w->curve;
     const uint32_t least = smallest_corner(c, begin, end);
     const int32_t start = number_at(c, least, begin, end);
     int32_t right = start;
@@ -115,7 +115,7 @@ static bool add_vertex(sunder_sum *sum, size_t *room, sunder_i_hpoint at)
  * left, which has the free side on its right as well. False if memory is out. */
 static bool follow(walker *w, uint32_t i, uint32_t k, sunder_sum *sum, size_t *room)
 {
-    const sunder_i_curve *c = w->curve;
+    const sunder_i_convolution *c = w->curve;
     for (;;) {
         const uint32_t piece = stop_begin(c, i) + i + k, s = stop_begin(c, i) + k;
         if (w->done[piece]) return true;
@@ -143,7 +143,7 @@ typedef struct ring_list {
 
 static bool follow_all(walker *w, sunder_sum *sum, ring_list *rings)
 {
-    const sunder_i_curve *c = w->curve;
+    const sunder_i_convolution *c = w->curve;
     size_t room = 0;
     if (!sunder_i_reserve(&sum->vertex, &room, c->links + c->stops / 2, sizeof *sum->vertex)) return false;
     for (uint32_t i = 0; i < c->links; i++)
@@ -192,13 +192,13 @@ static void forget(sunder_sum *sum)
     sum->vertices = 0;
 }
 
-static bool walk(const sunder_i_curve *c, sunder_sum *sum, bool *done)
+static bool walk(const sunder_i_convolution *c, sunder_sum *sum, bool *done)
 {
     const size_t pieces = c->links + c->stops;
     walker w = {c, sunder_i_alloc(pieces, sizeof *w.right), sunder_i_calloc(pieces, sizeof *w.done), true};
     ring_list rings = {0};
     bool ok = w.right && w.done;
-    for (uint32_t r = 0; ok && r < c->p->rings; r++) number_ring(&w, sunder_i_curve_first(c, r), c->ring_end[r]);
+    for (uint32_t r = 0; ok && r < c->p->rings; r++) number_ring(&w, sunder_i_convolution_first(c, r), c->ring_end[r]);
     ok = ok && (!w.tame || follow_all(&w, sum, &rings));
     *done = ok && w.tame;
     if (*done)
@@ -211,12 +211,12 @@ static bool walk(const sunder_i_curve *c, sunder_sum *sum, bool *done)
     return ok;
 }
 
-static sunder_status trace(sunder_i_curve *c, sunder_sum *sum, const sunder_i_point *at_p, const sunder_shape *q,
+static sunder_status build(sunder_i_convolution *c, sunder_sum *sum, const sunder_i_point *at_p, const sunder_shape *q,
                            const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     bool fits;
-    sunder_status status = sunder_i_curve_build(c, at_p, q, at_q, &fits, err);
-    if (status == SUNDER_OK && fits) status = sunder_i_curve_cross(c, &fits, err);
+    sunder_status status = sunder_i_convolution_build(c, at_p, q, at_q, &fits, err);
+    if (status == SUNDER_OK && fits) status = sunder_i_convolution_cross(c, &fits, err);
     if (status != SUNDER_OK || !fits) return status;
     return walk(c, sum, done) ? SUNDER_OK : sunder_i_no_memory(err);
 }
@@ -224,14 +224,14 @@ static sunder_status trace(sunder_i_curve *c, sunder_sum *sum, const sunder_i_po
 /* For each ring all links are gone through to locate it. */
 enum { MOST_RINGS = 64 };
 
-sunder_status sunder_i_traced_build(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
-                                    const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
+sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,
+                                       const sunder_shape *q, const sunder_i_point *at_q, bool *done, sunder_error *err)
 {
     *done = false;
     if (!sum->lattice.narrow || p->polygons != 1 || p->touches || p->rings > MOST_RINGS || q->pieces != 1)
         return SUNDER_OK;
-    sunder_i_curve c = {.lattice = &sum->lattice, .p = p};
-    const sunder_status status = trace(&c, sum, at_p, q, at_q, done, err);
-    sunder_i_curve_free(&c);
+    sunder_i_convolution c = {.lattice = &sum->lattice, .p = p};
+    const sunder_status status = build(&c, sum, at_p, q, at_q, done, err);
+    sunder_i_convolution_free(&c);
     return status;
 }

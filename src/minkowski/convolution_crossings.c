@@ -6,7 +6,7 @@
 #include <string.h>
 
 typedef struct crosser {
-    sunder_i_curve *curve;
+    sunder_i_convolution *curve;
     size_t pairs; /* that may still be looked at */
     bool fits, no_memory;
 } crosser;
@@ -22,7 +22,7 @@ static bool boxes_apart(const sunder_i_chain *a, const sunder_i_chain *b)
 
 /* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
  * both of its vertices v. Two sides with a chord between them cross, mostly. */
-static bool are_neighbours(const sunder_i_curve *c, const sunder_i_chain *a, const sunder_i_chain *b)
+static bool are_neighbours(const sunder_i_convolution *c, const sunder_i_chain *a, const sunder_i_chain *b)
 {
     const uint32_t *next = c->p->next;
     if (a->side && b->side) {
@@ -49,7 +49,7 @@ static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, su
 
 static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
 {
-    sunder_i_curve *c = x->curve;
+    sunder_i_convolution *c = x->curve;
     if (c->stops + 2 > c->stops_capacity &&
         !sunder_i_reserve(&c->stop, &c->stops_capacity, c->stops + 2, sizeof *c->stop)) {
         x->no_memory = true;
@@ -64,7 +64,7 @@ static void add_crossing(crosser *x, uint32_t i, const sunder_i_point ab[2], uin
 
 static void cross_chains(crosser *x, const sunder_i_chain *a, const sunder_i_chain *b)
 {
-    const sunder_i_curve *c = x->curve;
+    const sunder_i_convolution *c = x->curve;
     for (uint32_t i = a->first; i < a->end && x->fits && !x->no_memory; i++) {
         const sunder_i_point ab[2] = {c->corner[i], c->corner[c->next[i]]};
         if (link_apart(ab[0], ab[1], b)) continue;
@@ -88,7 +88,7 @@ static int compare_lows(void *context, uint32_t a, uint32_t b)
 
 static void cross_all(crosser *x, const uint32_t *order)
 {
-    const sunder_i_curve *c = x->curve;
+    const sunder_i_convolution *c = x->curve;
     for (uint32_t i = 0; i < c->chains; i++) {
         const sunder_i_chain *a = &c->chain[order[i]];
         for (uint32_t k = i + 1; k < c->chains && c->chain[order[k]].low[0] <= a->high[0]; k++) {
@@ -118,7 +118,7 @@ static int compare_stops(void *context, uint32_t a, uint32_t b)
 /* Puts the stops in order, partners with them. Two stops at one place of a link are three links that cross there. */
 static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_stop *sorted)
 {
-    sunder_i_curve *c = x->curve;
+    sunder_i_convolution *c = x->curve;
     const uint32_t n = (uint32_t)c->stops;
     for (uint32_t i = 0; i < n; i++) order[i] = i;
     stop_order by = {c->lattice, c->stop};
@@ -140,7 +140,7 @@ static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_st
     return true;
 }
 
-sunder_status sunder_i_curve_cross(sunder_i_curve *curve, bool *fits, sunder_error *err)
+sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err)
 {
     crosser x = {.curve = curve, .pairs = patience * curve->chains, .fits = true};
     uint32_t *order = sunder_i_alloc(curve->chains, sizeof *order);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 typedef struct mover {
-    sunder_i_curve *curve;
+    sunder_i_convolution *curve;
     const sunder_i_point *at; /* P's vertices */
     sunder_i_point *q;        /* [m] Q's corners, counter-clockwise */
     uint32_t m;
@@ -125,7 +125,7 @@ static size_t count_links(const mover *t)
     return n;
 }
 
-static void add_chain(sunder_i_curve *c, uint32_t vertex, uint32_t first, bool side, sunder_i_point end)
+static void add_chain(sunder_i_convolution *c, uint32_t vertex, uint32_t first, bool side, sunder_i_point end)
 {
     sunder_i_chain x = {{end.x, end.y}, {end.x, end.y}, first, c->links, vertex, side};
     for (uint32_t i = first; i < c->links; i++) {
@@ -141,7 +141,7 @@ static void add_chain(sunder_i_curve *c, uint32_t vertex, uint32_t first, bool s
 /* From where the side before v ends to where the side that leaves v starts. */
 static void add_joint(mover *t, uint32_t v)
 {
-    sunder_i_curve *c = t->curve;
+    sunder_i_convolution *c = t->curve;
     const uint32_t u = c->p->prev[v], first = c->links;
     c->joined[v] = same(t->to[u], t->from[v]);
     if (c->joined[v]) return;
@@ -155,7 +155,7 @@ static void add_joint(mover *t, uint32_t v)
 
 static void add_links(mover *t)
 {
-    sunder_i_curve *c = t->curve;
+    sunder_i_convolution *c = t->curve;
     for (uint32_t r = 0; r < c->p->rings; r++) {
         const uint32_t start = r ? c->p->ring_end[r - 1] : 0, begin = c->links;
         uint32_t v = start;
@@ -175,7 +175,7 @@ static void add_links(mover *t)
 
 static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_q)
 {
-    sunder_i_curve *c = t->curve;
+    sunder_i_convolution *c = t->curve;
     const size_t n = c->p->vertices;
     t->q = sunder_i_alloc(t->m, sizeof *t->q);
     t->first = sunder_i_alloc(2 * n, sizeof *t->first);
@@ -191,7 +191,7 @@ static bool make_room(mover *t, const sunder_shape *q, const sunder_i_point *at_
 
 static sunder_status build(mover *t, bool *fits, sunder_error *err)
 {
-    sunder_i_curve *c = t->curve;
+    sunder_i_convolution *c = t->curve;
     *fits = true;
     for (uint32_t r = 0; *fits && r < c->p->rings; r++) *fits = find_corners(t, r ? c->p->ring_end[r - 1] : 0);
     *fits = *fits && move_sides(t) && holes_are_large(t);
@@ -209,8 +209,8 @@ static sunder_status build(mover *t, bool *fits, sunder_error *err)
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_curve_build(sunder_i_curve *curve, const sunder_i_point *at_p, const sunder_shape *q,
-                                   const sunder_i_point *at_q, bool *fits, sunder_error *err)
+sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
+                                         const sunder_i_point *at_q, bool *fits, sunder_error *err)
 {
     mover t = {.curve = curve, .at = at_p, .m = q->vertices};
     const sunder_status status = make_room(&t, q, at_q) ? build(&t, fits, err) : sunder_i_no_memory(err);
@@ -220,7 +220,7 @@ sunder_status sunder_i_curve_build(sunder_i_curve *curve, const sunder_i_point *
     return status;
 }
 
-void sunder_i_curve_free(sunder_i_curve *curve)
+void sunder_i_convolution_free(sunder_i_convolution *curve)
 {
     sunder_i_free(curve->corner);
     sunder_i_free(curve->next);

@@ -1,6 +1,6 @@
-/* What the files of the tracing share: the curve and its crossings. Internal to traced*.c. */
-#ifndef SUNDER_I_TRACED_INNER_H
-#define SUNDER_I_TRACED_INNER_H
+/* What the files of the convolution share: the curve and its crossings. Internal to convolution*.c. */
+#ifndef SUNDER_I_CONVOLUTION_INNER_H
+#define SUNDER_I_CONVOLUTION_INNER_H
 
 #include "minkowski/convolution.h"
 #include "predicate/kernel.h"
@@ -21,7 +21,7 @@ typedef struct sunder_i_stop {
     bool rises;             /* the link goes to the left of the other one */
 } sunder_i_stop;
 
-typedef struct sunder_i_curve {
+typedef struct sunder_i_convolution {
     sunder_i_lattice *lattice;
     const sunder_shape *p;
     uint32_t links;
@@ -36,18 +36,18 @@ typedef struct sunder_i_curve {
     uint32_t *stop_end; /* [links] past the last stop on each; stops of a link in its direction */
     sunder_i_stop *stop;
     size_t stops, stops_capacity;
-} sunder_i_curve;
+} sunder_i_convolution;
 
-/* Builds the curve; *fits is false where P or Q is of no kind that can be traced. Fails only with SUNDER_ENOMEM; free
+/* Builds the curve; *fits is false where P or Q is of no kind that this is for. Fails only with SUNDER_ENOMEM; free
  * the curve in any case. */
-sunder_status sunder_i_curve_build(sunder_i_curve *curve, const sunder_i_point *at_p, const sunder_shape *q,
-                                   const sunder_i_point *at_q, bool *fits, sunder_error *err);
+sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
+                                         const sunder_i_point *at_q, bool *fits, sunder_error *err);
 /* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes too long.
  */
-sunder_status sunder_i_curve_cross(sunder_i_curve *curve, bool *fits, sunder_error *err);
-void sunder_i_curve_free(sunder_i_curve *curve);
+sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err);
+void sunder_i_convolution_free(sunder_i_convolution *curve);
 
-static inline uint32_t sunder_i_curve_first(const sunder_i_curve *curve, uint32_t ring)
+static inline uint32_t sunder_i_convolution_first(const sunder_i_convolution *curve, uint32_t ring)
 {
     return ring ? curve->ring_end[ring - 1] : 0;
 }

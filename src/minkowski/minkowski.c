@@ -1,4 +1,6 @@
-/* The public face of the sum: the three stages, and what a caller may ask of the result. */
+/* Which road leads to the sum: a merge for two convex operands; the convolution where one is convex and the other one
+ * polygon, unless it is not tame; else the outline of the union of all subsums. Other roads are taken when asked for
+ * (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"
@@ -7,53 +9,46 @@
 #include "convex/subsums.h"
 #include "minkowski/convex_operands.h"
 #include "minkowski/convolution.h"
-#include "outline/buried.h"
+#include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "sum/canonical.h"
+#include "sum/place.h"
 #include "unions/unions.h"
 
-#include <string.h>
+/* The general road. */
+static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q,
+                                   const sunder_i_placed *at, double start, const sunder_sum_options *options,
+                                   sunder_error *err)
+{
+    sunder_i_convex_pieces subsums;
+    sunder_i_directions directions;
+    sunder_status status = sunder_i_subsums_build(&sum->lattice, p, at->p, q, at->q, &directions, &subsums, err);
+    if (status != SUNDER_OK) return status;
+    /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
+    if (p->polygons > 1 || q->polygons > 1) status = sunder_i_drop_contained_sides(&subsums, err);
+    sum->seconds[1] = sunder_i_now() - start;
+    if (status == SUNDER_OK) status = sunder_i_outline_find(&subsums, options, NULL, NULL, sum, err);
+    sunder_i_convex_pieces_free(&subsums);
+    sunder_i_directions_free(&directions);
+    return status;
+}
 
 static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                            const sunder_sum_options *options, sunder_error *err)
 {
     const double start = sunder_i_now();
-    sunder_i_placed placed;
-    const sunder_i_place_options place = {.force_wide = force_wide};
-    sunder_status status = sunder_i_place(p, q, &place, &placed, err);
+    sunder_i_placed at;
+    sunder_status status = sunder_i_sum_place(sum, p, q, force_wide, &at, err);
     if (status != SUNDER_OK) return status;
-    sum->lattice = placed.lattice; /* moved: the points refer to its pool */
-    memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
-    memcpy(sum->origin[1], placed.origin_q, sizeof sum->origin[1]);
-    memset(&placed.lattice, 0, sizeof placed.lattice);
-    if (sunder_i_are_convex(p, q)) {
-        status = sunder_i_convex_build(sum, p, placed.p, q, placed.q, err);
-        sunder_i_placed_free(&placed);
-        sum->seconds[2] = sunder_i_now() - start;
-        return status;
-    }
-    bool traced = false;
-    if (q->pieces == 1)
-        status = sunder_i_traced_build(sum, p, placed.p, q, placed.q, &traced, err);
+    bool done = sunder_i_are_convex(p, q);
+    if (done)
+        status = sunder_i_convex_operands_sum(sum, p, at.p, q, at.q, err);
+    else if (q->pieces == 1)
+        status = sunder_i_convolution_sum(sum, p, at.p, q, at.q, &done, err);
     else if (p->pieces == 1)
-        status = sunder_i_traced_build(sum, q, placed.q, p, placed.p, &traced, err);
-    if (status != SUNDER_OK || traced) {
-        sunder_i_placed_free(&placed);
-        sum->seconds[2] = sunder_i_now() - start;
-        return status;
-    }
-    sunder_i_pieces subsums;
-    sunder_i_directions directions;
-    status = sunder_i_subsums_build(&sum->lattice, p, placed.p, q, placed.q, &directions, &subsums, err);
-    sunder_i_placed_free(&placed);
-    if (status != SUNDER_OK) return status;
-    /* Members overlap as they stand, and more once they are grown; else few sides are inside a single subsum. */
-    if (p->polygons > 1 || q->polygons > 1)
-        status = sunder_i_bury_candidates(&subsums, err);
-    sum->seconds[1] = sunder_i_now() - start;
-    if (status == SUNDER_OK) status = sunder_i_stages_run(&subsums, options, NULL, NULL, sum, err);
-    sunder_i_pieces_free(&subsums);
-    sunder_i_directions_free(&directions);
+        status = sunder_i_convolution_sum(sum, q, at.q, p, at.p, &done, err);
+    if (status == SUNDER_OK && !done) status = unite_subsums(sum, p, q, &at, start, options, err);
+    sunder_i_placed_free(&at);
     sum->seconds[2] = sunder_i_now() - start - sum->seconds[1];
     return status;
 }

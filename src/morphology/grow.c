@@ -250,7 +250,7 @@ static sunder_status read_cells(growth *g, sunder_sum *sum, sunder_error *err)
     const sunder_i_inside inside = {face, g->shrink ? edge : NULL, g->shrink ? vertex : NULL};
     status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_no_memory(err);
     if (status == SUNDER_OK && g->shrink) status = sort_rest(g, edge, vertex, err);
-    if (status == SUNDER_OK) status = sunder_i_outline_of(g->bands, &inside, sum, err);
+    if (status == SUNDER_OK) status = sunder_i_sum_from_cells(g->bands, &inside, sum, err);
     sunder_i_free(face);
     sunder_i_free(edge);
     sunder_i_free(vertex);

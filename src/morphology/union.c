@@ -8,7 +8,7 @@
 
 #include "base/invariant.h"
 #include "convex/pieces.h"
-#include "outline/buried.h"
+#include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "sum/canonical.h"
 
@@ -43,21 +43,21 @@ static bool drop_degenerate(sunder_sum *sum)
 static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_point *at,
                                   const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
 {
-    sunder_i_pieces pieces, *const list[] = {&pieces};
+    sunder_i_convex_pieces pieces, *const list[] = {&pieces};
     sunder_i_directions directions = {0};
     if (shape->pieces == 0) return SUNDER_OK;
-    if (!sunder_i_pieces_init(&pieces, shape->pieces, shape->piece_end[shape->pieces - 1]))
+    if (!sunder_i_convex_pieces_init(&pieces, shape->pieces, shape->piece_end[shape->pieces - 1]))
         return sunder_i_no_memory(err);
-    sunder_i_pieces_add_shape(&pieces, shape, at);
+    sunder_i_convex_pieces_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
-    if (sunder_i_pieces_rank(&sum->lattice, list, 1, &directions)) {
-        if (shape->polygons > 1) status = sunder_i_bury_candidates(&pieces, err);
-        if (status == SUNDER_OK) status = sunder_i_stages_run(&pieces, options, NULL, NULL, sum, err);
+    if (sunder_i_convex_pieces_rank(&sum->lattice, list, 1, &directions)) {
+        if (shape->polygons > 1) status = sunder_i_drop_contained_sides(&pieces, err);
+        if (status == SUNDER_OK) status = sunder_i_outline_find(&pieces, options, NULL, NULL, sum, err);
     } else
         status = sunder_i_no_memory(err);
     if (status == SUNDER_OK && !drop_degenerate(sum)) status = sunder_i_no_memory(err);
     sunder_i_directions_free(&directions);
-    sunder_i_pieces_free(&pieces);
+    sunder_i_convex_pieces_free(&pieces);
     return status;
 }
 

@@ -36,16 +36,16 @@ typedef struct degree {
 
 static void count_degrees(const sunder_i_space *s, sunder_i_corners *c, degree *d)
 {
-    const uint8_t both = SUNDER_I_LEFT | SUNDER_I_RIGHT;
+    const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
     for (size_t i = 0; i < s->stretches; i++) {
-        const sunder_i_stretch *e = &s->stretch[i];
+        const sunder_i_outline_stretch *e = &s->stretch[i];
         const uint32_t end[2] = {e->from, e->to};
         for (int k = 0; k < 2; k++) {
             d[end[k]].all++;
             d[end[k]].degenerate += e->banks == both;
         }
         /* With O on the left; degenerate stretches fill whichever place is empty. */
-        const bool turned = e->banks == SUNDER_I_RIGHT;
+        const bool turned = e->banks == SUNDER_I_BANK_RIGHT;
         const uint32_t u = end[turned], v = end[!turned];
         c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_PLACE_AT ? 0 : 1] = v;
         c->beside[v][e->banks == both && c->beside[v][0] != SUNDER_I_NO_PLACE_AT ? 1 : 0] = u;
@@ -164,7 +164,7 @@ static void shoot(const sunder_i_space *s, sunder_i_corners *c, const sunder_i_s
     bool any = false;
     for (int round = 0; round < 2; round++)
         for (size_t i = from; i < to; i++) {
-            const sunder_i_stretch *e = &s->stretch[t->item[i]];
+            const sunder_i_outline_stretch *e = &s->stretch[t->item[i]];
             const sunder_i_place_at *a = &c->place[e->from], *b = &c->place[e->to];
             if (curve[e->from] == own || !range_at(s, p, a, b, x) || x[0] > p->ax + 2 * s->ground.error) continue;
             if (round == 0) {

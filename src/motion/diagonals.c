@@ -130,7 +130,7 @@ static bool is_convex(sunder_i_lattice *l, const sunder_i_point q[4])
 }
 
 void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *l, const sunder_i_point *at,
-                            sunder_i_pieces *list)
+                            sunder_i_convex_pieces *list)
 {
     for (size_t i = 0; i < diagonals->n; i++) {
         const uint32_t *corner = diagonals->corner[i];
@@ -141,7 +141,7 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
             for (int k = 1; k < 4; k += 2) quad[k] = towards(l, u, v, at[corner[k]], j);
             if (is_convex(l, quad)) break;
         }
-        for (int k = 0; k < 4; k++) sunder_i_pieces_add_corner(list, quad[k], false);
+        for (int k = 0; k < 4; k++) sunder_i_convex_pieces_add_corner(list, quad[k], false);
         list->end[list->n++] = list->corners;
     }
 }

@@ -32,6 +32,6 @@ void sunder_i_diagonals_free(sunder_i_diagonals *diagonals);
 /* Appends the quadrilaterals. at: where the vertices of the shape stand, differences multiples of 2^bits. The list has
  * room. Memory in the lattice's arena, whose `failed` tells. */
 void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattice *lattice, const sunder_i_point *at,
-                            sunder_i_pieces *list);
+                            sunder_i_convex_pieces *list);
 
 #endif

@@ -31,8 +31,8 @@ static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_
 {
     sunder_i_lattice *l = s->ground.lattice;
     sunder_i_arena *m = &l->arena;
-    const sunder_i_pieces *c = &s->part;
-    const uint32_t first = sunder_i_pieces_first(c, part), end = c->end[part];
+    const sunder_i_convex_pieces *c = &s->part;
+    const uint32_t first = sunder_i_convex_pieces_first(c, part), end = c->end[part];
     const sunder_i_big one = sunder_i_big_i64(m, 1);
     bound low = {{sunder_i_big_i64(m, 0), one}, false}, high = {{one, one}, false};
     for (uint32_t k = first; k < end; k++) {
@@ -59,9 +59,9 @@ static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_
 
 static bool box_apart(const sunder_i_space *s, uint32_t part, const double low[2], const double high[2])
 {
-    const sunder_i_pieces *c = &s->part;
+    const sunder_i_convex_pieces *c = &s->part;
     bool left = true, right = true, below = true, above = true;
-    for (uint32_t k = sunder_i_pieces_first(c, part); k < c->end[part]; k++) {
+    for (uint32_t k = sunder_i_convex_pieces_first(c, part); k < c->end[part]; k++) {
         const double x = s->corner[k][0], y = s->corner[k][1];
         left = left && x < low[0];
         right = right && x > high[0];

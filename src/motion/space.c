@@ -1,9 +1,9 @@
 #include "motion/space.h"
 
-#include "outline/buried.h"
-#include "outline/outline.h"
 #include "motion/diagonals.h"
 #include "motion/whole.h"
+#include "outline/contained_sides.h"
+#include "outline/outline.h"
 #include "predicate/predicate.h"
 
 #include <float.h>
@@ -21,7 +21,7 @@ typedef struct maker {
     const sunder_sum_options *options;
     sunder_i_lattice *lattice;
     sunder_i_space *out;
-    sunder_i_pieces obstacles, robots, discs;
+    sunder_i_convex_pieces obstacles, robots, discs;
     sunder_i_diagonals diagonals; /* none where they make no difference */
 } maker;
 
@@ -116,27 +116,29 @@ static sunder_i_point *put_vertices(sunder_i_lattice *l, const sunder_shape *sha
     return at;
 }
 
-static bool add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2], sunder_i_pieces *list)
+static bool add_shape(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2],
+                      sunder_i_convex_pieces *list)
 {
     sunder_i_point *at = put_vertices(l, shape, origin, false);
-    if (at) sunder_i_pieces_add_shape(list, shape, at);
+    if (at) sunder_i_convex_pieces_add_shape(list, shape, at);
     sunder_i_free(at);
     return at != NULL;
 }
 
 /* A line of obstacle: its segments, repeated points once; a point alone is a piece of its own. */
-static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const double origin[2], sunder_i_pieces *list)
+static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const double origin[2],
+                     sunder_i_convex_pieces *list)
 {
     const uint32_t before = list->n;
     for (size_t i = 0; i + 1 < n; i++) {
         const double *a = xy + 2 * i, *b = a + 2;
         if (a[0] == b[0] && a[1] == b[1]) continue;
-        sunder_i_pieces_add_corner(list, put_double(l, a, origin), true);
-        sunder_i_pieces_add_corner(list, put_double(l, b, origin), true);
+        sunder_i_convex_pieces_add_corner(list, put_double(l, a, origin), true);
+        sunder_i_convex_pieces_add_corner(list, put_double(l, b, origin), true);
         list->end[list->n++] = list->corners;
     }
     if (n == 0 || list->n > before) return;
-    sunder_i_pieces_add_corner(list, put_double(l, xy, origin), true);
+    sunder_i_convex_pieces_add_corner(list, put_double(l, xy, origin), true);
     list->end[list->n++] = list->corners;
 }
 
@@ -146,7 +148,7 @@ static bool add_robot(maker *m)
     const double origin[2] = {-m->out->sum->origin[1][0], -m->out->sum->origin[1][1]};
     sunder_i_point *at = put_vertices(m->lattice, m->robot, origin, true);
     if (!at) return false;
-    sunder_i_pieces_add_shape(&m->robots, m->robot, at);
+    sunder_i_convex_pieces_add_shape(&m->robots, m->robot, at);
     sunder_i_diagonals_add(&m->diagonals, m->lattice, at, &m->robots);
     sunder_i_free(at);
     return true;
@@ -165,9 +167,9 @@ static bool make_pieces(maker *m)
     }
     sunder_i_space *out = m->out;
     out->piece_obstacle = sunder_i_alloc(pieces, sizeof *out->piece_obstacle);
-    if (!out->piece_obstacle || !sunder_i_pieces_init(&m->obstacles, pieces, corners) ||
-        !sunder_i_pieces_init(&m->robots, m->robot->pieces + m->diagonals.n,
-                             piece_corners(m->robot) + 4 * m->diagonals.n))
+    if (!out->piece_obstacle || !sunder_i_convex_pieces_init(&m->obstacles, pieces, corners) ||
+        !sunder_i_convex_pieces_init(&m->robots, m->robot->pieces + m->diagonals.n,
+                                     piece_corners(m->robot) + 4 * m->diagonals.n))
         return false;
     sunder_i_lattice *l = m->lattice;
     const double *origin = out->sum->origin[0];
@@ -182,7 +184,7 @@ static bool make_pieces(maker *m)
     if (!add_robot(m)) return false;
     if (m->disc) {
         static const double zero[2] = {0, 0};
-        if (!sunder_i_pieces_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
+        if (!sunder_i_convex_pieces_init(&m->discs, m->disc->pieces, piece_corners(m->disc))) return false;
         if (!add_shape(l, m->disc, zero, &m->discs)) return false;
     }
     return !l->arena.failed;
@@ -190,23 +192,23 @@ static bool make_pieces(maker *m)
 
 static bool make_parts(maker *m)
 {
-    sunder_i_pieces *list[3] = {&m->obstacles, &m->robots, &m->discs};
-    if (!sunder_i_pieces_rank(m->lattice, list, m->disc ? 3 : 2, &m->out->directions)) return false;
+    sunder_i_convex_pieces *list[3] = {&m->obstacles, &m->robots, &m->discs};
+    if (!sunder_i_convex_pieces_rank(m->lattice, list, m->disc ? 3 : 2, &m->out->directions)) return false;
     if (m->disc) {
-        sunder_i_pieces grown;
-        if (!sunder_i_pieces_sum(&m->robots, &m->discs, &grown)) return false;
-        sunder_i_pieces_free(&m->robots);
+        sunder_i_convex_pieces grown;
+        if (!sunder_i_convex_pieces_sum(&m->robots, &m->discs, &grown)) return false;
+        sunder_i_convex_pieces_free(&m->robots);
         m->robots = grown;
     }
     m->out->robot_pieces = m->robots.n;
-    return sunder_i_pieces_sum(&m->obstacles, &m->robots, &m->out->part);
+    return sunder_i_convex_pieces_sum(&m->obstacles, &m->robots, &m->out->part);
 }
 
 /* Doubles that stand for corners, and bounds for all that stand for places. False if memory is out. */
 static bool measure(maker *m)
 {
     sunder_i_lattice *l = m->lattice;
-    const sunder_i_pieces *part = &m->out->part;
+    const sunder_i_convex_pieces *part = &m->out->part;
     double most = 1;
     m->out->corner = sunder_i_alloc(part->corners, sizeof *m->out->corner);
     if (!m->out->corner) return false;
@@ -227,21 +229,20 @@ static bool measure(maker *m)
 static sunder_status keep_stretches(const sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
     sunder_i_space *out = user;
-    out->stretch = sunder_i_alloc(coverage->pieces, sizeof *out->stretch);
+    out->stretch = sunder_i_alloc(coverage->stretches, sizeof *out->stretch);
     if (!out->stretch) return sunder_i_no_memory(err);
-    for (size_t i = 0; i < coverage->pieces; i++)
-        out->stretch[i] = (sunder_i_stretch){coverage->piece[i].from, coverage->piece[i].to, coverage->piece[i].banks};
-    out->stretches = coverage->pieces;
+    memcpy(out->stretch, coverage->stretch, coverage->stretches * sizeof *out->stretch);
+    out->stretches = coverage->stretches;
     return SUNDER_OK;
 }
 
 static sunder_status find_outline(maker *m, sunder_error *err)
 {
-    sunder_i_pieces *part = &m->out->part;
+    sunder_i_convex_pieces *part = &m->out->part;
     if (part->n == 0) return SUNDER_OK;
-    const sunder_status status = sunder_i_bury_candidates(part, err);
+    const sunder_status status = sunder_i_drop_contained_sides(part, err);
     if (status != SUNDER_OK) return status;
-    return sunder_i_stages_run(part, m->options, keep_stretches, m->out, m->out->sum, err);
+    return sunder_i_outline_find(part, m->options, keep_stretches, m->out, m->out->sum, err);
 }
 
 static sunder_status make(maker *m, sunder_error *err)
@@ -262,9 +263,9 @@ static sunder_status build(maker *m, sunder_error *err)
     m->out->sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
     m->lattice = &m->out->sum->lattice;
     const sunder_status status = make(m, err);
-    sunder_i_pieces_free(&m->obstacles);
-    sunder_i_pieces_free(&m->robots);
-    sunder_i_pieces_free(&m->discs);
+    sunder_i_convex_pieces_free(&m->obstacles);
+    sunder_i_convex_pieces_free(&m->robots);
+    sunder_i_convex_pieces_free(&m->discs);
     return status;
 }
 
@@ -303,7 +304,7 @@ sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, c
 void sunder_i_space_free(sunder_i_space *space)
 {
     sunder_sum_free(space->sum);
-    sunder_i_pieces_free(&space->part);
+    sunder_i_convex_pieces_free(&space->part);
     sunder_i_directions_free(&space->directions);
     sunder_i_free(space->corner);
     sunder_i_free(space->piece_obstacle);

@@ -9,12 +9,7 @@
 
 #include "convex/pieces.h"
 #include "motion/place.h"
-
-/* A stretch of the outline between two vertices of the sum: a side of O, or of a degenerate segment. */
-typedef struct sunder_i_stretch {
-    uint32_t from, to;
-    uint8_t banks; /* SUNDER_I_LEFT and SUNDER_I_RIGHT where O lies, seen from `from` */
-} sunder_i_stretch;
+#include "outline/coverage.h"
 
 #define SUNDER_I_LEAF_PARTS 4
 
@@ -28,12 +23,12 @@ typedef struct sunder_i_part_tree {
 typedef struct sunder_i_space {
     sunder_sum *sum; /* the outline of O; owns the lattice */
     sunder_i_ground ground;
-    sunder_i_pieces part;
+    sunder_i_convex_pieces part;
     sunder_i_directions directions; /* of the sides of parts */
     double (*corner)[2];      /* [part.corners] close to the corners of parts, as the ground says */
     uint32_t robot_pieces;    /* parts [i * robot_pieces, (i + 1) * robot_pieces) are of obstacle piece i */
     uint32_t *piece_obstacle; /* [pieces] whose it is */
-    sunder_i_stretch *stretch;
+    sunder_i_outline_stretch *stretch; /* sides of O and of its degenerate segments, cut where anything ends */
     size_t stretches;
     sunder_i_part_tree tree;
 } sunder_i_space;

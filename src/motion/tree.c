@@ -12,10 +12,10 @@
 
 static void part_box(const sunder_i_space *s, uint32_t part, double box[4])
 {
-    const sunder_i_pieces *c = &s->part;
+    const sunder_i_convex_pieces *c = &s->part;
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
-    for (uint32_t k = sunder_i_pieces_first(c, part); k < c->end[part]; k++) {
+    for (uint32_t k = sunder_i_convex_pieces_first(c, part); k < c->end[part]; k++) {
         const double x = s->corner[k][0], y = s->corner[k][1];
         box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
         box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
@@ -90,8 +90,8 @@ bool sunder_i_part_tree_build(sunder_i_space *s)
 /* Are both ends on or beyond one side of the part, or all of the part on one side of the line pq? */
 static bool meets(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
 {
-    const sunder_i_pieces *c = &s->part;
-    const uint32_t first = sunder_i_pieces_first(c, part), end = c->end[part];
+    const sunder_i_convex_pieces *c = &s->part;
+    const uint32_t first = sunder_i_convex_pieces_first(c, part), end = c->end[part];
     for (uint32_t k = first; k < end; k++) {
         const uint32_t next = k + 1 < end ? k + 1 : first;
         const sunder_i_near a = {c->corner[k], s->corner[k]}, b = {c->corner[next], s->corner[next]};

@@ -34,7 +34,7 @@ static void take_places(sunder_i_view *view, const sunder_i_big origin[2])
 
 static void take_corners(sunder_i_view *view, const sunder_i_big origin[2])
 {
-    const sunder_i_pieces *part = &view->space->part;
+    const sunder_i_convex_pieces *part = &view->space->part;
     sunder_i_lattice *l = view->space->ground.lattice;
     int64_t o[2];
     /* Native where that cannot overflow: plain coordinates are below 2^61. */
@@ -229,8 +229,8 @@ static bool is_out(const look *k, const double box[4], bool casts)
 
 static void cast_part(look *k, uint32_t part)
 {
-    const sunder_i_pieces *c = &k->view->space->part;
-    const uint32_t first = sunder_i_pieces_first(c, part), n = c->end[part] - first;
+    const sunder_i_convex_pieces *c = &k->view->space->part;
+    const uint32_t first = sunder_i_convex_pieces_first(c, part), n = c->end[part] - first;
     double corner[SUNDER_I_CAST_CORNERS][2], size = 0;
     const uint32_t m = n < SUNDER_I_CAST_CORNERS ? n : SUNDER_I_CAST_CORNERS;
     for (uint32_t i = 0; i < m; i++) {

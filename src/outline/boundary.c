@@ -76,20 +76,20 @@ static bool trace_rings(tracer *t)
 
 /* ---- Degenerate holes ---- */
 
-/* Pieces with both banks covered, joined where one goes on in the next on its line. */
+/* Stretches with both banks covered, joined where one goes on in the next on its line. */
 static bool gather_segments(tracer *t, const sunder_i_coverage *c)
 {
-    const uint8_t both = SUNDER_I_LEFT | SUNDER_I_RIGHT;
+    const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
     size_t n = 0;
-    for (size_t i = 0; i < c->pieces; i++) n += c->piece[i].banks == both;
+    for (size_t i = 0; i < c->stretches; i++) n += c->stretch[i].banks == both;
     t->segment = sunder_i_alloc(2 * n, sizeof *t->segment);
-    for (size_t i = 0, j; t->segment && i < c->pieces; i = j + 1) {
+    for (size_t i = 0, j; t->segment && i < c->stretches; i = j + 1) {
         j = i;
-        if (c->piece[i].banks != both) continue;
-        while (j + 1 < c->pieces && c->piece[j + 1].banks == both && c->piece[j + 1].line == c->piece[i].line &&
-               c->piece[j + 1].from == c->piece[j].to)
+        if (c->stretch[i].banks != both) continue;
+        while (j + 1 < c->stretches && c->stretch[j + 1].banks == both &&
+               c->stretch[j + 1].line == c->stretch[i].line && c->stretch[j + 1].from == c->stretch[j].to)
             j++;
-        const uint32_t a = c->piece[i].from, b = c->piece[j].to;
+        const uint32_t a = c->stretch[i].from, b = c->stretch[j].to;
         const bool rises = sunder_i_sum_vertex_cmp(t->out, a, b) < 0;
         t->segment[2 * t->segments] = rises ? a : b;
         t->segment[2 * t->segments++ + 1] = rises ? b : a;
@@ -97,12 +97,12 @@ static bool gather_segments(tracer *t, const sunder_i_coverage *c)
     return t->segment != NULL;
 }
 
-/* Places that no piece touches. */
+/* Vertices that no stretch touches. */
 static bool gather_points(tracer *t, const sunder_i_coverage *c)
 {
     bool *touched = sunder_i_calloc(t->g->vertices, sizeof *touched);
     size_t n = 0;
-    for (size_t i = 0; touched && i < c->pieces; i++) touched[c->piece[i].from] = touched[c->piece[i].to] = true;
+    for (size_t i = 0; touched && i < c->stretches; i++) touched[c->stretch[i].from] = touched[c->stretch[i].to] = true;
     for (uint32_t v = 0; touched && v < t->g->vertices; v++) n += !touched[v];
     t->point = touched ? sunder_i_alloc(n, sizeof *t->point) : NULL;
     for (uint32_t v = 0; t->point && v < t->g->vertices; v++)
@@ -126,15 +126,18 @@ static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, su
     return ok;
 }
 
-sunder_status sunder_i_boundary_build(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_boundary_build(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err)
 {
-    sunder_i_lattice *lattice = subsums->lattice;
-    out->vertex = coverage->places.point;
-    out->vertices = (uint32_t)coverage->places.n;
-    coverage->places.point = NULL;
-    sunder_i_graph g = {.lattice = lattice, .lines = lines, .vertex = out->vertex,
-                        .classes = subsums->classes, .vertices = out->vertices};
+    sunder_i_lattice *lattice = parts->lattice;
+    out->vertex = coverage->vertices.point;
+    out->vertices = (uint32_t)coverage->vertices.n;
+    coverage->vertices.point = NULL;
+    sunder_i_graph g = {.lattice = lattice,
+                        .lines = lines,
+                        .vertex = out->vertex,
+                        .classes = parts->classes,
+                        .vertices = out->vertices};
     const bool ok = sunder_i_graph_build(&g, coverage) && trace(&g, coverage, out);
     sunder_i_graph_free(&g);
     return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);

@@ -1,6 +1,6 @@
-/* From pieces to the canonical sum: places identified, rings traced, components told apart, everything in order.
+/* From stretches of boundary to the canonical sum: rings traced, components told apart, everything in order.
  *
- * Boundary pieces become directed edges with the sum on their left. At a vertex where more than two edges meet, two
+ * Stretches become directed edges with the sum on their left. At a vertex where more than two edges meet, two
  * different pairings are needed. Pairing across *covered* wedges walks round one component of the interior from inside:
  * it tells which edges belong to one component C. Pairing across *free* wedges, among the edges of one C only, then
  * gives one simple ring for each component of the plane minus the closure of C. (Free wedges alone would mix components
@@ -11,9 +11,9 @@
 #include "outline/coverage.h"
 #include "sum/sum.h"
 
-/* Takes the places of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with
+/* Takes the vertices of coverage over (the sum's vertices); fills all but lattice, origin and seconds. Fails with
  * SUNDER_ENOMEM; the caller then frees the sum. */
-sunder_status sunder_i_boundary_build(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
+sunder_status sunder_i_boundary_build(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
 
 #endif

@@ -48,12 +48,12 @@ static uint32_t find_holders(finder *f, uint32_t v)
     sunder_i_strips_at(&f->strips, place->ay, &from, &to);
     for (; from < to; from++) {
         const uint32_t e = f->edge[f->strips.item[from]], c = g->component[g->walk[e]];
-        const sunder_i_edge *edge = &g->edge[e];
+        const sunder_i_boundary_edge *edge = &g->edge[e];
         const bool from_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->from], place) > 0;
         const bool to_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->to], place) > 0;
         /* Lines run with angles in [0, pi), so this one runs upwards: it is crossed to the left of v where v is right
          * of it. */
-        const sunder_i_line *line = &g->lines->line[edge->line];
+        const sunder_i_supporting_line *line = &g->lines->line[edge->line];
         if (from_above == to_above || sunder_i_orient_hpoint(g->lattice, line->a, line->b, place) >= 0) continue;
         if (!f->odd[c]) f->holds[crossed++] = c; /* perhaps not for the first time */
         f->odd[c] = !f->odd[c];

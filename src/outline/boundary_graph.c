@@ -6,13 +6,14 @@
 
 static bool make_edges(sunder_i_graph *g, const sunder_i_coverage *c)
 {
-    g->edge = sunder_i_alloc(c->pieces, sizeof *g->edge);
+    g->edge = sunder_i_alloc(c->stretches, sizeof *g->edge);
     if (!g->edge) return false;
-    for (size_t i = 0; i < c->pieces; i++) {
-        const sunder_i_piece *p = &c->piece[i];
+    for (size_t i = 0; i < c->stretches; i++) {
+        const sunder_i_outline_stretch *p = &c->stretch[i];
         const uint32_t from = p->from, to = p->to, class = g->lines->line[p->line].class;
-        if (p->banks == SUNDER_I_LEFT) g->edge[g->edges++] = (sunder_i_edge){from, to, class, p->line};
-        if (p->banks == SUNDER_I_RIGHT) g->edge[g->edges++] = (sunder_i_edge){to, from, class + g->classes, p->line};
+        if (p->banks == SUNDER_I_BANK_LEFT) g->edge[g->edges++] = (sunder_i_boundary_edge){from, to, class, p->line};
+        if (p->banks == SUNDER_I_BANK_RIGHT)
+            g->edge[g->edges++] = (sunder_i_boundary_edge){to, from, class + g->classes, p->line};
     }
     return true;
 }

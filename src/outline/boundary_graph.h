@@ -4,10 +4,10 @@
 
 #include "outline/coverage.h"
 
-typedef struct sunder_i_edge {
+typedef struct sunder_i_boundary_edge {
     uint32_t from, to; /* vertices; the sum is on the left */
     uint32_t rank, line;
-} sunder_i_edge;
+} sunder_i_boundary_edge;
 
 /* An end of an edge at a vertex: edge * 2, + 1 where the edge arrives. */
 typedef uint32_t sunder_i_ray;
@@ -17,7 +17,7 @@ typedef struct sunder_i_graph {
     const sunder_i_lines *lines;
     const sunder_i_hpoint *vertex;
     uint32_t classes, vertices;
-    sunder_i_edge *edge;
+    sunder_i_boundary_edge *edge;
     uint32_t edges;
     uint32_t *ray_end;  /* [vertices] past its last ray */
     sunder_i_ray *ray;  /* counter-clockwise around each vertex, from the positive x axis */

@@ -15,13 +15,13 @@ typedef struct state {
 typedef struct event {
     sunder_i_fraction at;
     state change;
-    uint32_t corner; /* of a subsum, at that place; NO_CORNER if none is known */
+    uint32_t corner; /* of a part, at that place; NO_CORNER if none is known */
 } event;
 
 #define NO_CORNER UINT32_MAX
 
 typedef struct finder {
-    const sunder_i_pieces *subsums;
+    const sunder_i_convex_pieces *parts;
     const sunder_i_lines *lines;
     const uint8_t *fate;
     sunder_i_coverage *out;
@@ -42,10 +42,10 @@ static void add_event(finder *f, sunder_i_fraction at, state change, uint32_t co
     f->events[f->events_n++] = (event){at, change, corner};
 }
 
-/* ---- One subsum and one line ---- */
+/* ---- One part and one line ---- */
 
 typedef struct polygon {
-    const sunder_i_pieces *s;
+    const sunder_i_convex_pieces *s;
     uint32_t first, n;
 } polygon;
 
@@ -71,7 +71,7 @@ static uint32_t first_above(const polygon *p, uint32_t r)
     return low;
 }
 
-static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
+static int side_of(const polygon *p, const sunder_i_supporting_line *line, uint32_t i)
 {
     sunder_i_lattice *l = p->s->lattice;
     if (!l->narrow) return sunder_i_orient(l, line->a, line->b, corner(p, i));
@@ -82,7 +82,8 @@ static int side_of(const polygon *p, const sunder_i_line *line, uint32_t i)
 
 /* Where the chain of corners from..to, on side `sign` of the line at its end and not there at its start, comes
  * through. */
-static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line, uint32_t from, uint32_t to, int sign)
+static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_supporting_line *line, uint32_t from, uint32_t to,
+                                     int sign)
 {
     uint32_t low = from, high = to; /* corner low is strictly on side -sign; corner high is not */
     while (high - low > 1) {
@@ -96,7 +97,7 @@ static sunder_i_fraction cross_chain(const polygon *p, const sunder_i_line *line
 }
 
 /* One side on the line, covering one bank of it. */
-static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, uint32_t side, bool left)
+static void rest_side(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t side, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
     const uint32_t next = side + 1 < p->first + p->n ? side + 1 : p->first;
@@ -112,9 +113,10 @@ static void rest_side(finder *f, const polygon *p, const sunder_i_line *line, ui
     }
 }
 
-/* The subsum rests on the line: sides of the wanted rank end in corner i (several where a piece has straight
+/* The part rests on the line: sides of the wanted rank end in corner i (several where a piece has straight
  * corners); or it touches the line there. */
-static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint32_t i, uint32_t rank, bool left)
+static void rest_on(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t i, uint32_t rank,
+                    bool left)
 {
     const uint32_t end = p->first + (i < p->n ? i : 0);
     uint32_t side = p->first + (i ? i : p->n) - 1;
@@ -126,11 +128,11 @@ static void rest_on(finder *f, const polygon *p, const sunder_i_line *line, uint
         rest_side(f, p, line, side, left);
 }
 
-static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
+static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
 {
-    const sunder_i_pieces *s = f->subsums;
-    const uint32_t first = sunder_i_pieces_first(s, subsum), forward = line->class, back = forward + s->classes;
-    const polygon p = {s, first, s->end[subsum] - first};
+    const sunder_i_convex_pieces *s = f->parts;
+    const uint32_t first = sunder_i_convex_pieces_first(s, part), forward = line->class, back = forward + s->classes;
+    const polygon p = {s, first, s->end[part] - first};
     /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
     const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
     const int low = side_of(&p, line, lowest), high = side_of(&p, line, highest);
@@ -150,44 +152,45 @@ static void meet(finder *f, const sunder_i_line *line, uint32_t subsum)
 static int compare_events(void *context, uint32_t a, uint32_t b)
 {
     const finder *f = context;
-    return sunder_i_fraction_cmp(f->subsums->lattice, &f->events[a].at, &f->events[b].at);
+    return sunder_i_fraction_cmp(f->parts->lattice, &f->events[a].at, &f->events[b].at);
 }
 
 static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
 
 static uint8_t banks(const state *s)
 {
-    return (uint8_t)((s->left > 0 ? SUNDER_I_LEFT : 0) | (s->right > 0 ? SUNDER_I_RIGHT : 0));
+    return (uint8_t)((s->left > 0 ? SUNDER_I_BANK_LEFT : 0) | (s->right > 0 ? SUNDER_I_BANK_RIGHT : 0));
 }
 
-/* A place of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
-static uint32_t add_place(finder *f, const sunder_i_line *line, const sunder_i_fraction *at, uint32_t corner)
+/* A vertex of the result; where a corner is known to stand there it is a lattice point, which is cheaper to compare. */
+static uint32_t add_vertex(finder *f, const sunder_i_supporting_line *line, const sunder_i_fraction *at,
+                           uint32_t corner)
 {
-    sunder_i_lattice *l = f->subsums->lattice;
+    sunder_i_lattice *l = f->parts->lattice;
     const sunder_i_hpoint p = corner == NO_CORNER ? sunder_i_hpoint_at(l, line->a, line->b, at)
-                                                  : sunder_i_hpoint_of(l, f->subsums->corner[corner]);
-    const uint32_t place = sunder_i_places_add(&f->out->places, &p);
-    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
-    return place;
+                                                  : sunder_i_hpoint_of(l, f->parts->corner[corner]);
+    const uint32_t vertex = sunder_i_vertex_table_add(&f->out->vertices, &p);
+    if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
+    return vertex;
 }
 
-static void add_piece(finder *f, sunder_i_piece piece)
+static void add_stretch(finder *f, sunder_i_outline_stretch stretch)
 {
     sunder_i_coverage *o = f->out;
-    if (o->pieces == o->pieces_capacity &&
-        !sunder_i_reserve(&o->piece, &o->pieces_capacity, o->pieces + 1, sizeof *o->piece)) {
+    if (o->stretches == o->stretches_capacity &&
+        !sunder_i_reserve(&o->stretch, &o->stretches_capacity, o->stretches + 1, sizeof *o->stretch)) {
         f->no_memory = true;
         return;
     }
-    o->piece[o->pieces++] = piece;
+    o->stretch[o->stretches++] = stretch;
 }
 
 /* Sweeps the events of one line, place by place. */
 static void sweep(finder *f, uint32_t number)
 {
-    const sunder_i_line *line = &f->lines->line[number];
+    const sunder_i_supporting_line *line = &f->lines->line[number];
     state s = {0, 0, 0, 0};
-    uint32_t last = 0; /* the place where the open piece starts, while uncovered(&s) */
+    uint32_t last = 0; /* the vertex where the open stretch starts, while uncovered(&s) */
     for (size_t i = 0; i < f->events_n;) {
         const event *here = &f->events[f->order[i]];
         const state before = s;
@@ -208,10 +211,10 @@ static void sweep(finder *f, uint32_t number)
         /* The place itself: intervals of cover are open, candidates closed. */
         const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
         if (point_free) {
-            const uint32_t place = add_place(f, line, &here->at, corner);
+            const uint32_t vertex = add_vertex(f, line, &here->at, corner);
             if (f->no_memory) return;
-            if (uncovered(&before)) add_piece(f, (sunder_i_piece){number, last, place, banks(&before)});
-            last = place;
+            if (uncovered(&before)) add_stretch(f, (sunder_i_outline_stretch){number, last, vertex, banks(&before)});
+            last = vertex;
         }
         i = j;
     }
@@ -236,85 +239,85 @@ static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t 
 
 /* ---- Sides that are boundary as they stand ---- */
 
-/* The place of a corner of a subsum. Between two whole sides nothing else comes there. */
-static uint32_t corner_place(finder *f, uint32_t corner, bool between)
+/* The vertex at a corner of a part. Between two whole sides nothing else comes there. */
+static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 {
-    const sunder_i_hpoint p = sunder_i_hpoint_of(f->subsums->lattice, f->subsums->corner[corner]);
-    const uint32_t place =
-        between ? sunder_i_places_append(&f->out->places, &p) : sunder_i_places_add(&f->out->places, &p);
-    if (place == SUNDER_I_NO_PLACE) f->no_memory = true;
-    return place;
+    const sunder_i_hpoint p = sunder_i_hpoint_of(f->parts->lattice, f->parts->corner[corner]);
+    const uint32_t vertex = between ? sunder_i_vertex_table_append(&f->out->vertices, &p)
+                                    : sunder_i_vertex_table_add(&f->out->vertices, &p);
+    if (vertex == SUNDER_I_NO_VERTEX) f->no_memory = true;
+    return vertex;
 }
 
 static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
 {
-    const sunder_i_pieces *s = f->subsums;
+    const sunder_i_convex_pieces *s = f->parts;
     bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* the side before k */
-    uint32_t first_place = SUNDER_I_NO_PLACE, to = SUNDER_I_NO_PLACE;
+    uint32_t first_vertex = SUNDER_I_NO_VERTEX, to = SUNDER_I_NO_VERTEX;
     for (uint32_t k = first; k < end; k++) {
         const bool whole = f->fate[k] == SUNDER_I_WHOLE;
         if (whole) {
             const uint32_t next = k + 1 < end ? k + 1 : first;
-            const uint32_t from = before && k > first ? to : corner_place(f, k, before);
-            if (k == first) first_place = from;
-            to = next == first && first_place != SUNDER_I_NO_PLACE
-                     ? first_place
-                     : corner_place(f, next, f->fate[next] == SUNDER_I_WHOLE);
+            const uint32_t from = before && k > first ? to : corner_vertex(f, k, before);
+            if (k == first) first_vertex = from;
+            to = next == first && first_vertex != SUNDER_I_NO_VERTEX
+                     ? first_vertex
+                     : corner_vertex(f, next, f->fate[next] == SUNDER_I_WHOLE);
             if (f->no_memory) return;
             const uint32_t line = f->lines->of[k];
-            add_piece(f, s->rank[k] < s->classes ? (sunder_i_piece){line, from, to, SUNDER_I_LEFT}
-                                                 : (sunder_i_piece){line, to, from, SUNDER_I_RIGHT});
+            add_stretch(f, s->rank[k] < s->classes ? (sunder_i_outline_stretch){line, from, to, SUNDER_I_BANK_LEFT}
+                                                   : (sunder_i_outline_stretch){line, to, from, SUNDER_I_BANK_RIGHT});
         }
         before = whole;
     }
 }
 
 /* Lines that no open leaf holds are covered throughout. */
-static void drop_dead_lines(sunder_i_cell_pairs *pairing)
+static void drop_dead_lines(sunder_i_culled *culled)
 {
     size_t n = 0;
-    for (size_t i = 0; i < pairing->n; i++)
-        if (pairing->live_line[pairing->pair[i] >> 32]) pairing->pair[n++] = pairing->pair[i];
-    pairing->n = n;
+    for (size_t i = 0; i < culled->n; i++)
+        if (culled->live_line[culled->pair[i] >> 32]) culled->pair[n++] = culled->pair[i];
+    culled->n = n;
 }
 
-/* Room for what most lines yield, a piece and one new place: growing step by step would touch several times the
+/* Room for what most lines yield, a stretch and one new vertex: growing step by step would touch several times the
  * memory. */
-static bool reserve_usual(finder *f, const sunder_i_cell_pairs *pairing)
+static bool reserve_usual(finder *f, const sunder_i_culled *culled)
 {
     sunder_i_coverage *o = f->out;
     size_t live = 0;
-    for (uint32_t i = 0; i < f->lines->n; i++) live += pairing->live_line[i];
+    for (uint32_t i = 0; i < f->lines->n; i++) live += culled->live_line[i];
     const size_t usual = live + live / 8;
-    return sunder_i_places_init(&o->places, f->subsums->lattice, pairing->most, usual, pairing->whole) &&
-           sunder_i_reserve(&o->piece, &o->pieces_capacity, usual + pairing->whole + 1, sizeof *o->piece);
+    return sunder_i_vertex_table_init(&o->vertices, f->parts->lattice, culled->most, usual, culled->whole) &&
+           sunder_i_reserve(&o->stretch, &o->stretches_capacity, usual + culled->whole + 1, sizeof *o->stretch);
 }
 
-static bool find_all(finder *f, sunder_i_cell_pairs *pairing)
+static bool find_all(finder *f, sunder_i_culled *culled)
 {
-    drop_dead_lines(pairing);
-    bool ok = reserve_usual(f, pairing) && sunder_i_sort_keys(pairing->pair, pairing->n);
-    for (size_t i = 0; ok && i < pairing->n;) {
-        const uint32_t number = (uint32_t)(pairing->pair[i] >> 32);
+    drop_dead_lines(culled);
+    bool ok = reserve_usual(f, culled) && sunder_i_sort_keys(culled->pair, culled->n);
+    for (size_t i = 0; ok && i < culled->n;) {
+        const uint32_t number = (uint32_t)(culled->pair[i] >> 32);
         size_t j = i;
-        while (j < pairing->n && pairing->pair[j] >> 32 == number) j++;
-        sweep_line(f, number, pairing->pair + i, j - i);
+        while (j < culled->n && culled->pair[j] >> 32 == number) j++;
+        sweep_line(f, number, culled->pair + i, j - i);
         ok = !f->no_memory && sunder_i_step();
         i = j;
     }
-    for (size_t i = 0; ok && pairing->whole && i < f->subsums->n; i++) {
-        take_whole_sides(f, sunder_i_pieces_first(f->subsums, i), f->subsums->end[i]);
+    for (size_t i = 0; ok && culled->whole && i < f->parts->n; i++) {
+        take_whole_sides(f, sunder_i_convex_pieces_first(f->parts, i), f->parts->end[i]);
         ok = !f->no_memory;
     }
-    return ok && !f->subsums->lattice->arena.failed;
+    return ok && !f->parts->lattice->arena.failed;
 }
 
-sunder_status sunder_i_coverage_find(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
-                                     sunder_i_cell_pairs *pairing, sunder_i_coverage *out, sunder_error *err)
+sunder_status sunder_i_coverage_find(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
+                                     sunder_i_culled *culled, sunder_i_coverage *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    finder f = {.subsums = subsums, .lines = lines, .fate = pairing->fate, .out = out};
-    const bool ok = find_all(&f, pairing);
+    finder f = {.parts = parts, .lines = lines, .fate = culled->fate, .out = out};
+    const bool ok = find_all(&f, culled);
     sunder_i_free(f.events);
     sunder_i_free(f.order);
     if (ok) return SUNDER_OK;
@@ -324,7 +327,7 @@ sunder_status sunder_i_coverage_find(const sunder_i_pieces *subsums, const sunde
 
 void sunder_i_coverage_free(sunder_i_coverage *coverage)
 {
-    sunder_i_places_free(&coverage->places);
-    sunder_i_free(coverage->piece);
+    sunder_i_vertex_table_free(&coverage->vertices);
+    sunder_i_free(coverage->stretch);
     memset(coverage, 0, sizeof *coverage);
 }

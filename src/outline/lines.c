@@ -15,7 +15,7 @@ typedef struct key {
 } key;
 
 typedef struct table {
-    const sunder_i_pieces *subsums;
+    const sunder_i_convex_pieces *parts;
     uint32_t *slot; /* line number + 1, or 0 */
     size_t mask;
     key *keys; /* [lines] */
@@ -60,7 +60,7 @@ static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_po
     return hash;
 }
 
-static key make_key(const sunder_i_pieces *s, uint32_t side)
+static key make_key(const sunder_i_convex_pieces *s, uint32_t side)
 {
     const uint32_t rank = s->rank[side];
     key k = {0, false, rank < s->classes ? rank : rank - s->classes, 0};
@@ -76,7 +76,7 @@ static key make_key(const sunder_i_pieces *s, uint32_t side)
     return k;
 }
 
-static bool same_line(const sunder_i_pieces *s, const key *a, const key *b)
+static bool same_line(const sunder_i_convex_pieces *s, const key *a, const key *b)
 {
     if (a->hash != b->hash || a->class != b->class || a->pooled != b->pooled) return false;
     if (!a->pooled) return a->offset == b->offset;
@@ -89,7 +89,7 @@ static bool same_line(const sunder_i_pieces *s, const key *a, const key *b)
 /* The number of the line of a side, made if it is new. */
 static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
 {
-    const sunder_i_pieces *s = t->subsums;
+    const sunder_i_convex_pieces *s = t->parts;
     const key k = make_key(s, side);
     size_t at = k.hash & t->mask;
     for (; t->slot[at]; at = (at + 1) & t->mask)
@@ -98,28 +98,28 @@ static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
     t->slot[at] = n + 1;
     t->keys[n] = k;
     const sunder_i_point a = s->corner[side], d = s->direction[k.class];
-    out->line[n] = (sunder_i_line){
+    out->line[n] = (sunder_i_supporting_line){
         a, s->lattice->narrow ? (sunder_i_point){a.x + d.x, a.y + d.y} : sunder_i_point_add(s->lattice, a, d), k.class};
     return n;
 }
 
-sunder_status sunder_i_lines_group(const sunder_i_pieces *subsums, sunder_i_lines *out, sunder_error *err)
+sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i_lines *out, sunder_error *err)
 {
     size_t n = 0, size = 16;
     memset(out, 0, sizeof *out);
-    for (size_t k = 0; k < subsums->corners; k++) n += subsums->candidate[k];
+    for (size_t k = 0; k < parts->corners; k++) n += parts->candidate[k];
     while (size < 2 * n) size *= 2;
-    table t = {subsums, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
+    table t = {parts, sunder_i_calloc(size, sizeof *t.slot), size - 1, sunder_i_alloc(n, sizeof *t.keys)};
     out->line = sunder_i_alloc(n, sizeof *out->line);
-    out->of = sunder_i_alloc(subsums->corners, sizeof *out->of);
+    out->of = sunder_i_alloc(parts->corners, sizeof *out->of);
     bool ok = t.slot && t.keys && out->line && out->of;
-    for (uint32_t k = 0; ok && k < subsums->corners; k++) {
+    for (uint32_t k = 0; ok && k < parts->corners; k++) {
         ok = sunder_i_step();
-        out->of[k] = subsums->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
+        out->of[k] = parts->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
     }
     sunder_i_free(t.slot);
     sunder_i_free(t.keys);
-    if (ok && !subsums->lattice->arena.failed) return SUNDER_OK;
+    if (ok && !parts->lattice->arena.failed) return SUNDER_OK;
     sunder_i_lines_free(out);
     return sunder_i_no_memory(err);
 }

@@ -1,41 +1,42 @@
+/* Lines, cells, coverage, boundary, one after the other; README.md tells why the boundary is found so. */
 #include "outline/outline.h"
 
 #include "outline/boundary.h"
-#include "outline/cells.h"
+#include "outline/culling.h"
 
-typedef struct stages {
-    const sunder_i_pieces *parts;
+typedef struct finder {
+    const sunder_i_convex_pieces *parts;
     const sunder_sum_options *options;
     sunder_status (*keep)(const sunder_i_coverage *coverage, void *user, sunder_error *err);
     void *user;
     sunder_sum *sum;
-} stages;
+} finder;
 
-static sunder_status run_along(const stages *s, const sunder_i_lines *lines, sunder_error *err)
+static sunder_status find_along(const finder *f, const sunder_i_lines *lines, sunder_error *err)
 {
-    sunder_i_cell_pairs pairing;
+    sunder_i_culled culled;
     sunder_i_coverage coverage;
-    sunder_status status = sunder_i_cells_pair(s->parts, lines, s->options, &pairing, err);
+    sunder_status status = sunder_i_cull(f->parts, lines, f->options, &culled, err);
     if (status != SUNDER_OK) return status;
-    status = sunder_i_coverage_find(s->parts, lines, &pairing, &coverage, err);
-    sunder_i_cell_pairs_free(&pairing);
+    status = sunder_i_coverage_find(f->parts, lines, &culled, &coverage, err);
+    sunder_i_culled_free(&culled);
     if (status != SUNDER_OK) return status;
-    if (s->keep) status = s->keep(&coverage, s->user, err);
-    if (status == SUNDER_OK) status = sunder_i_boundary_build(s->parts, lines, &coverage, s->sum, err);
+    if (f->keep) status = f->keep(&coverage, f->user, err);
+    if (status == SUNDER_OK) status = sunder_i_boundary_build(f->parts, lines, &coverage, f->sum, err);
     sunder_i_coverage_free(&coverage);
     return status;
 }
 
-sunder_status sunder_i_stages_run(const sunder_i_pieces *parts, const sunder_sum_options *options,
-                                  sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
-                                                        sunder_error *err),
-                                  void *user, sunder_sum *sum, sunder_error *err)
+sunder_status sunder_i_outline_find(const sunder_i_convex_pieces *parts, const sunder_sum_options *options,
+                                    sunder_status (*keep)(const sunder_i_coverage *coverage, void *user,
+                                                          sunder_error *err),
+                                    void *user, sunder_sum *sum, sunder_error *err)
 {
-    const stages s = {parts, options, keep, user, sum};
+    const finder f = {parts, options, keep, user, sum};
     sunder_i_lines lines;
     sunder_status status = sunder_i_lines_group(parts, &lines, err);
     if (status != SUNDER_OK) return status;
-    status = run_along(&s, &lines, err);
+    status = find_along(&f, &lines, err);
     sunder_i_lines_free(&lines);
     return status;
 }

@@ -268,8 +268,8 @@ static bool make_vertices(outline *o, sunder_sum *sum)
     return ok;
 }
 
-sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
-                                  sunder_error *err)
+sunder_status sunder_i_sum_from_cells(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
+                                      sunder_error *err)
 {
     outline o = {.map = map, .inside = inside};
     const bool ok = connect_faces(&o) && trace_rings(&o) && gather_segments(&o) && gather_points(&o) &&
@@ -281,8 +281,8 @@ sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_insid
     return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)
+sunder_status sunder_i_sum_from_map(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)
 {
     const sunder_status status = sunder_i_planar_map_faces(map, err);
-    return status == SUNDER_OK ? sunder_i_outline_of(map, NULL, sum, err) : status;
+    return status == SUNDER_OK ? sunder_i_sum_from_cells(map, NULL, sum, err) : status;
 }

@@ -6,7 +6,7 @@
 #include "sum/sum.h"
 
 /* The canonical sum off a marked map: fills vertices, rings, polygons, segments and points of the sum. */
-sunder_status sunder_i_outline(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);
+sunder_status sunder_i_sum_from_map(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);
 
 /* Another set than what is covered: its faces (by number; not face 0), and which of the edges and vertices that no
  * region covers, between covered faces, are its parts without area (NULL: none). An edge with the set on both sides is
@@ -16,7 +16,7 @@ typedef struct sunder_i_inside {
 } sunder_i_inside;
 
 /* The same, off a map whose faces are in force. */
-sunder_status sunder_i_outline_of(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
-                                  sunder_error *err);
+sunder_status sunder_i_sum_from_cells(sunder_i_planar_map *map, const sunder_i_inside *inside, sunder_sum *sum,
+                                      sunder_error *err);
 
 #endif

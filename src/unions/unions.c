@@ -4,6 +4,7 @@
 #include "base/clock.h"
 #include "sum/from_map.h"
 #include "sum/map_view.h"
+#include "sum/place.h"
 
 #include <inttypes.h>
 #include <string.h>
@@ -38,7 +39,7 @@ static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sund
 /* The map goes to the sum, or is freed. */
 static sunder_status finish(sunder_sum *sum, sunder_i_planar_map *map, bool keep, sunder_error *err)
 {
-    const sunder_status status = sunder_i_outline(map, sum, err);
+    const sunder_status status = sunder_i_sum_from_map(map, sum, err);
     if (status == SUNDER_OK && keep) return sunder_i_map_view_take(map, sum, &sum->map, err);
     sunder_i_planar_map_free(map);
     return status;
@@ -60,25 +61,12 @@ static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_e
     return SUNDER_OK;
 }
 
-static sunder_status place(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
-                           sunder_i_placed *placed, sunder_error *err)
-{
-    const sunder_i_place_options how = {.force_wide = force_wide};
-    const sunder_status status = sunder_i_place(p, q, &how, placed, err);
-    if (status != SUNDER_OK) return status;
-    sum->lattice = placed->lattice; /* moved: the points refer to its pool */
-    memset(&placed->lattice, 0, sizeof placed->lattice);
-    memcpy(sum->origin[0], placed->origin_p, sizeof sum->origin[0]);
-    memcpy(sum->origin[1], placed->origin_q, sizeof sum->origin[1]);
-    return SUNDER_OK;
-}
-
 sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
                                  const sunder_sum_options *options, sunder_error *err)
 {
     const double start = sunder_i_now();
     sunder_i_placed placed;
-    sunder_status status = place(sum, p, q, force_wide, &placed, err);
+    sunder_status status = sunder_i_sum_place(sum, p, q, force_wide, &placed, err);
     if (status != SUNDER_OK) return status;
     sunder_i_uniting u = {
         .lattice = &sum->lattice, .options = options, .fatness = SUNDER_I_FATNESS, .random = options->seed};

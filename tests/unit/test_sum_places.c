@@ -1,7 +1,7 @@
 /* minkowski/places.h: every point gets the number of its place, however its integers are written, spread out or crowded
  * in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
 #include "failing.h"
-#include "outline/places.h"
+#include "outline/vertex_table.h"
 #include "random.h"
 
 #include <setjmp.h>
@@ -37,17 +37,17 @@ static sunder_i_hpoint point(sunder_i_lattice *l, rng *r, int i, int64_t step)
 static uint64_t add_twice(bool wide, int64_t step, size_t expected)
 {
     sunder_i_lattice l;
-    sunder_i_places places;
+    sunder_i_vertex_table places;
     uint32_t number[SIDE * SIDE];
     rng r = rng_start(test_seed(), (uint64_t)step);
     open_lattice(&l, wide);
-    assert_true(sunder_i_places_init(&places, &l, 0x1p58 / (wide ? 1 << l.approx_shift : 1), expected, 0));
+    assert_true(sunder_i_vertex_table_init(&places, &l, 0x1p58 / (wide ? 1 << l.approx_shift : 1), expected, 0));
     memset(number, 0xff, sizeof number);
     for (int i = 0; i < 3 * SIDE * SIDE; i++) {
         const int place = i < SIDE * SIDE ? (int)rng_int(&r, 0, SIDE * SIDE - 1) : i % (SIDE * SIDE);
         const sunder_i_hpoint p = point(&l, &r, place, step);
         const size_t before = places.n;
-        const uint32_t got = sunder_i_places_add(&places, &p);
+        const uint32_t got = sunder_i_vertex_table_add(&places, &p);
         if (number[place] == UINT32_MAX) {
             assert_int_equal(got, before);
             assert_int_equal(places.n, before + 1);
@@ -56,7 +56,7 @@ static uint64_t add_twice(bool wide, int64_t step, size_t expected)
         assert_int_equal(got, number[place]);
     }
     assert_int_equal(places.n, SIDE * SIDE);
-    sunder_i_places_free(&places);
+    sunder_i_vertex_table_free(&places);
     assert_false(l.arena.failed);
     sunder_i_lattice_free(&l);
     return l.counts.comparisons;

@@ -5,7 +5,7 @@
  * Where the approximations cannot tell places apart (small detail far from the origin, in a sum of which another member
  * is farther still) one square would come to hold all of them. Then the table is made anew with hashes of the exact
  * coordinates, which cost two divisions of big integers each. */
-#include "outline/places.h"
+#include "outline/vertex_table.h"
 
 #include <string.h>
 
@@ -22,7 +22,7 @@ static size_t hash(square q)
 }
 
 /* Squares are counted from far below the smallest coordinate, so that cutting off the fraction rounds down. */
-static square square_of(const sunder_i_places *g, double x, double y)
+static square square_of(const sunder_i_vertex_table *g, double x, double y)
 {
     return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
 }
@@ -31,29 +31,29 @@ static square square_of(const sunder_i_places *g, double x, double y)
  * 5 ln n long. */
 #define CROWD 128
 
-static uint32_t find(const sunder_i_places *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
+static uint32_t find(const sunder_i_vertex_table *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
 {
     size_t at = start & g->mask;
     for (; g->slot[at]; at = (at + 1) & g->mask)
         if (sunder_i_hpoint_equal(g->lattice, &g->point[g->slot[at] - 1], p)) return g->slot[at] - 1;
     if (((at - start) & g->mask) > CROWD) *crowded = true;
-    return SUNDER_I_NO_PLACE;
+    return SUNDER_I_NO_VERTEX;
 }
 
 /* The place of p, if it is known; *crowded is set if that was hard to tell. */
-static uint32_t find_near(const sunder_i_places *g, const sunder_i_hpoint *p, bool *crowded)
+static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint *p, bool *crowded)
 {
     const square low = square_of(g, p->ax - g->error, p->ay - g->error);
     const square high = square_of(g, p->ax + g->error, p->ay + g->error);
     for (int64_t x = low.x; x <= high.x; x++)
         for (int64_t y = low.y; y <= high.y; y++) {
             const uint32_t v = find(g, hash((square){x, y}), p, crowded);
-            if (v != SUNDER_I_NO_PLACE) return v;
+            if (v != SUNDER_I_NO_VERTEX) return v;
         }
-    return SUNDER_I_NO_PLACE;
+    return SUNDER_I_NO_VERTEX;
 }
 
-static void insert(sunder_i_places *g, uint32_t number)
+static void insert(sunder_i_vertex_table *g, uint32_t number)
 {
     const sunder_i_hpoint *p = &g->point[number];
     size_t at = (g->exact ? sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay))) & g->mask;
@@ -62,7 +62,7 @@ static void insert(sunder_i_places *g, uint32_t number)
 }
 
 /* A table at most half full with so many places; what is there is entered anew. */
-static bool make_table(sunder_i_places *g, size_t places)
+static bool make_table(sunder_i_vertex_table *g, size_t places)
 {
     size_t size = 16;
     while (size < 2 * places) size *= 2;
@@ -75,52 +75,52 @@ static bool make_table(sunder_i_places *g, size_t places)
     return true;
 }
 
-bool sunder_i_places_init(sunder_i_places *places, sunder_i_lattice *lattice, double most, size_t expected,
-                          size_t appended)
+bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *lattice, double most, size_t expected,
+                                size_t appended)
 {
-    memset(places, 0, sizeof *places);
-    places->lattice = lattice;
+    memset(table, 0, sizeof *table);
+    table->lattice = lattice;
     /* Off the powers of two, where lattice points stand; 2^-40 of the whole keeps different places apart on maps. */
-    places->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
+    table->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
     /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
-    places->error = most * 0x1p-48;
-    return sunder_i_reserve(&places->point, &places->capacity, expected + appended + 1, sizeof *places->point) &&
-           make_table(places, expected);
+    table->error = most * 0x1p-48;
+    return sunder_i_reserve(&table->point, &table->capacity, expected + appended + 1, sizeof *table->point) &&
+           make_table(table, expected);
 }
 
-uint32_t sunder_i_places_append(sunder_i_places *places, const sunder_i_hpoint *p)
+uint32_t sunder_i_vertex_table_append(sunder_i_vertex_table *table, const sunder_i_hpoint *p)
 {
-    if (!sunder_i_reserve(&places->point, &places->capacity, places->n + 1, sizeof *places->point))
-        return SUNDER_I_NO_PLACE;
-    places->point[places->n] = *p;
-    return (uint32_t)places->n++;
+    if (!sunder_i_reserve(&table->point, &table->capacity, table->n + 1, sizeof *table->point))
+        return SUNDER_I_NO_VERTEX;
+    table->point[table->n] = *p;
+    return (uint32_t)table->n++;
 }
 
-uint32_t sunder_i_places_add(sunder_i_places *places, const sunder_i_hpoint *p)
+uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_hpoint *p)
 {
     bool crowded = false;
-    const uint32_t known = places->exact ? find(places, sunder_i_hpoint_hash(places->lattice, p), p, &crowded)
-                                         : find_near(places, p, &crowded);
-    if (known != SUNDER_I_NO_PLACE) return known;
-    if (crowded && !places->exact) {
-        places->exact = true;
-        if (!make_table(places, places->n)) return SUNDER_I_NO_PLACE;
-        places->entered = places->n;
+    const uint32_t known = table->exact ? find(table, sunder_i_hpoint_hash(table->lattice, p), p, &crowded)
+                                        : find_near(table, p, &crowded);
+    if (known != SUNDER_I_NO_VERTEX) return known;
+    if (crowded && !table->exact) {
+        table->exact = true;
+        if (!make_table(table, table->n)) return SUNDER_I_NO_VERTEX;
+        table->entered = table->n;
     }
-    if (2 * (places->entered + 1) > places->mask + 1) {
-        if (!make_table(places, 2 * places->n)) return SUNDER_I_NO_PLACE;
-        places->entered = places->n;
+    if (2 * (table->entered + 1) > table->mask + 1) {
+        if (!make_table(table, 2 * table->n)) return SUNDER_I_NO_VERTEX;
+        table->entered = table->n;
     }
-    const uint32_t number = sunder_i_places_append(places, p);
-    if (number == SUNDER_I_NO_PLACE) return number;
-    insert(places, number);
-    places->entered++;
+    const uint32_t number = sunder_i_vertex_table_append(table, p);
+    if (number == SUNDER_I_NO_VERTEX) return number;
+    insert(table, number);
+    table->entered++;
     return number;
 }
 
-void sunder_i_places_free(sunder_i_places *places)
+void sunder_i_vertex_table_free(sunder_i_vertex_table *table)
 {
-    sunder_i_free(places->point);
-    sunder_i_free(places->slot);
-    memset(places, 0, sizeof *places);
+    sunder_i_free(table->point);
+    sunder_i_free(table->slot);
+    memset(table, 0, sizeof *table);
 }

@@ -5,7 +5,7 @@
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "oracle.h"
-#include "outline/buried.h"
+#include "outline/contained_sides.h"
 #include "sum_text.h"
 
 #include <math.h>
@@ -93,7 +93,7 @@ static void count_candidates(const polyset *p, const polyset *q, size_t count[2]
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
     sunder_i_placed placed;
-    sunder_i_pieces s;
+    sunder_i_convex_pieces s;
     sunder_i_directions directions;
     const sunder_i_place_options how = {0};
     assert_int_equal(sunder_i_place(a, b, &how, &placed, NULL), SUNDER_OK);
@@ -101,11 +101,11 @@ static void count_candidates(const polyset *p, const polyset *q, size_t count[2]
     assert_int_equal(sunder_i_subsums_build(&placed.lattice, a, placed.p, b, placed.q, &directions, &s, NULL),
                      SUNDER_OK);
     for (int pass = 0; pass < 2; pass++) {
-        if (pass) assert_int_equal(sunder_i_bury_candidates(&s, NULL), SUNDER_OK);
+        if (pass) assert_int_equal(sunder_i_drop_contained_sides(&s, NULL), SUNDER_OK);
         count[pass] = 0;
         for (size_t k = 0; k < s.corners; k++) count[pass] += s.candidate[k];
     }
-    sunder_i_pieces_free(&s);
+    sunder_i_convex_pieces_free(&s);
     sunder_i_directions_free(&directions);
     sunder_i_placed_free(&placed);
     sunder_shape_free(a);

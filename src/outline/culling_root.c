@@ -1,7 +1,7 @@
 /* The beginning: sides as doubles, and the lists of the root cell. */
-#include "outline/cells_inner.h"
 #include "base/sort.h"
 #include "base/watch.h"
+#include "outline/culling_inner.h"
 #include "predicate/predicate.h"
 
 /* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block
@@ -9,7 +9,7 @@
  * page by page. */
 static bool make_room(builder *b)
 {
-    const sunder_i_pieces *s = b->subsums;
+    const sunder_i_convex_pieces *s = b->parts;
     const size_t bytes = s->corners * (sizeof *b->side + sizeof *b->crossing) + s->n * sizeof *b->reach;
     b->side = sunder_i_alloc(bytes + bytes / 2, 1);
     if (!b->side) return false;
@@ -30,13 +30,13 @@ static bool make_room(builder *b)
  * relative to themselves. */
 static bool approximate(builder *b, box *all)
 {
-    const sunder_i_pieces *s = b->subsums;
+    const sunder_i_convex_pieces *s = b->parts;
     sunder_i_lattice *l = s->lattice;
     double most = 0;
     *all = nothing;
     const bool narrow = l->narrow;
     for (size_t i = 0; i < s->n; i++) {
-        const uint32_t first = sunder_i_pieces_first(s, i), end = s->end[i];
+        const uint32_t first = sunder_i_convex_pieces_first(s, i), end = s->end[i];
         if (!sunder_i_step()) return false;
         box own = nothing;
         for (uint32_t k = first; k < end; k++) {
@@ -73,13 +73,13 @@ static bool approximate(builder *b, box *all)
     return !l->arena.failed;
 }
 
-/* Twice the area of a subsum, nearly. */
-static double extent_of(const builder *b, size_t subsum)
+/* Twice the area of a part, nearly. */
+static double extent_of(const builder *b, size_t part)
 {
-    const uint32_t first = sunder_i_pieces_first(b->subsums, subsum);
+    const uint32_t first = sunder_i_convex_pieces_first(b->parts, part);
     const approx_side *o = &b->side[first];
     double area = 0;
-    for (uint32_t k = first; k < b->subsums->end[subsum]; k++) {
+    for (uint32_t k = first; k < b->parts->end[part]; k++) {
         const approx_side *s = &b->side[k];
         area += (s->ax - o->ax) * s->dy - (s->ay - o->ay) * s->dx;
     }
@@ -98,10 +98,10 @@ static bool one_quadrant(const approx_side *s, const approx_side *t)
            (s->dy < 0) == (t->dy < 0);
 }
 
-/* Lists the sides of a subsum in runs; single ones where it has few, which then are sooner looked at one by one. */
-static void add_runs(builder *b, uint32_t subsum)
+/* Lists the sides of a part in runs; single ones where it has few, which then are sooner looked at one by one. */
+static void add_runs(builder *b, uint32_t part)
 {
-    const uint32_t first = sunder_i_pieces_first(b->subsums, subsum), end = b->subsums->end[subsum];
+    const uint32_t first = sunder_i_convex_pieces_first(b->parts, part), end = b->parts->end[part];
     const uint32_t longest = end - first < FEW_SIDES || b->single_most == UINT32_MAX ? 1 : LONGEST_RUN;
     const size_t before = b->runs_n;
     for (uint32_t k = first; k < end;) {
@@ -110,13 +110,13 @@ static void add_runs(builder *b, uint32_t subsum)
         b->runs[b->runs_n++] = n > 1 ? (n - 1) << RUN_BITS | k : k;
         k += n;
     }
-    b->entries[b->entries_n++] = (entry){subsum, (uint32_t)(b->runs_n - before)};
+    b->entries[b->entries_n++] = (entry){part, (uint32_t)(b->runs_n - before)};
 }
 
-/* The root holds every side of every subsum, the largest subsums first: those are the ones that close cells. */
+/* The root holds every side of every part, the largest parts first: those are the ones that close cells. */
 static bool list_all(builder *b, const box *all, cell *root)
 {
-    const sunder_i_pieces *s = b->subsums;
+    const sunder_i_convex_pieces *s = b->parts;
     double *extent = sunder_i_alloc(s->n, sizeof *extent);
     uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
     bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, s->n, sizeof *b->entries) &&

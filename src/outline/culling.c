@@ -1,22 +1,22 @@
-#include "outline/cells_inner.h"
+#include "outline/culling_inner.h"
 
 #include "base/watch.h"
 
 #include <string.h>
 
-/* Up to so many pairs of a line and a subsum other than its own make a leaf: then looking at a pair costs less than
+/* Up to so many pairs of a line and a part other than its own make a leaf: then looking at a pair costs less than
  * sorting it out. Measured on stars, combs, forks and random polygons. */
 #define LEAF_PAIRS 48
-#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two subsums alone with its sides */
+#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two parts alone with its sides */
 /* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
  * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
- * a subsum have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
+ * a part have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
  * split at most doubles them, all leaves together have no more than four times the pairs of the root, whatever the
  * input. */
 #define MOST_GROWTH 2
 #define TRIAL_PAIRS 4096 /* what fewer cost is no matter */
 /* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
- * its subsums more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
+ * its parts more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
  * way the more pairs it has; or sides that are truly concurrent. */
 #define STUBBORN_SPLITS 12
 #define STUBBORN_SHARE 8
@@ -39,35 +39,35 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     return fc + r * gc - reach > error;
 }
 
-#define SINGLES 8 /* so many subsums with one side in the cell are tried in pairs; more are rare */
+#define SINGLES 8 /* so many parts with one side in the cell are tried in pairs; more are rare */
 
-/* Two subsums, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
+/* Two parts, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
 static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
 {
-    uint32_t side[SINGLES], subsum[SINGLES], n = 0;
+    uint32_t side[SINGLES], part[SINGLES], n = 0;
     size_t at = c->run_from;
     for (size_t e = c->entry_from; e < c->entry_to && n < SINGLES; at += b->entries[e].runs, e++)
         if (b->entries[e].runs == 1 && b->runs[at] <= b->single_most) {
             side[n] = b->runs[at];
-            subsum[n++] = b->entries[e].subsum;
+            part[n++] = b->entries[e].part;
         }
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 0; j < i; j++)
             if (both_hold(b, &b->side[side[i]], &b->side[side[j]], where_to)) {
-                two[0] = subsum[j];
-                two[1] = subsum[i];
+                two[0] = part[j];
+                two[1] = part[i];
                 return true;
             }
     return false;
 }
 
-/* In the box the subsum is one half-plane, and one of the same is there already: within the box they are the same
+/* In the box the part is one half-plane, and one of the same is there already: within the box they are the same
  * set, with the same candidate along its border. */
 static bool known_half_plane(builder *b, uint32_t side, uint32_t stamp)
 {
     const uint32_t line = b->lines->of[side];
     if (line == SUNDER_I_NO_LINE) return false;
-    uint32_t *seen = &b->single[2 * (size_t)line + (b->subsums->rank[side] >= b->subsums->classes)];
+    uint32_t *seen = &b->single[2 * (size_t)line + (b->parts->rank[side] >= b->parts->classes)];
     if (*seen != stamp) {
         *seen = stamp;
         return false;
@@ -87,9 +87,9 @@ static size_t shrink(builder *b, cell *c, const box *whole)
     sunder_i_cells_gather(b, c->run_from, c->run_to, whole);
     for (size_t i = 0; i < b->crossing_n; i++) {
         const crossing *x = &b->crossing[i];
-        grow(&need, &x->part);
-        span[0] += x->part.high[0] - x->part.low[0];
-        span[1] += x->part.high[1] - x->part.low[1];
+        grow(&need, &x->clipped);
+        span[0] += x->clipped.high[0] - x->clipped.low[0];
+        span[1] += x->clipped.high[1] - x->clipped.low[1];
         lines += b->stamp[x->line] != b->cells;
         b->stamp[x->line] = b->cells;
     }
@@ -107,19 +107,19 @@ typedef struct half {
     run *runs;
     size_t entries_n, runs_n, sides;
     bool held;
-    uint32_t holder; /* the subsum that holds it */
+    uint32_t holder; /* the part that holds it */
     uint32_t stamp;  /* of known_half_plane() */
 } half;
 
-/* Takes note of what one subsum is in one half: its runs that pass are behind the half's list, n of them with so
+/* Takes note of what one part is in one half: its runs that pass are behind the half's list, n of them with so
  * many sides. */
-static void settle_entry(builder *b, half *h, uint32_t subsum, uint32_t n, uint32_t sides)
+static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_t sides)
 {
     if (n == 0) {
         h->held = true;
-        h->holder = subsum;
+        h->holder = part;
     } else if (sides > 1 || !known_half_plane(b, h->runs[h->runs_n], h->stamp)) {
-        h->entries[h->entries_n++] = (entry){subsum, n};
+        h->entries[h->entries_n++] = (entry){part, n};
         h->runs_n += n;
         h->sides += sides;
     }
@@ -139,7 +139,7 @@ static int side_of_half(const builder *b, const half *h, const approx_side *s, c
 
 /* What of a run passes through a half: how many runs, and sides in them. */
 typedef struct passed {
-    bool beyond; /* all of the half is beyond the subsum */
+    bool beyond; /* all of the half is beyond the part */
     uint32_t n, sides;
 } passed;
 
@@ -173,7 +173,7 @@ static passed pass_run(const builder *b, const half *h, run r, double hx, double
     }
 }
 
-/* One subsum against one half, from its run i on; of the runs before, n with so many sides pass. */
+/* One part against one half, from its run i on; of the runs before, n with so many sides pass. */
 static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more,
                        double hx, double hy)
 {
@@ -197,13 +197,13 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
         out[n] = r;
         n += !(c - reach > error); /* else all of it is on the inner side, and the side need not be kept */
     }
-    settle_entry(b, h, source->subsum, n, n + more);
+    settle_entry(b, h, source->part, n, n + more);
 }
 
-/* A subsum that is in one half with all that it has: every side passes. In the upper cells that are nearly all. */
+/* A part that is in one half with all that it has: every side passes. In the upper cells that are nearly all. */
 static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
 {
-    const box *reach = &b->reach[source->subsum];
+    const box *reach = &b->reach[source->part];
     const int k = apart(reach, &h[0].b);
     if (h[k].held || !within(reach, &h[k].b) || !apart(reach, &h[1 - k].b)) return false;
     run *out = h[k].runs + h[k].runs_n;
@@ -218,15 +218,15 @@ static bool keep_whole(const builder *b, half h[2], const run *runs, const entry
     return true;
 }
 
-/* One subsum against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
+/* One part against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
  * half. */
 static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
 {
     run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
     const run single_most = b->single_most;
     uint32_t i = 0, n0 = 0, n1 = 0, more0 = 0, more1 = 0;
-    bool miss0 = h[0].held || apart(&b->reach[source->subsum], &h[0].b);
-    bool miss1 = h[1].held || apart(&b->reach[source->subsum], &h[1].b);
+    bool miss0 = h[0].held || apart(&b->reach[source->part], &h[0].b);
+    bool miss1 = h[1].held || apart(&b->reach[source->part], &h[1].b);
     for (; i < source->runs && !miss0 && !miss1; i++) {
         const run r = runs[i];
         if (r > single_most) {
@@ -270,7 +270,7 @@ static bool choose_axis(const builder *b, cell *c)
     return c->b.high[c->axis] - c->b.low[c->axis] > room;
 }
 
-/* Pairs of a side and a subsum other than its own. */
+/* Pairs of a side and a part other than its own. */
 static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
 
 /* By how much they have grown in the halves, on the whole, since they were fewest. */
@@ -392,19 +392,19 @@ static sunder_status descend(builder *b, sunder_error *err)
     return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-sunder_status sunder_i_cells_pair(const sunder_i_pieces *subsums, const sunder_i_lines *lines,
-                                  const sunder_sum_options *options, sunder_i_cell_pairs *out, sunder_error *err)
+sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
+                            const sunder_sum_options *options, sunder_i_culled *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    if (subsums->corners == 0) return SUNDER_OK;
-    const bool runs = subsums->corners < (size_t)1 << RUN_BITS;
+    if (parts->corners == 0) return SUNDER_OK;
+    const bool runs = parts->corners < (size_t)1 << RUN_BITS;
     builder b = {.single_most = runs ? (1u << RUN_BITS) - 1 : UINT32_MAX,
                  .run_shift = runs ? RUN_BITS : 32,
-                 .subsums = subsums,
+                 .parts = parts,
                  .lines = lines,
                  .options = options,
                  .out = out};
-    out->fate = sunder_i_calloc(subsums->corners, sizeof *out->fate);
+    out->fate = sunder_i_calloc(parts->corners, sizeof *out->fate);
     out->live_line = sunder_i_calloc(lines->n, sizeof *out->live_line);
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
@@ -424,14 +424,14 @@ sunder_status sunder_i_cells_pair(const sunder_i_pieces *subsums, const sunder_i
     sunder_i_free(b.single);
     sunder_i_free(b.shared);
     sunder_i_free(b.recent);
-    if (status != SUNDER_OK) sunder_i_cell_pairs_free(out);
+    if (status != SUNDER_OK) sunder_i_culled_free(out);
     return status;
 }
 
-void sunder_i_cell_pairs_free(sunder_i_cell_pairs *pairing)
+void sunder_i_culled_free(sunder_i_culled *culled)
 {
-    sunder_i_free(pairing->pair);
-    sunder_i_free(pairing->fate);
-    sunder_i_free(pairing->live_line);
-    memset(pairing, 0, sizeof *pairing);
+    sunder_i_free(culled->pair);
+    sunder_i_free(culled->fate);
+    sunder_i_free(culled->live_line);
+    memset(culled, 0, sizeof *culled);
 }

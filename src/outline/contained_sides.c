@@ -1,9 +1,9 @@
-/* Where many members are grown by one shape and overlap, most of their sides lie inside some other subsum, and the
+/* Where many members are grown by one shape and overlap, most of their sides lie inside some other part, and the
  * cells (cells.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
- * sides would meet all subsums along their lines. A side inside an open convex set is one with both its ends there;
- * which subsums may hold it is read off a grid. A filter: what it does not find is found by the cells. Floating point
+ * sides would meet all parts along their lines. A side inside an open convex set is one with both its ends there;
+ * which parts may hold it is read off a grid. A filter: what it does not find is found by the cells. Floating point
  * with one-sided bounds, so that nothing is taken for buried that is not. */
-#include "outline/buried.h"
+#include "outline/contained_sides.h"
 
 #include "base/sort.h"
 #include "base/watch.h"
@@ -15,23 +15,23 @@ typedef struct box {
     int64_t low[2], high[2];
 } box;
 
-/* Squares of 2^shift units; in each the subsums of which the box reaches into it. The units are those of a narrow
+/* Squares of 2^shift units; in each the parts of which the box reaches into it. The units are those of a narrow
  * lattice; of a wide one the coordinates are rounded to 60 bits of the largest, and may be off by so much each. */
 typedef struct grid {
-    const sunder_i_pieces *subsums;
+    const sunder_i_convex_pieces *parts;
     const sunder_i_point *corner;
     sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
     int64_t error;
-    box *reach; /* [subsums] their boxes */
-    uint32_t *order; /* [subsums] the largest first */
+    box *reach;      /* [parts] their boxes */
+    uint32_t *order; /* [parts] the largest first */
     box all;
     int shift;
     uint32_t size[2];
     uint32_t *end, *list; /* [squares] past its last entry in list */
-    size_t spent, allowed; /* subsums looked at, see bury() */
+    size_t spent, allowed; /* parts looked at, see bury() */
 } grid;
 
-/* ---- Inside a subsum? ---- */
+/* ---- Inside a part? ---- */
 
 /* cross(b - a, p - a), or 0 where its sign is not certain. Differences are below 2^62 and round once each, products and
  * their difference once more: the error is below 4 ulps of the products' magnitudes. Where coordinates are off by e,
@@ -54,12 +54,12 @@ static bool is_within(const grid *g, const box *b, sunder_i_point p)
 
 /* Is p strictly inside for certain? The fan of triangles around the first corner is searched for the one that holds p,
  * or for the diagonal that it is on, or too near to be told on which side: then for the two triangles beside that. */
-static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
+static bool holds(const grid *g, uint32_t part, sunder_i_point p)
 {
-    const sunder_i_pieces *s = g->subsums;
-    const uint32_t first = sunder_i_pieces_first(s, subsum);
+    const sunder_i_convex_pieces *s = g->parts;
+    const uint32_t first = sunder_i_convex_pieces_first(s, part);
     const sunder_i_point *c = g->corner + first;
-    uint32_t low = 1, high = s->end[subsum] - first - 1;
+    uint32_t low = 1, high = s->end[part] - first - 1;
     if (turn(g, c[0], c[low], p) <= 0 || turn(g, c[0], c[high], p) >= 0) return false;
     while (high - low > 1) {
         const uint32_t middle = (low + high) / 2;
@@ -81,7 +81,7 @@ static bool holds(const grid *g, uint32_t subsum, sunder_i_point p)
  * half a unit where that is rounded. False if memory is out, or if all is next to nothing, where doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
-    const sunder_i_pieces *s = g->subsums;
+    const sunder_i_convex_pieces *s = g->parts;
     g->corner = s->corner;
     if (s->lattice->narrow) return true;
     double most = 0;
@@ -104,9 +104,9 @@ static bool take_corners(grid *g, bool *no_memory)
 
 static void measure(grid *g)
 {
-    const sunder_i_pieces *s = g->subsums;
+    const sunder_i_convex_pieces *s = g->parts;
     for (size_t i = 0; i < s->n; i++) {
-        const uint32_t first = sunder_i_pieces_first(s, i);
+        const uint32_t first = sunder_i_convex_pieces_first(s, i);
         const sunder_i_point a = g->corner[first];
         box b = {{a.x, a.y}, {a.x, a.y}};
         for (uint32_t k = first + 1; k < s->end[i]; k++) {
@@ -136,7 +136,7 @@ static int compare_extents(void *context, uint32_t a, uint32_t b)
 
 static bool order_by_extent(grid *g)
 {
-    const size_t n = g->subsums->n;
+    const size_t n = g->parts->n;
     double *extent = sunder_i_alloc(n, sizeof *extent);
     for (uint32_t i = 0; extent && i < n; i++) {
         const box *r = &g->reach[i];
@@ -148,10 +148,10 @@ static bool order_by_extent(grid *g)
     return ok;
 }
 
-/* Squares about as large as half a subsum, but no more than four for each. */
+/* Squares about as large as half a part, but no more than four for each. */
 static void choose_squares(grid *g)
 {
-    const size_t n = g->subsums->n;
+    const size_t n = g->parts->n;
     double extent = 0;
     for (size_t i = 0; i < n; i++)
         extent +=
@@ -166,23 +166,23 @@ static void choose_squares(grid *g)
     }
 }
 
-/* Calls for each square of a box: counts it in end[], or with `fill` writes the subsum there. */
-static void visit(grid *g, uint32_t subsum, bool fill)
+/* Calls for each square of a box: counts it in end[], or with `fill` writes the part there. */
+static void visit(grid *g, uint32_t part, bool fill)
 {
-    const box *b = &g->reach[subsum];
+    const box *b = &g->reach[part];
     for (uint32_t y = column(g, 1, b->low[1]); y <= column(g, 1, b->high[1]); y++)
         for (uint32_t x = column(g, 0, b->low[0]); x <= column(g, 0, b->high[0]); x++) {
             uint32_t *end = &g->end[(size_t)y * g->size[0] + x];
-            if (fill) g->list[*end] = subsum;
+            if (fill) g->list[*end] = part;
             ++*end;
         }
 }
 
-/* In most layers an entry or two for each square a subsum touches; where a few subsums are far larger than the others
+/* In most layers an entry or two for each square a part touches; where a few parts are far larger than the others
  * the lists would not be worth their room, and *made is false. */
 static bool make_lists(grid *g, bool *made)
 {
-    const uint32_t n = (uint32_t)g->subsums->n;
+    const uint32_t n = (uint32_t)g->parts->n;
     const size_t squares = (size_t)g->size[0] * g->size[1];
     double entries = 0;
     *made = false;
@@ -213,13 +213,13 @@ static bool make_lists(grid *g, bool *made)
 #define NONE UINT32_MAX
 #define LOOKS 1024 /* of one side: those at the front hold most */
 
-static bool holds_both(const grid *g, uint32_t subsum, sunder_i_point a, sunder_i_point b)
+static bool holds_both(const grid *g, uint32_t part, sunder_i_point a, sunder_i_point b)
 {
-    const box *r = &g->reach[subsum];
-    return is_within(g, r, a) && is_within(g, r, b) && holds(g, subsum, b) && holds(g, subsum, a);
+    const box *r = &g->reach[part];
+    return is_within(g, r, a) && is_within(g, r, b) && holds(g, part, b) && holds(g, part, a);
 }
 
-/* A subsum that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
+/* A part that holds the segment ab; NONE if none is found. The one that held the side before is asked first, then those
  * of the square in which the middle lies, the largest first; what is found goes to the front, for what holds one side
  * holds others. */
 static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
@@ -229,25 +229,25 @@ static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_
     const size_t q = (size_t)column(g, 1, middle.y) * g->size[0] + column(g, 0, middle.x);
     const uint32_t from = q ? g->end[q - 1] : 0, n = g->end[q] - from;
     for (uint32_t i = from; i < from + (n < LOOKS ? n : LOOKS); i++) {
-        const uint32_t subsum = g->list[i];
+        const uint32_t part = g->list[i];
         g->spent++;
-        if (subsum == own || !holds_both(g, subsum, a, b)) continue;
+        if (part == own || !holds_both(g, part, a, b)) continue;
         g->list[i] = g->list[from];
-        g->list[from] = subsum;
-        return subsum;
+        g->list[from] = part;
+        return part;
     }
     return NONE;
 }
 
 /* A side that is buried saves some thousand instructions, about what 64 looks cost; where sides are held by several
- * subsums together, not by one, that is noticed soon, and the rest is left to the cells. The smallest subsums come
+ * parts together, not by one, that is noticed soon, and the rest is left to the cells. The smallest parts come
  * first: of features one within the other only the last, which nothing holds, is looked for in vain. */
-static void bury(sunder_i_pieces *s, grid *g)
+static void bury(sunder_i_convex_pieces *s, grid *g)
 {
     g->allowed = 4 * LOOKS + 4 * (size_t)s->n;
     for (size_t left = s->n; left-- > 0 && g->spent < g->allowed && sunder_i_step();) {
         const uint32_t i = g->order[left];
-        const uint32_t first = sunder_i_pieces_first(s, i), end = s->end[i];
+        const uint32_t first = sunder_i_convex_pieces_first(s, i), end = s->end[i];
         uint32_t holder = NONE;
         for (uint32_t k = first; k < end; k++) {
             if (!s->candidate[k]) continue;
@@ -258,18 +258,18 @@ static void bury(sunder_i_pieces *s, grid *g)
     }
 }
 
-sunder_status sunder_i_bury_candidates(sunder_i_pieces *subsums, sunder_error *err)
+sunder_status sunder_i_drop_contained_sides(sunder_i_convex_pieces *parts, sunder_error *err)
 {
-    if (subsums->n == 0) return SUNDER_OK;
-    grid g = {.subsums = subsums,
-              .reach = sunder_i_alloc(subsums->n, sizeof *g.reach),
-              .order = sunder_i_alloc(subsums->n, sizeof *g.order)};
+    if (parts->n == 0) return SUNDER_OK;
+    grid g = {.parts = parts,
+              .reach = sunder_i_alloc(parts->n, sizeof *g.reach),
+              .order = sunder_i_alloc(parts->n, sizeof *g.order)};
     bool no_memory = !g.reach || !g.order, made = false;
     if (!no_memory && take_corners(&g, &no_memory)) {
         measure(&g);
         choose_squares(&g);
         no_memory = !make_lists(&g, &made);
-        if (made) bury(subsums, &g);
+        if (made) bury(parts, &g);
     }
     sunder_i_free(g.rounded);
     sunder_i_free(g.reach);

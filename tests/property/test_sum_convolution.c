@@ -78,7 +78,7 @@ static char *traced_text(const polyset *p, const polyset *q)
     traced->lattice = placed.lattice;
     memset(&placed.lattice, 0, sizeof placed.lattice);
     memcpy(traced->origin, sum->origin, sizeof traced->origin);
-    assert_int_equal(sunder_i_traced_build(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
+    assert_int_equal(sunder_i_convolution_sum(traced, a, placed.p, b, placed.q, &done, NULL), SUNDER_OK);
     if (done)
         text = sum_text(traced);
     else {
@@ -177,8 +177,10 @@ static void test_memory(void **state)
 {
     (void)state;
     polyset operand[2];
-    assert_true(polyset_read_wkt(&operand[0], "POLYGON ((0 -50, 40 -50, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, "
-                                              "18 31, 1 31, 1 30, 0 30), (10 -20, 28 -19, 30 -40, 12 -39))", NULL));
+    assert_true(polyset_read_wkt(&operand[0],
+                                 "POLYGON ((0 -50, 40 -50, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, "
+                                 "18 31, 1 31, 1 30, 0 30), (10 -20, 28 -19, 30 -40, 12 -39))",
+                                 NULL));
     assert_true(polyset_read_wkt(&operand[1], "POLYGON ((-3.125 0.25, 0.375 -4.5, 5.75 0.125, 0.25 3.25))", NULL));
     char *text = traced_text(&operand[0], &operand[1]);
     assert_non_null(text);

@@ -1,8 +1,8 @@
-/* What the files of the cells share: the builder, and questions about boxes. Internal to cells*.c. */
-#ifndef SUNDER_I_CELLS_INNER_H
-#define SUNDER_I_CELLS_INNER_H
+/* What the files of the cells share: the builder, and questions about boxes. Internal to culling*.c. */
+#ifndef SUNDER_I_CULLING_INNER_H
+#define SUNDER_I_CULLING_INNER_H
 
-#include "outline/cells.h"
+#include "outline/culling.h"
 
 #include <math.h>
 
@@ -16,17 +16,17 @@ typedef struct box {
 } box;
 
 typedef struct entry {
-    uint32_t subsum, runs; /* how many entries of the run list are its */
+    uint32_t part, runs; /* how many entries of the run list are its */
 } entry;
 
-/* Consecutive sides of one subsum whose vectors lie in one quadrant: they climb or fall together, so the box of the
+/* Consecutive sides of one part whose vectors lie in one quadrant: they climb or fall together, so the box of the
  * run is that of its ends. Where operands have many sides, as rounded ones do, most questions are answered for a
  * whole run at once; it falls apart where a cell becomes as small as it is. */
 typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
 
 #define LONGEST_RUN 32
 #define RUN_BITS 27  /* where there are more sides than these bits can number, every run is a single side */
-#define FEW_SIDES 16 /* subsums with fewer are listed side by side */
+#define FEW_SIDES 16 /* parts with fewer are listed side by side */
 
 typedef struct cell {
     box b;
@@ -36,7 +36,7 @@ typedef struct cell {
     int axis;     /* to split across */
     double share; /* of the whole work, taking each half as half of its parent's */
     double growth; /* see growth_of() */
-    double trial;  /* the pairs of a line and a subsum of one that is split on trial only; else 0 */
+    double trial;  /* the pairs of a line and a part of one that is split on trial only; else 0 */
 } cell;
 
 /* A cell that is split although its pairs grow: features one within the other, or many that overlap by much, part only
@@ -49,26 +49,26 @@ typedef struct trial {
     double done, spent;
 } trial;
 
-/* A candidate and the part of the box at hand that it may pass through. */
+/* A candidate and what of the box at hand it may pass through. */
 typedef struct crossing {
     uint32_t side, line;
-    box part;
+    box clipped;
 } crossing;
 
-/* Marks of a candidate while the cells are made: it passes through a leaf of several subsums; through one of its
- * own subsum alone; it is, in some cell, not all of its line's story. */
+/* Marks of a candidate while the cells are made: it passes through a leaf of several parts; through one of its
+ * own part alone; it is, in some cell, not all of its line's story. */
 enum { PASSES = 1, ALONE = 2, CONTESTED = 4 };
 
 typedef struct builder {
     run single_most;    /* the greatest number of a single side */
     uint32_t run_shift; /* RUN_BITS, or past the number */
-    const sunder_i_pieces *subsums;
+    const sunder_i_convex_pieces *parts;
     const sunder_i_lines *lines;
     const sunder_sum_options *options;
-    sunder_i_cell_pairs *out;
+    sunder_i_culled *out;
     approx_side *side;
     uint32_t *before; /* [sides + 1] how many candidates there are before each side */
-    box *reach;     /* [subsums] bounding boxes, widened by the error */
+    box *reach;       /* [parts] bounding boxes, widened by the error */
     double error;   /* bound on the distance error of a start point, see filter_subsum() */
     entry *entries; /* lists of all cells on the stack, one after the other */
     size_t entries_n, entries_capacity;
@@ -80,10 +80,10 @@ typedef struct builder {
     size_t stack_n, stack_capacity;
     trial trial;
     uint32_t *stamp;  /* [lines] the last cell that counted the line */
-    uint32_t *single; /* [2 * lines] the last cell with a subsum whose only side is on the line, on either bank */
+    uint32_t *single; /* [2 * lines] the last cell with a part whose only side is on the line, on either bank */
     uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
     int recent_bits;
-    bool *shared;     /* [lines] somewhere one subsum stands for several along the line */
+    bool *shared;     /* [lines] somewhere one part stands for several along the line */
     uint32_t cells;   /* stamps given out */
     double done;      /* share of the work, for progress */
     bool no_memory;
@@ -102,11 +102,11 @@ static inline uint32_t run_end(const builder *b, run r)
 
 static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
-static inline void grow(box *all, const box *part)
+static inline void grow(box *all, const box *by)
 {
     for (int k = 0; k < 2; k++) {
-        all->low[k] = least(all->low[k], part->low[k]);
-        all->high[k] = most_of(all->high[k], part->high[k]);
+        all->low[k] = least(all->low[k], by->low[k]);
+        all->high[k] = most_of(all->high[k], by->high[k]);
     }
 }
 
@@ -128,23 +128,23 @@ static inline bool within(const box *a, const box *b)
     return a->low[0] >= b->low[0] && a->high[0] <= b->high[0] && a->low[1] >= b->low[1] && a->high[1] <= b->high[1];
 }
 
-/* The part of a box that the segment's own box covers; false if there is none. */
-static inline bool clip(const builder *b, const approx_side *s, const box *c, box *part)
+/* What of a box the segment's own box covers; false if there is none. */
+static inline bool clip(const builder *b, const approx_side *s, const box *c, box *clipped)
 {
     const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
-    part->low[0] = most_of(c->low[0], least(s->ax, x2) - e);
-    part->high[0] = least(c->high[0], most_of(s->ax, x2) + e);
-    part->low[1] = most_of(c->low[1], least(s->ay, y2) - e);
-    part->high[1] = least(c->high[1], most_of(s->ay, y2) + e);
-    return part->low[0] <= part->high[0] && part->low[1] <= part->high[1];
+    clipped->low[0] = most_of(c->low[0], least(s->ax, x2) - e);
+    clipped->high[0] = least(c->high[0], most_of(s->ax, x2) + e);
+    clipped->low[1] = most_of(c->low[1], least(s->ay, y2) - e);
+    clipped->high[1] = least(c->high[1], most_of(s->ay, y2) + e);
+    return clipped->low[0] <= clipped->high[0] && clipped->low[1] <= clipped->high[1];
 }
 
-/* ---- cells_root.c ---- */
+/* ---- culling_root.c ---- */
 
-/* Doubles of all sides, and the root: every side of every subsum, the largest first. False if memory is out. */
+/* Doubles of all sides, and the root: every side of every part, the largest first. False if memory is out. */
 bool sunder_i_cells_root(builder *b, cell *root);
 
-/* ---- cells_close.c: what becomes of cells that are not split further ---- */
+/* ---- culling_close.c: what becomes of cells that are not split further ---- */
 
 /* No pair is known to have been pushed. */
 void sunder_i_cells_forget_pairs(builder *b);
@@ -152,7 +152,7 @@ void sunder_i_cells_forget_pairs(builder *b);
 void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c);
 /* The box is inside `one`, or inside `one` and `other` together. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other);
-/* One subsum alone reaches into it. */
+/* One part alone reaches into it. */
 void sunder_i_cells_lone_leaf(builder *b, const cell *c);
 /* Several do; the candidates are gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c);

@@ -1,6 +1,6 @@
-/* The end: which pairs of a line and a subsum come of a cell that is not split further, and which fates of the
+/* The end: which pairs of a line and a part come of a cell that is not split further, and which fates of the
  * candidates. */
-#include "outline/cells_inner.h"
+#include "outline/culling_inner.h"
 
 #include <string.h>
 
@@ -16,15 +16,15 @@ static bool is_known(builder *b, uint64_t pair)
 
 void sunder_i_cells_forget_pairs(builder *b) { memset(b->recent, 0xff, sizeof *b->recent << b->recent_bits); }
 
-static bool push_pair(builder *b, uint32_t line, uint32_t subsum)
+static bool push_pair(builder *b, uint32_t line, uint32_t part)
 {
-    sunder_i_cell_pairs *p = b->out;
-    if (is_known(b, (uint64_t)line << 32 | subsum)) return true;
+    sunder_i_culled *p = b->out;
+    if (is_known(b, (uint64_t)line << 32 | part)) return true;
     if (p->n == p->capacity && !sunder_i_reserve(&p->pair, &p->capacity, p->n + 1, sizeof *p->pair)) {
         b->no_memory = true;
         return false;
     }
-    p->pair[p->n++] = (uint64_t)line << 32 | subsum;
+    p->pair[p->n++] = (uint64_t)line << 32 | part;
     return true;
 }
 
@@ -41,13 +41,13 @@ void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
         if (end - first > 1) {
             const approx_side *s = &b->side[first], *t = &b->side[end - 1];
             const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};
-            box part;
-            if (!clip(b, &whole, c, &part)) continue;
+            box clipped;
+            if (!clip(b, &whole, c, &clipped)) continue;
         }
         for (uint32_t k = first; k < end; k++) {
             if (of[k] == SUNDER_I_NO_LINE) continue;
             crossing *x = &b->crossing[b->crossing_n];
-            if (!clip(b, &b->side[k], c, &x->part)) continue;
+            if (!clip(b, &b->side[k], c, &x->clipped)) continue;
             x->side = k;
             x->line = of[k];
             b->crossing_n++;
@@ -70,14 +70,14 @@ void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t
     }
 }
 
-/* A leaf that one subsum alone reaches into. */
+/* A leaf that one part alone reaches into. */
 void sunder_i_cells_lone_leaf(builder *b, const cell *c)
 {
     sunder_i_cells_gather(b, c->run_from, c->run_to, &c->b);
     for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
 }
 
-/* All pairs of a leaf, but for subsums that are nowhere near the one candidate of a line. The candidates are
+/* All pairs of a leaf, but for parts that are nowhere near the one candidate of a line. The candidates are
  * gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c)
 {
@@ -94,9 +94,9 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
         const bool alone = b->stamp[line] == once;
         b->stamp[line] = pushed;
         for (size_t e = c->entry_from; e < c->entry_to; e++) {
-            const uint32_t subsum = b->entries[e].subsum;
-            if (alone && apart(&b->reach[subsum], &b->crossing[i].part)) continue;
-            if (!push_pair(b, line, subsum)) return;
+            const uint32_t part = b->entries[e].part;
+            if (alone && apart(&b->reach[part], &b->crossing[i].clipped)) continue;
+            if (!push_pair(b, line, part)) return;
         }
     }
 }
@@ -121,13 +121,13 @@ void sunder_i_cells_end_trial(builder *b)
     b->done = t->done + t->of.share;
 }
 
-/* Of the marks the fates. An open candidate is paired with its own subsum, where leaves that it has to itself did
+/* Of the marks the fates. An open candidate is paired with its own part, where leaves that it has to itself did
  * not do so. */
 bool sunder_i_cells_fates(builder *b)
 {
-    const sunder_i_pieces *s = b->subsums;
+    const sunder_i_convex_pieces *s = b->parts;
     for (uint32_t i = 0; i < s->n; i++)
-        for (uint32_t k = sunder_i_pieces_first(s, i); k < s->end[i]; k++) {
+        for (uint32_t k = sunder_i_convex_pieces_first(s, i); k < s->end[i]; k++) {
             uint8_t *fate = &b->out->fate[k];
             if ((*fate & (PASSES | ALONE)) == 0)
                 *fate = SUNDER_I_COVERED;
