@@ -1,3 +1,4 @@
+/* The allocation hooks, growing arrays, and arenas: chunks of memory, each twice as large as the one before. */
 #include "base/memory.h"
 
 #include "base/watch.h"
@@ -53,19 +54,28 @@ void sunder_i_free(void *memory)
     if (memory) hook_free(memory);
 }
 
+/* So many elements for at least `need`, which is more than the capacity: doubled; 0 if there cannot be so many. A first
+ * capacity that was worked out is kept to. */
+static size_t grown(size_t capacity, size_t need)
+{
+    size_t want = capacity ? capacity : need > 16 ? need : 16;
+    while (want < need) {
+        if (want > SIZE_MAX / 4) return 0;
+        want *= 2;
+    }
+    return want;
+}
+
 bool sunder_i_reserve(void *array, size_t *capacity, size_t need, size_t size)
 {
     if (need <= *capacity) return true;
-    size_t want = *capacity ? *capacity : need > 16 ? need : 16; /* a first size that was worked out is kept to */
-    while (want < need) {
-        if (want > SIZE_MAX / 4) return false;
-        want *= 2;
-    }
+    const size_t want = grown(*capacity, need);
+    if (want == 0) return false;
     void *old;
     memcpy(&old, array, sizeof old);
-    void *grown = sunder_i_realloc(old, want, size);
-    if (!grown) return false;
-    memcpy(array, &grown, sizeof grown);
+    void *fresh = sunder_i_realloc(old, want, size);
+    if (!fresh) return false;
+    memcpy(array, &fresh, sizeof fresh);
     *capacity = want;
     return true;
 }
@@ -126,6 +136,19 @@ void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
     void *p = arena->chunk->data + arena->chunk->used;
     arena->chunk->used += b;
     return p;
+}
+
+bool sunder_i_arena_reserve(sunder_i_arena *arena, void *array, size_t *capacity, size_t need, size_t size)
+{
+    if (need <= *capacity) return true;
+    const size_t want = grown(*capacity, need);
+    void *old, *fresh = want ? sunder_i_arena_alloc(arena, want, size) : NULL;
+    if (!fresh) return false;
+    memcpy(&old, array, sizeof old);
+    if (*capacity) memcpy(fresh, old, *capacity * size);
+    memcpy(array, &fresh, sizeof fresh);
+    *capacity = want;
+    return true;
 }
 
 sunder_i_mark sunder_i_arena_mark(const sunder_i_arena *arena)

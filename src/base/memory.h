@@ -42,6 +42,8 @@ void sunder_i_arena_init_on(sunder_i_arena *arena, void *memory, size_t bytes);
 /* n * size bytes, 16-byte aligned, uninitialised, alive until the arena is freed or released past here; NULL if it
  * failed. */
 void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size);
+/* sunder_i_reserve() in an arena, where what has been outgrown stays. */
+bool sunder_i_arena_reserve(sunder_i_arena *arena, void *array, size_t *capacity, size_t need, size_t size);
 sunder_i_mark sunder_i_arena_mark(const sunder_i_arena *arena);
 void sunder_i_arena_release(sunder_i_arena *arena, sunder_i_mark mark);
 void sunder_i_arena_free(sunder_i_arena *arena);

@@ -10,6 +10,7 @@
  * more than 256 significant ones, and paths still equal are compared as sequences of places. */
 #include "motion/search.h"
 
+#include "base/heap.h"
 #include "motion/view.h"
 
 #include <math.h>
@@ -63,8 +64,10 @@ static const sunder_i_place_at *place_of(const search *s, uint32_t node)
 
 /* ---- The queue ---- */
 
-static bool before(const edge *a, const edge *b)
+/* A total order. */
+static bool before(const void *x, const void *y)
 {
+    const edge *a = x, *b = y;
     if (a->key != b->key) return a->key < b->key;
     return a->from != b->from ? a->from < b->from : a->to < b->to;
 }
@@ -76,24 +79,13 @@ static void push(search *s, edge e)
         s->no_memory = true;
         return;
     }
-    size_t i = s->heap_n++;
-    for (; i && before(&e, &s->heap[(i - 1) / 2]); i = (i - 1) / 2) s->heap[i] = s->heap[(i - 1) / 2];
-    s->heap[i] = e;
+    sunder_i_heap_push(s->heap, &s->heap_n, sizeof e, &e, before);
 }
 
 static edge pop(search *s)
 {
-    const edge top = s->heap[0], last = s->heap[--s->heap_n];
-    size_t i = 0;
-    for (;;) {
-        size_t k = 2 * i + 1;
-        if (k >= s->heap_n) break;
-        if (k + 1 < s->heap_n && before(&s->heap[k + 1], &s->heap[k])) k++;
-        if (!before(&s->heap[k], &last)) break;
-        s->heap[i] = s->heap[k];
-        i = k;
-    }
-    if (s->heap_n) s->heap[i] = last;
+    edge top;
+    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, before);
     return top;
 }
 

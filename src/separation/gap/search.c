@@ -10,6 +10,7 @@
  * Where the nearest point is irrational, a rational one beside it is given (rational.c). */
 #include "separation/gap/search.h"
 
+#include "base/heap.h"
 #include "base/invariant.h"
 
 #include <float.h>
@@ -17,58 +18,35 @@
 
 /* ---- The heap ---- */
 
+/* By length alone; of equals the heap says which comes first (base/heap.h). */
+static bool before(const void *a, const void *b)
+{
+    return ((const sunder_i_gap_item *)a)->key < ((const sunder_i_gap_item *)b)->key;
+}
+
 static void push_item(sunder_i_gap_state *s, sunder_i_gap_item v)
 {
     if (v.key > s->best) return;
-    if (s->heap_n == s->heap_capacity) {
-        const size_t capacity = s->heap_capacity ? 2 * s->heap_capacity : 64;
-        sunder_i_gap_item *grown = sunder_i_arena_alloc(&s->g->placed.lattice.arena, capacity, sizeof *grown);
-        if (!grown) {
-            s->failed = true;
-            return;
-        }
-        for (size_t i = 0; i < s->heap_n; i++) grown[i] = s->heap[i];
-        s->heap = grown;
-        s->heap_capacity = capacity;
-    }
-    size_t i = s->heap_n++;
-    while (i > 0 && s->heap[(i - 1) / 2].key > v.key) {
-        s->heap[i] = s->heap[(i - 1) / 2];
-        i = (i - 1) / 2;
-    }
-    s->heap[i] = v;
+    if (!sunder_i_arena_reserve(&s->g->placed.lattice.arena, &s->heap, &s->heap_capacity, s->heap_n + 1, sizeof v))
+        s->failed = true;
+    else
+        sunder_i_heap_push(s->heap, &s->heap_n, sizeof v, &v, before);
 }
 
 static sunder_i_gap_item pop_item(sunder_i_gap_state *s)
 {
-    SUNDER_I_ASSERT(s->heap_n > 0);
-    const sunder_i_gap_item top = s->heap[0], last = s->heap[--s->heap_n];
-    size_t i = 0;
-    for (;;) {
-        size_t k = 2 * i + 1;
-        if (k >= s->heap_n) break;
-        if (k + 1 < s->heap_n && s->heap[k + 1].key < s->heap[k].key) k++;
-        if (last.key <= s->heap[k].key) break;
-        s->heap[i] = s->heap[k];
-        i = k;
-    }
-    s->heap[i] = last;
+    sunder_i_gap_item top;
+    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, before);
     return top;
 }
 
 void sunder_i_gap_push(sunder_i_gap_state *s, double key, const sunder_i_gap_point *p)
 {
     if (key > s->best) return;
-    if (s->points_n == s->points_capacity) {
-        const size_t capacity = s->points_capacity ? 2 * s->points_capacity : 16;
-        sunder_i_gap_point *grown = sunder_i_arena_alloc(&s->g->placed.lattice.arena, capacity, sizeof *grown);
-        if (!grown) {
-            s->failed = true;
-            return;
-        }
-        for (size_t i = 0; i < s->points_n; i++) grown[i] = s->points[i];
-        s->points = grown;
-        s->points_capacity = capacity;
+    if (!sunder_i_arena_reserve(&s->g->placed.lattice.arena, &s->points, &s->points_capacity, s->points_n + 1,
+                                sizeof *p)) {
+        s->failed = true;
+        return;
     }
     s->points[s->points_n] = *p;
     push_item(s, (sunder_i_gap_item){key > 0 ? key : 0, SUNDER_I_GAP_POINT, s->points_n++});

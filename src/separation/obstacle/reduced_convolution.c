@@ -7,6 +7,7 @@
  * them covers is covered: each is asked for itself. Diagonals of the decomposition lie inside an operand, so what they
  * would carry is covered. */
 #include "separation/obstacle/reduced_convolution.h"
+#include "base/heap.h"
 #include "base/watch.h"
 #include "separation/obstacle/board.h"
 #include "separation/obstacle/cones.h"
@@ -15,14 +16,7 @@
 
 bool sunder_i_candidates_push(sunder_i_operands *g, sunder_i_candidates *h, sunder_i_candidate c)
 {
-    if (h->n == h->capacity) {
-        const size_t capacity = h->capacity ? 2 * h->capacity : 64;
-        sunder_i_candidate *item = sunder_i_arena_alloc(&g->placed.lattice.arena, capacity, sizeof *item);
-        if (!item) return false;
-        for (size_t i = 0; i < h->n; i++) item[i] = h->item[i];
-        h->item = item;
-        h->capacity = capacity;
-    }
+    if (!sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + 1, sizeof c)) return false;
     h->item[h->n++] = c;
     return true;
 }
@@ -71,23 +65,15 @@ static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *c, 
     return true;
 }
 
-static void sink(sunder_i_candidates *h, size_t i)
+static bool before(const void *a, const void *b)
 {
-    const sunder_i_candidate c = h->item[i];
-    for (;;) {
-        size_t k = 2 * i + 1;
-        if (k >= h->n) break;
-        if (k + 1 < h->n && h->item[k + 1].square < h->item[k].square) k++;
-        if (c.square <= h->item[k].square) break;
-        h->item[i] = h->item[k];
-        i = k;
-    }
-    h->item[i] = c;
+    return ((const sunder_i_candidate *)a)->square < ((const sunder_i_candidate *)b)->square;
 }
 
 void sunder_i_candidates_order(sunder_i_candidates *h)
 {
-    for (size_t i = h->n / 2; i-- > 0;) sink(h, i);
+    sunder_i_candidate scratch;
+    sunder_i_heap_make(h->item, h->n, sizeof scratch, &scratch, before);
 }
 
 bool sunder_i_candidates_find(sunder_i_operands *g, double limit, sunder_i_candidates *h)
@@ -102,9 +88,8 @@ bool sunder_i_candidates_find(sunder_i_operands *g, double limit, sunder_i_candi
 
 sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *h)
 {
-    const sunder_i_candidate top = h->item[0];
-    h->item[0] = h->item[--h->n];
-    if (h->n) sink(h, 0);
+    sunder_i_candidate top;
+    sunder_i_heap_pop(h->item, &h->n, sizeof top, &top, before);
     return top;
 }
 

@@ -11,9 +11,10 @@
  * All in doubles or floats and one-sided: held is certain, and a pair that is not listed stays off by more than the
  * error. */
 #include "separation/squares/squares_inner.h"
-#include "separation/squares/tuning.h"
 
+#include "base/heap.h"
 #include "base/watch.h"
+#include "separation/squares/tuning.h"
 
 #include <math.h>
 #include <string.h>
@@ -76,24 +77,16 @@ static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
     return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
 }
 
-static void sink_node(sunder_i_squares *q, sunder_i_node_pair v)
+static bool before(const void *a, const void *b)
 {
-    size_t i = 0;
-    for (size_t k = 1; k < q->nodes; i = k, k = 2 * k + 1) {
-        if (k + 1 < q->nodes && q->node[k + 1].key > q->node[k].key) k++;
-        if (v.key >= q->node[k].key) break;
-        q->node[i] = q->node[k];
-    }
-    q->node[i] = v;
+    return ((const sunder_i_node_pair *)a)->key > ((const sunder_i_node_pair *)b)->key;
 }
 
 static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
 {
     if (!sunder_i_reserve(&q->node, &q->nodes_capacity, q->nodes + 1, sizeof *q->node)) return false;
     if (v.node[0] >= q->bodies[0].all.leaves && v.node[1] >= q->bodies[1].all.leaves) return true; /* none below */
-    size_t i = q->nodes++;
-    for (; i > 0 && q->node[(i - 1) / 2].key < v.key; i = (i - 1) / 2) q->node[i] = q->node[(i - 1) / 2];
-    q->node[i] = v;
+    sunder_i_heap_push(q->node, &q->nodes, sizeof v, &v, before);
     return true;
 }
 
@@ -146,8 +139,8 @@ static sunder_i_holding search_nodes(sunder_i_squares *q, const uint32_t first[2
     if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_HOLDING_NO_MEMORY;
     if (!push_node(q, all)) return SUNDER_I_HOLDING_NO_MEMORY;
     while (q->nodes) {
-        const sunder_i_node_pair top = q->node[0], last = q->node[--q->nodes];
-        if (q->nodes) sink_node(q, last);
+        sunder_i_node_pair top;
+        sunder_i_heap_pop(q->node, &q->nodes, sizeof top, &top, before);
         const sunder_i_holding how = open_pair(q, &top);
         if (how != SUNDER_I_HOLDING_NONE) return how;
         if (!sunder_i_step()) return SUNDER_I_HOLDING_NO_MEMORY;

@@ -5,6 +5,7 @@
 #include "separation/squares/squares_inner.h"
 #include "separation/squares/tuning.h"
 
+#include "base/heap.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -12,26 +13,23 @@
 
 /* ---- The heap ---- */
 
+static bool before(const void *a, const void *b)
+{
+    return ((const sunder_i_square *)a)->distance < ((const sunder_i_square *)b)->distance;
+}
+
 static bool push(sunder_i_squares *q, sunder_i_square s)
 {
     if (!sunder_i_reserve(&q->heap, &q->capacity, q->n + 1, sizeof *q->heap)) return false;
-    size_t i = q->n++;
-    for (; i > 0 && q->heap[(i - 1) / 2].distance > s.distance; i = (i - 1) / 2) q->heap[i] = q->heap[(i - 1) / 2];
-    q->heap[i] = s;
+    sunder_i_heap_push(q->heap, &q->n, sizeof s, &s, before);
     return true;
 }
 
 sunder_i_square sunder_i_squares_first(sunder_i_squares *q)
 {
-    const sunder_i_square top = q->heap[0], last = q->heap[--q->n];
+    sunder_i_square top;
     q->seen++;
-    size_t i = 0;
-    for (size_t k = 1; k < q->n; i = k, k = 2 * k + 1) {
-        if (k + 1 < q->n && q->heap[k + 1].distance < q->heap[k].distance) k++;
-        if (last.distance <= q->heap[k].distance) break;
-        q->heap[i] = q->heap[k];
-    }
-    q->heap[i] = last;
+    sunder_i_heap_pop(q->heap, &q->n, sizeof top, &top, before);
     return top;
 }
 

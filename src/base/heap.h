@@ -1,0 +1,70 @@
+/* A binary heap in an array: what comes before all others stands first, and an item never comes before the one at half
+ * its place.
+ *
+ * Which of equal items comes out first is part of the contract, since what a search happens upon may depend on it: a new
+ * item climbs past those that it comes before, and past no equals; one that sinks goes below the right child where that
+ * comes before the left one, else the left, and stops above its equals. An order in which no two items are equal leaves
+ * nothing to that.
+ *
+ * Items have any size; the functions are inlined where size and order are known, so that they cost what a heap written
+ * by hand would. */
+#ifndef SUNDER_I_HEAP_H
+#define SUNDER_I_HEAP_H
+
+#include "base/invariant.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+/* Does a come before b? A strict weak order. */
+typedef bool (*sunder_i_before)(const void *a, const void *b);
+
+#define SUNDER_I_INLINE static inline __attribute__((always_inline))
+
+/* Puts an item of its own, v, at place i of n or above. */
+SUNDER_I_INLINE void sunder_i_heap_climb(void *heap, size_t i, size_t size, const void *v, sunder_i_before before)
+{
+    unsigned char *at = heap;
+    for (; i > 0 && before(v, at + (i - 1) / 2 * size); i = (i - 1) / 2)
+        memcpy(at + i * size, at + (i - 1) / 2 * size, size);
+    memcpy(at + i * size, v, size);
+}
+
+/* Puts v at place i of n or below. */
+SUNDER_I_INLINE void sunder_i_heap_sink(void *heap, size_t n, size_t i, size_t size, const void *v,
+                                        sunder_i_before before)
+{
+    unsigned char *at = heap;
+    for (size_t k = 2 * i + 1; k < n; i = k, k = 2 * k + 1) {
+        if (k + 1 < n && before(at + (k + 1) * size, at + k * size)) k++;
+        if (!before(at + k * size, v)) break;
+        memcpy(at + i * size, at + k * size, size);
+    }
+    memcpy(at + i * size, v, size);
+}
+
+/* Adds v to the n items; there is room. */
+SUNDER_I_INLINE void sunder_i_heap_push(void *heap, size_t *n, size_t size, const void *v, sunder_i_before before)
+{
+    sunder_i_heap_climb(heap, (*n)++, size, v, before);
+}
+
+/* Takes the first of n > 0 items out, to *first. */
+SUNDER_I_INLINE void sunder_i_heap_pop(void *heap, size_t *n, size_t size, void *first, sunder_i_before before)
+{
+    SUNDER_I_ASSERT(*n > 0);
+    memcpy(first, heap, size);
+    if (--*n) sunder_i_heap_sink(heap, *n, 0, size, (unsigned char *)heap + *n * size, before);
+}
+
+/* Makes a heap of n items in any order. scratch: room for one of them. */
+SUNDER_I_INLINE void sunder_i_heap_make(void *heap, size_t n, size_t size, void *scratch, sunder_i_before before)
+{
+    for (size_t i = n / 2; i-- > 0;) {
+        memcpy(scratch, (unsigned char *)heap + i * size, size);
+        sunder_i_heap_sink(heap, n, i, size, scratch, before);
+    }
+}
+
+#endif
