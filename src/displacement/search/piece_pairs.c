@@ -175,3 +175,32 @@ size_t sunder_i_search_obstacle(sunder_i_search *s, const sunder_i_piece_pair *p
     if (n == 0) s->failed = true;
     return n;
 }
+
+/* ---- What they miss ---------------------------------------------------------------------------------------------- */
+
+typedef struct missing {
+    const double *u;
+    double worst;
+} missing;
+
+static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    missing *m = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (edge) m->worst = fmax(m->worst, gap - sunder_i_support_at(edge, n, m->u).distance);
+}
+
+double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)
+{
+    missing m = {u, 0};
+    double shift;
+    *yields = false;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
+    if (m.worst <= s->tolerance || !sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift)) return m.worst;
+    *yields = true;
+    m.worst = 0;
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, true, measure_part, &m);
+    return m.worst;
+}

@@ -115,10 +115,11 @@ size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pa
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
                                                     double *gap);
 
-/* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
-
 /* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
+
+/* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
+
 /* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
  * a limit of moves too. */
 double sunder_i_search_look(sunder_i_search *search, const double *t);
