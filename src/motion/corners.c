@@ -1,16 +1,10 @@
-/* Components: stretches of the outline join the vertices at their ends, since the outline belongs to free space. That
- * gives curves; two curves belong together when they bound one face of free space. From the smallest vertex of each
- * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way
- * there is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come
- * outside. Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can
- * be reached is decided exactly, and reaching a farther one would not be wrong. */
+/* Nodes: vertices of the outline at which a shortest path can bend. In a plain corner two stretches meet, with O on one
+ * side, and a path bends there only round O: so it is one if O is convex there. Where several stretches meet, where a
+ * degenerate one ends or joins others, paths may bend in any way; along a degenerate line they bend where it does. */
 #include "motion/corners.h"
 
-#include "base/union_find.h"
 #include "outline/coverage.h"
-#include "spatial/strips.h"
 
-#include <math.h>
 #include <string.h>
 
 void sunder_i_corners_free(sunder_i_corners *c)
@@ -22,19 +16,12 @@ void sunder_i_corners_free(sunder_i_corners *c)
     memset(c, 0, sizeof *c);
 }
 
-bool sunder_i_corners_connected(sunder_i_corners *c, uint32_t a, uint32_t b)
-{
-    return sunder_i_union_find(c->parent, a) == sunder_i_union_find(c->parent, b);
-}
-
-/* ---- Nodes ---- */
-
 /* How many stretches end at a vertex, and how many of them have O on both banks. */
 typedef struct degree {
     uint32_t all, degenerate;
 } degree;
 
-static void count_degrees(const sunder_i_space *s, sunder_i_corners *c, degree *d)
+static void count_degrees(const sunder_i_free_space *s, sunder_i_corners *c, degree *d)
 {
     const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
     for (size_t i = 0; i < s->stretches; i++) {
@@ -47,26 +34,26 @@ static void count_degrees(const sunder_i_space *s, sunder_i_corners *c, degree *
         /* With O on the left; degenerate stretches fill whichever place is empty. */
         const bool turned = e->banks == SUNDER_I_BANK_RIGHT;
         const uint32_t u = end[turned], v = end[!turned];
-        c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_PLACE_AT ? 0 : 1] = v;
-        c->beside[v][e->banks == both && c->beside[v][0] != SUNDER_I_NO_PLACE_AT ? 1 : 0] = u;
+        c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_VERTEX ? 0 : 1] = v;
+        c->beside[v][e->banks == both && c->beside[v][0] != SUNDER_I_NO_VERTEX ? 1 : 0] = u;
     }
 }
 
-static bool is_node(const sunder_i_space *s, const sunder_i_corners *c, uint32_t v, const degree *d)
+static bool is_node(const sunder_i_free_space *s, const sunder_i_corners *c, uint32_t v, const degree *d)
 {
     if (d->all == 0) return false; /* a degenerate point: no way leads there */
     if (d->all != 2 || d->degenerate == 1) return true;
     const int turn =
-        sunder_i_place_orient(&s->ground, &c->place[c->beside[v][0]], &c->place[v], &c->place[c->beside[v][1]]);
+        sunder_i_filtered_orient(&s->filter, &c->place[c->beside[v][0]], &c->place[v], &c->place[c->beside[v][1]]);
     return d->degenerate ? turn != 0 : turn > 0;
 }
 
-static bool is_same(const sunder_i_space *s, const sunder_i_corners *c, uint32_t u, uint32_t v)
+static bool is_same(const sunder_i_free_space *s, const sunder_i_corners *c, uint32_t u, uint32_t v)
 {
-    return sunder_i_place_cmp(&s->ground, &c->place[u], &c->place[v]) == 0;
+    return sunder_i_filtered_cmp(&s->filter, &c->place[u], &c->place[v]) == 0;
 }
 
-static bool find_nodes(const sunder_i_space *s, sunder_i_corners *c)
+static bool find_nodes(const sunder_i_free_space *s, sunder_i_corners *c)
 {
     degree *d = sunder_i_calloc(c->vertices, sizeof *d);
     if (!d) return false;
@@ -75,130 +62,12 @@ static bool find_nodes(const sunder_i_space *s, sunder_i_corners *c)
         /* A vertex where the path starts or ends would only repeat it. */
         if (is_node(s, c, v, &d[v]) && !is_same(s, c, v, c->vertices) && !is_same(s, c, v, c->vertices + 1))
             c->node[c->nodes++] = v;
-        if (d[v].all != 2 || d[v].degenerate) c->beside[v][0] = c->beside[v][1] = SUNDER_I_NO_PLACE_AT;
+        if (d[v].all != 2 || d[v].degenerate) c->beside[v][0] = c->beside[v][1] = SUNDER_I_NO_VERTEX;
     }
     sunder_i_free(d);
     c->node[c->nodes++] = c->vertices;
     c->node[c->nodes++] = c->vertices + 1;
     return true;
-}
-
-/* ---- Rays ---- */
-
-/* Where the horizontal through v meets the line of a stretch ab that reaches its height and is not horizontal. */
-static sunder_i_place_at meeting(sunder_i_lattice *l, const sunder_i_place_at *v, const sunder_i_place_at *a,
-                                 const sunder_i_place_at *b)
-{
-    sunder_i_arena *m = &l->arena;
-    const sunder_i_rational_point rise = sunder_i_rational_sub(m, v->at, a->at);
-    sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
-    if (sunder_i_big_sign(d.y) < 0) d = sunder_i_rational_neg(d);
-    /* a + (rise.y / d.y) d; d's own denominator drops out. */
-    const sunder_i_rational_point along = {sunder_i_big_mul(m, rise.y, d.x), sunder_i_big_mul(m, rise.y, d.y),
-                                           sunder_i_big_mul(m, rise.w, d.y)};
-    return sunder_i_place_make(l, sunder_i_rational_add(m, a->at, along));
-}
-
-/* Between which x the stretch meets the horizontal through v, in doubles; false if it does not reach its height. */
-static bool range_at(const sunder_i_space *s, const sunder_i_place_at *v, const sunder_i_place_at *a,
-                     const sunder_i_place_at *b, double x[2])
-{
-    const double e = 2 * s->ground.error;
-    if ((a->ay < v->ay - e && b->ay < v->ay - e) || (a->ay > v->ay + e && b->ay > v->ay + e)) return false;
-    const double low = fmin(a->ax, b->ax) - e, high = fmax(a->ax, b->ax) + e;
-    if (low > v->ax + e) return false;
-    if (sunder_i_place_cmp_y(&s->ground, a, v) * sunder_i_place_cmp_y(&s->ground, b, v) > 0) return false;
-    const double dx = b->ax - a->ax, dy = b->ay - a->ay;
-    x[0] = low;
-    x[1] = high;
-    if (fabs(dy) <= 4 * e) return true;
-    /* Height is off by e, so x by e times the slope; and what rounds. */
-    const double at = a->ax + dx * ((v->ay - a->ay) / dy);
-    const double off = 4 * e * (1 + fabs(dx / dy)) + 0x1p-48 * fabs(dx);
-    x[0] = fmax(low, at - off);
-    x[1] = fmin(high, at + off);
-    return true;
-}
-
-/* The place on the stretch, at the height of v and not right of it; false if there is none. */
-static bool meet_left(const sunder_i_space *s, const sunder_i_place_at *v, const sunder_i_place_at *a,
-                      const sunder_i_place_at *b, sunder_i_place_at *hit)
-{
-    const sunder_i_ground *g = &s->ground;
-    if (sunder_i_place_cmp_y(g, a, v) == 0 && sunder_i_place_cmp_y(g, b, v) == 0) {
-        const bool a_first = sunder_i_place_cmp_x(g, a, b) < 0;
-        const sunder_i_place_at *right = a_first ? b : a, *left = a_first ? a : b;
-        if (sunder_i_place_cmp_x(g, left, v) > 0) return false;
-        *hit = sunder_i_place_cmp_x(g, right, v) > 0 ? *v : *right; /* v itself lies on it */
-        return true;
-    }
-    *hit = meeting(g->lattice, v, a, b);
-    return sunder_i_place_cmp_x(g, hit, v) <= 0;
-}
-
-/* Stretches by height, with room for the error of theirs and of the height that is asked for. */
-static bool make_strips(const sunder_i_space *s, const sunder_i_corners *c, sunder_i_strips *out)
-{
-    double(*span)[2] = sunder_i_alloc(s->stretches, sizeof *span);
-    memset(out, 0, sizeof *out);
-    if (!span) return false;
-    const double e = 4 * s->ground.error;
-    for (size_t i = 0; i < s->stretches; i++) {
-        const double a = c->place[s->stretch[i].from].ay, b = c->place[s->stretch[i].to].ay;
-        span[i][0] = fmin(a, b) - e;
-        span[i][1] = fmax(a, b) + e;
-    }
-    const bool ok = sunder_i_strips_build(out, (const double(*)[2])span, s->stretches);
-    sunder_i_free(span);
-    return ok;
-}
-
-/* Joins v with what it reaches on its left. Stretches whose vertices have the root `own` are not looked at. */
-static void shoot(const sunder_i_space *s, sunder_i_corners *c, const sunder_i_strips *t, uint32_t v,
-                  const uint32_t *curve, uint32_t own)
-{
-    const sunder_i_place_at *p = &c->place[v];
-    size_t from, to;
-    sunder_i_strips_at(t, p->ay, &from, &to);
-    double nearest = -INFINITY, x[2];
-    bool any = false;
-    for (int round = 0; round < 2; round++)
-        for (size_t i = from; i < to; i++) {
-            const sunder_i_outline_stretch *e = &s->stretch[t->item[i]];
-            const sunder_i_place_at *a = &c->place[e->from], *b = &c->place[e->to];
-            if (curve[e->from] == own || !range_at(s, p, a, b, x) || x[0] > p->ax + 2 * s->ground.error) continue;
-            if (round == 0) {
-                if (x[1] < p->ax - 2 * s->ground.error) nearest = fmax(nearest, x[0]);
-                continue;
-            }
-            sunder_i_place_at hit;
-            if (x[1] < nearest || !meet_left(s, p, a, b, &hit)) continue;
-            any = true;
-            if (sunder_i_space_is_free(s, &hit, p, false, NULL)) sunder_i_union_join(c->parent, v, e->from);
-        }
-    if (!any) sunder_i_union_join(c->parent, v, c->vertices + 2);
-}
-
-static bool find_components(const sunder_i_space *s, sunder_i_corners *c)
-{
-    uint32_t *curve = sunder_i_alloc(c->vertices, sizeof *curve), *least = sunder_i_alloc(c->vertices, sizeof *least);
-    sunder_i_strips t;
-    const bool ok = make_strips(s, c, &t) && curve && least;
-    sunder_i_union_init(c->parent, (size_t)c->vertices + 3);
-    for (size_t i = 0; i < s->stretches; i++) sunder_i_union_join(c->parent, s->stretch[i].from, s->stretch[i].to);
-    for (uint32_t v = 0; ok && v < c->vertices; v++) {
-        const uint32_t r = curve[v] = sunder_i_union_find(c->parent, v);
-        /* A root is the least number of its tree, so it comes first. */
-        if (r == v || sunder_i_place_cmp(&s->ground, &c->place[v], &c->place[least[r]]) < 0) least[r] = v;
-    }
-    /* Points without stretches are degenerate: no way leads there, and a ray from them goes nowhere. */
-    for (uint32_t v = 0; ok && v < c->vertices; v++)
-        if (curve[v] == v) shoot(s, c, &t, least[v], curve, v);
-    for (uint32_t v = c->vertices; ok && v < c->vertices + 2; v++) shoot(s, c, &t, v, curve, SUNDER_I_NO_PLACE_AT);
-    sunder_i_free(curve);
-    sunder_i_free(least);
-    sunder_i_strips_free(&t);
-    return ok;
 }
 
 /* Nodes that no way leads to from the start are none. */
@@ -211,8 +80,8 @@ static void keep_reachable(sunder_i_corners *c)
     c->nodes = n;
 }
 
-sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_place_at *start,
-                                    const sunder_i_place_at *goal, sunder_i_corners *out, sunder_error *err)
+sunder_status sunder_i_corners_find(const sunder_i_free_space *s, const sunder_i_filtered_point *start,
+                                    const sunder_i_filtered_point *goal, sunder_i_corners *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     const uint32_t n = out->vertices = s->sum->vertices;
@@ -223,12 +92,12 @@ sunder_status sunder_i_corners_find(const sunder_i_space *s, const sunder_i_plac
     bool ok = out->place && out->beside && out->node && out->parent;
     if (ok) {
         for (uint32_t v = 0; v < n; v++)
-            out->place[v] = sunder_i_place_of_vertex(s->ground.lattice, &s->sum->vertex[v]);
+            out->place[v] = sunder_i_filtered_of_vertex(s->filter.lattice, &s->sum->vertex[v]);
         out->place[n] = *start;
         out->place[n + 1] = *goal;
         memset(out->beside, 0xff, ((size_t)n + 2) * sizeof *out->beside);
-        ok = !s->ground.lattice->arena.failed && find_nodes(s, out) && find_components(s, out) &&
-             !s->ground.lattice->arena.failed;
+        ok = !s->filter.lattice->arena.failed && find_nodes(s, out) && sunder_i_components_find(s, out) &&
+             !s->filter.lattice->arena.failed;
     }
     if (ok) {
         keep_reachable(out);

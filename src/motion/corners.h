@@ -6,25 +6,29 @@
 #ifndef SUNDER_I_CORNERS_H
 #define SUNDER_I_CORNERS_H
 
-#include "motion/space.h"
+#include "motion/free_space.h"
 
-#define SUNDER_I_NO_PLACE_AT UINT32_MAX
+#define SUNDER_I_NO_VERTEX UINT32_MAX
 
 typedef struct sunder_i_corners {
-    uint32_t vertices;        /* of the outline; start is place `vertices`, goal the next */
-    sunder_i_place_at *place; /* [vertices + 2] */
-    uint32_t (*beside)[2];    /* [vertices + 2] of a plain corner, the vertices before and after it with O on the left;
-                                 else NO_PLACE_AT */
-    uint32_t *node;           /* places where a path from the start can bend, then start, then goal */
+    uint32_t vertices;              /* of the outline; start is place `vertices`, goal the next */
+    sunder_i_filtered_point *place; /* [vertices + 2] */
+    uint32_t (*beside)[2]; /* [vertices + 2] of a plain corner, the vertices before and after it with O on the left;
+                              else NO_VERTEX */
+    uint32_t *node;        /* places where a path from the start can bend, then start, then goal */
     uint32_t nodes;
     uint32_t *parent; /* [vertices + 3] free space's components, as a forest; the last is what lies outside */
 } sunder_i_corners;
 
 /* Takes start and goal, which are free, into account. Fails with SUNDER_ENOMEM. */
-sunder_status sunder_i_corners_find(const sunder_i_space *space, const sunder_i_place_at *start,
-                                    const sunder_i_place_at *goal, sunder_i_corners *out, sunder_error *err);
+sunder_status sunder_i_corners_find(const sunder_i_free_space *space, const sunder_i_filtered_point *start,
+                                    const sunder_i_filtered_point *goal, sunder_i_corners *out, sunder_error *err);
 void sunder_i_corners_free(sunder_i_corners *corners);
 
+/* ---- Components (components.c) ---- */
+
+/* Joins what hangs together, into `parent`. False if memory is out. */
+bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners *corners);
 /* Do two places lie in one component of free space? */
 bool sunder_i_corners_connected(sunder_i_corners *corners, uint32_t a, uint32_t b);
 

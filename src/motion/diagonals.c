@@ -1,3 +1,6 @@
+/* A diagonal is a side of two pieces that is no edge of the shape. Sides are sorted by their two ends, and equal ones
+ * stand together; the corner after each side shows on which side of the diagonal its piece lies. How much finer the
+ * lattice must be is seen from the lengths: p = m + (w - m) / 2^j is near enough if |w - m| / 2^j <= |uv| / 4. */
 #include "motion/diagonals.h"
 
 #include "base/sort.h"
@@ -40,7 +43,7 @@ static size_t inner_sides(const sunder_shape *shape, side *out)
 /* ---- How fine ---- */
 
 /* The exponent e of |b - a| < 2^e, and >= 2^(e - 1) but for rounding; doubles of any size, overflow kept off. */
-static int span(const double *a, const double *b)
+static int size_of(const double *a, const double *b)
 {
     int e;
     const double d = hypot(b[0] / 4 - a[0] / 4, b[1] / 4 - a[1] / 4);
@@ -52,10 +55,10 @@ static int span(const double *a, const double *b)
 static unsigned bits_of(const double *xy, const uint32_t corner[4])
 {
     const double *u = xy + 2 * (size_t)corner[0], *v = xy + 2 * (size_t)corner[2];
-    int most = span(u, v);
+    int most = size_of(u, v);
     const int least = most;
     for (int k = 1; k < 4; k += 2) {
-        const int far = span(u, xy + 2 * (size_t)corner[k]);
+        const int far = size_of(u, xy + 2 * (size_t)corner[k]);
         if (far > most) most = far;
     }
     return (unsigned)(most - least) + 6;

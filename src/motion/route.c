@@ -1,5 +1,5 @@
 /* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
-#include "motion/search.h"
+#include "motion/shortest_path.h"
 
 #include "base/watch.h"
 
@@ -12,7 +12,7 @@ typedef struct stop {
 } stop;
 
 struct sunder_route {
-    sunder_i_space space;
+    sunder_i_free_space space;
     sunder_route_status reason;
     size_t obstacle;
     stop *stop; /* [n] */
@@ -23,28 +23,28 @@ struct sunder_route {
 
 /* ---- Arguments ---- */
 
-/* A place named by the caller; raises the error bound of the ground to what its doubles may be off by. */
-static sunder_status read_place(sunder_i_space *space, const sunder_place *place, const char *which,
-                                sunder_i_place_at *out, sunder_error *err)
+/* A place named by the caller; raises the error bound of the filter to what its doubles may be off by. */
+static sunder_status read_place(sunder_i_free_space *space, const sunder_place *place, const char *which,
+                                sunder_i_filtered_point *out, sunder_error *err)
 {
-    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_lattice *l = space->filter.lattice;
     sunder_i_ratio at[2];
     for (int k = 0; k < 2; k++) {
         if (place->text[k]) {
             if (!sunder_i_ratio_parse(&l->arena, place->text[k], &at[k]))
-                return sunder_i_fail(err, SUNDER_EARG, "%s: %.60s is neither a whole number nor a fraction of two", which,
-                                     place->text[k]);
+                return sunder_i_fail(err, SUNDER_EARG, "%s: %.60s is neither a whole number nor a fraction of two",
+                                     which, place->text[k]);
             continue;
         }
         if (!isfinite(place->xy[k])) return sunder_i_fail(err, SUNDER_EARG, "%s is not finite", which);
         at[k] = sunder_i_ratio_double(&l->arena, place->xy[k]);
     }
     if (l->arena.failed) return sunder_i_no_memory(err);
-    *out = sunder_i_place_of_rational(space->sum, l, at[0], at[1]);
+    *out = sunder_i_filtered_of_rational(space->sum, l, at[0], at[1]);
     if (l->arena.failed) return sunder_i_no_memory(err);
     const double size = fmax(fabs(out->ax), fabs(out->ay));
     if (!(size < 0x1p900)) return sunder_i_fail(err, SUNDER_ERANGE, "%s is too far away", which);
-    space->ground.error = fmax(space->ground.error, 0x1p-48 * size);
+    space->filter.error = fmax(space->filter.error, 0x1p-48 * size);
     return SUNDER_OK;
 }
 
@@ -54,7 +54,8 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
         const sunder_obstacle *o = &obstacles[i];
         for (size_t k = 1; k < o->lines; k++)
             if (o->line_end[k] < o->line_end[k - 1])
-                return sunder_i_fail(err, SUNDER_EARG, "obstacle %zu: line %zu ends before the one that it follows", i, k);
+                return sunder_i_fail(err, SUNDER_EARG, "obstacle %zu: line %zu ends before the one that it follows", i,
+                                     k);
         const size_t points = o->lines ? o->line_end[o->lines - 1] : 0;
         for (size_t k = 0; k < 2 * points; k++)
             if (!isfinite(o->xy[k]))
@@ -66,16 +67,16 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
 /* ---- The result ---- */
 
 /* Does the robot at the place collide? Then the reason and the obstacle are noted. */
-static bool collides(sunder_route *r, const sunder_i_place_at *at, sunder_route_status reason)
+static bool collides(sunder_route *r, const sunder_i_filtered_point *at, sunder_route_status reason)
 {
     uint32_t part;
-    if (sunder_i_space_is_free(&r->space, at, at, true, &part)) return false;
+    if (sunder_i_leg_is_free(&r->space, at, at, true, &part)) return false;
     r->reason = reason;
     r->obstacle = r->space.piece_obstacle[part / r->space.robot_pieces];
     return true;
 }
 
-static sunder_status take_stop(sunder_route *r, const sunder_i_place_at *at, sunder_error *err)
+static sunder_status take_stop(sunder_route *r, const sunder_i_filtered_point *at, sunder_error *err)
 {
     sunder_i_arena arena = {0};
     stop *s = &r->stop[r->n];
@@ -90,26 +91,27 @@ static sunder_status take_stop(sunder_route *r, const sunder_i_place_at *at, sun
 }
 
 /* Every leg of the path as it is, which must be free, and of the path as doubles hold it. */
-static sunder_status prove(sunder_route *r, const sunder_i_place_at *place, const uint32_t *path, sunder_error *err)
+static sunder_status prove(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path,
+                           sunder_error *err)
 {
-    sunder_i_lattice *l = r->space.ground.lattice;
+    sunder_i_lattice *l = r->space.filter.lattice;
     r->rounded_is_free = true;
     for (size_t i = 0; i < r->n; i++)
         if (!isfinite(r->stop[i].xy[0]) || !isfinite(r->stop[i].xy[1])) r->rounded_is_free = false;
     for (size_t i = 0; i == 0 || i + 1 < r->n; i++) {
         const size_t j = r->n > 1 ? i + 1 : i;
-        const bool is_free = sunder_i_replay_is_free(&r->space, &place[path[i]], &place[path[j]]);
+        const bool is_free = sunder_i_leg_verified(&r->space, &place[path[i]], &place[path[j]]);
         if (l->arena.failed) return sunder_i_no_memory(err);
         if (!is_free) return sunder_i_fail(err, SUNDER_EFAULT, "leg %zu of the path fails its proof", i + 1);
         if (!r->rounded_is_free) continue;
-        const sunder_i_place_at a = sunder_i_place_of_double(r->space.sum, l, r->stop[i].xy);
-        const sunder_i_place_at b = sunder_i_place_of_double(r->space.sum, l, r->stop[j].xy);
-        r->rounded_is_free = sunder_i_replay_is_free(&r->space, &a, &b);
+        const sunder_i_filtered_point a = sunder_i_filtered_of_double(r->space.sum, l, r->stop[i].xy);
+        const sunder_i_filtered_point b = sunder_i_filtered_of_double(r->space.sum, l, r->stop[j].xy);
+        r->rounded_is_free = sunder_i_leg_verified(&r->space, &a, &b);
     }
     return l->arena.failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-static sunder_status keep_path(sunder_route *r, const sunder_i_place_at *place, const uint32_t *path, size_t n,
+static sunder_status keep_path(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path, size_t n,
                                sunder_error *err)
 {
     r->stop = sunder_i_calloc(n, sizeof *r->stop);
@@ -131,7 +133,7 @@ static sunder_status find_path(sunder_route *r, sunder_i_corners *corners, const
     }
     uint32_t *path;
     size_t n;
-    sunder_status status = sunder_i_search(&r->space, corners, how, &path, &n, err);
+    sunder_status status = sunder_i_shortest_path(&r->space, corners, how, &path, &n, err);
     if (status != SUNDER_OK) return status;
     status = keep_path(r, corners->place, path, n, err);
     sunder_i_free(path);
@@ -141,13 +143,14 @@ static sunder_status find_path(sunder_route *r, sunder_i_corners *corners, const
 static sunder_status find(sunder_route *r, const sunder_place *from, const sunder_place *to,
                           const sunder_sum_options *how, sunder_error *err)
 {
-    sunder_i_place_at end[2];
+    sunder_i_filtered_point end[2];
     sunder_status status = read_place(&r->space, from, "the start", &end[0], err);
     if (status == SUNDER_OK) status = read_place(&r->space, to, "the goal", &end[1], err);
     if (status != SUNDER_OK) return status;
     if (collides(r, &end[0], SUNDER_ROUTE_START_COLLIDES) || collides(r, &end[1], SUNDER_ROUTE_GOAL_COLLIDES))
         return SUNDER_OK;
-    if (sunder_i_place_cmp(&r->space.ground, &end[0], &end[1]) == 0) return keep_path(r, end, (uint32_t[]){0}, 1, err);
+    if (sunder_i_filtered_cmp(&r->space.filter, &end[0], &end[1]) == 0)
+        return keep_path(r, end, (uint32_t[]){0}, 1, err);
     sunder_i_corners corners;
     status = sunder_i_corners_find(&r->space, &end[0], &end[1], &corners, err);
     if (status != SUNDER_OK) return status;
@@ -173,9 +176,9 @@ sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, cons
     r->obstacle = SIZE_MAX;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &how.progress, &how.progress_user);
-    status = sunder_i_space_build(obstacles, n, robot, options->gap, &how, &r->space, err);
+    status = sunder_i_free_space_build(obstacles, n, robot, options->gap, &how, &r->space, err);
     if (status == SUNDER_OK) status = find(r, from, to, &how, err);
-    if (status == SUNDER_OK && r->space.ground.lattice->arena.failed) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && r->space.filter.lattice->arena.failed) status = sunder_i_no_memory(err);
     sunder_i_watch_end(&watch);
     if (status == SUNDER_OK)
         *out = r;
@@ -192,7 +195,7 @@ void sunder_route_free(sunder_route *route)
         sunder_i_free(route->stop[i].text[1]);
     }
     sunder_i_free(route->stop);
-    sunder_i_space_free(&route->space);
+    sunder_i_free_space_free(&route->space);
     sunder_i_free(route);
 }
 

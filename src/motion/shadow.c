@@ -1,3 +1,6 @@
+/* Depths over directions. Bins are looked through by the rays at their two sides; what a part hides of a bin begins at
+ * the greater of the two depths at which it is entered (shadow.h). A ray is clipped by the part's sides, each moved
+ * inward by a margin, so that it is inside for certain; margins cover the error of the corners and all rounding. */
 #include "motion/shadow.h"
 
 #include <float.h>
@@ -5,6 +8,10 @@
 
 /* Far more than what turns and rays are rounded by (a few 2^-52), far less than a bin. */
 #define TURN_ROUNDING 0x1p-44
+/* All round, which is looked at for one node in a thousand, a coarse map does; and the narrowest sector still has
+ * enough bins to tell its nodes apart. */
+#define BINS_ALL_ROUND 128
+#define BINS_LEAST 16
 
 static double wrap(double turn) { return turn < 0 ? turn + 4 : turn >= 4 ? turn - 4 : turn; }
 
@@ -17,7 +24,7 @@ static void ray_at(double turn, double out[2])
     out[1] = p < 1 ? p : p < 3 ? 2 - p : p - 4;
 }
 
-bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_span *out)
+bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_sector *out)
 {
     double first = NAN, low = 0, high = 0, margin = TURN_ROUNDING;
     for (int i = 0; i < n; i++) {
@@ -35,27 +42,27 @@ bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye
         high = off > high ? off : high;
     }
     if (isnan(first)) return false;
-    *out = (sunder_i_span){wrap(first + low - margin), high - low + 2 * margin};
+    *out = (sunder_i_sector){wrap(first + low - margin), high - low + 2 * margin};
     return out->width < 2;
 }
 
-void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_span span)
+void sunder_i_shadow_start(sunder_i_shadow *s, sunder_i_sector sector)
 {
-    /* All round a coarse map does, for one node in a thousand. */
-    s->bins = span.width >= 4 ? 128 : (int)fmin(SUNDER_I_BINS, fmax(16, span.width * SUNDER_I_BINS));
-    s->span = (sunder_i_span){wrap(span.low), fmin(span.width, 4)};
-    s->per_turn = s->bins / s->span.width;
-    for (int k = 0; k <= s->bins; k++) ray_at(s->span.low + k / s->per_turn, s->ray[k]);
+    s->bins =
+        sector.width >= 4 ? BINS_ALL_ROUND : (int)fmin(SUNDER_I_BINS, fmax(BINS_LEAST, sector.width * SUNDER_I_BINS));
+    s->sector = (sunder_i_sector){wrap(sector.low), fmin(sector.width, 4)};
+    s->per_turn = s->bins / s->sector.width;
+    for (int k = 0; k <= s->bins; k++) ray_at(s->sector.low + k / s->per_turn, s->ray[k]);
     for (int k = 0; k < s->bins; k++) s->depth[k] = INFINITY;
 }
 
-/* The parts of a span within the shadow's, in bins from its start; how many, two at most. */
-static int pieces_of(const sunder_i_shadow *s, sunder_i_span span, double piece[2][2])
+/* The parts of a sector within the shadow's, in bins from its start; how many, two at most. */
+static int pieces_of(const sunder_i_shadow *s, sunder_i_sector sector, double piece[2][2])
 {
-    const double at = sunder_i_turn_between(s->span.low, span.low);
+    const double at = sunder_i_turn_between(s->sector.low, sector.low);
     int n = 0;
     for (int k = 0; k < 2; k++) {
-        const double low = fmax(at - 4 * k, 0), high = fmin(at - 4 * k + span.width, s->span.width);
+        const double low = fmax(at - 4 * k, 0), high = fmin(at - 4 * k + sector.width, s->sector.width);
         if (low > high) continue;
         piece[n][0] = low * s->per_turn;
         piece[n++][1] = high * s->per_turn;
@@ -129,13 +136,13 @@ static double nearest(const double (*corner)[2], int n, double error)
 void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, double error)
 {
     caster c;
-    sunder_i_span span;
+    sunder_i_sector sector;
     double piece[2][2];
     /* Which rays to try; a part that has the eye as a corner is where the others are. */
-    if (!sunder_i_span_of(corner, n, error, true, &span)) span = s->span;
-    if (!sunder_i_shadow_takes(s, span) || sunder_i_shadow_hides(s, span, nearest(corner, n, error))) return;
+    if (!sunder_i_sector_of(corner, n, error, true, &sector)) sector = s->sector;
+    if (!sunder_i_shadow_takes(s, sector) || sunder_i_shadow_hides(s, sector, nearest(corner, n, error))) return;
     if (!prepare(&c, corner, n, error)) return;
-    const int pieces = pieces_of(s, span, piece);
+    const int pieces = pieces_of(s, sector, piece);
     for (int i = 0; i < pieces; i++) {
         double before = INFINITY;
         const int first = (int)ceil(piece[i][0]), last = (int)fmin(floor(piece[i][1]), s->bins);
@@ -148,19 +155,19 @@ void sunder_i_shadow_cast(sunder_i_shadow *s, const double (*corner)[2], int n, 
     }
 }
 
-bool sunder_i_shadow_takes(const sunder_i_shadow *s, sunder_i_span span)
+bool sunder_i_shadow_takes(const sunder_i_shadow *s, sunder_i_sector sector)
 {
     double piece[2][2];
-    const int pieces = pieces_of(s, span, piece);
+    const int pieces = pieces_of(s, sector, piece);
     for (int i = 0; i < pieces; i++)
         if (floor(piece[i][1]) > ceil(piece[i][0])) return true;
     return false;
 }
 
-bool sunder_i_shadow_hides(const sunder_i_shadow *s, sunder_i_span span, double distance)
+bool sunder_i_shadow_hides(const sunder_i_shadow *s, sunder_i_sector sector, double distance)
 {
     double piece[2][2];
-    const int pieces = pieces_of(s, span, piece);
+    const int pieces = pieces_of(s, sector, piece);
     const double near = distance * (1 - 0x1p-40);
     for (int i = 0; i < pieces; i++)
         for (int k = (int)piece[i][0]; k <= (int)piece[i][1] && k < s->bins; k++)

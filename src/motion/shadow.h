@@ -13,17 +13,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* At most so many bins, and so many in a turn of 1 where a sector is narrower: more of them hide more, and cost more to
+ * fill for each part. */
 #define SUNDER_I_BINS 512
 /* Corners of a part that are used, at most: a hull of some of its corners hides no more than it does. */
 #define SUNDER_I_CAST_CORNERS 16
 
 /* Directions from `low` on, anticlockwise, `width` wide. */
-typedef struct sunder_i_span {
+typedef struct sunder_i_sector {
     double low, width;
-} sunder_i_span;
+} sunder_i_sector;
 
 typedef struct sunder_i_shadow {
-    sunder_i_span span;
+    sunder_i_sector sector;
     double per_turn; /* bins in a turn of 1 */
     int bins;
     double ray[SUNDER_I_BINS + 1][2]; /* at the sides of the bins, |x| + |y| = 1 */
@@ -34,15 +36,15 @@ typedef struct sunder_i_shadow {
 double sunder_i_turn_between(double a, double b);
 /* The directions of n points around an eye at the origin, off by `error` each; false if they may be half of all, or
  * more. Points that may be at the eye: not counted with `at_eye`, else reason to say false. */
-bool sunder_i_span_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_span *out);
+bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_sector *out);
 
-/* Nothing is hidden yet, but all that is outside the span. */
-void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_span span);
+/* Nothing is hidden yet, but all that is outside the sector. */
+void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_sector sector);
 /* A part casts its shadow: 3 to SUNDER_I_CAST_CORNERS corners, counter-clockwise, from the eye, off by `error` each. */
 void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], int n, double error);
 /* Can what lies in these directions cast a shadow? It has to reach over a bin. */
-bool sunder_i_shadow_takes(const sunder_i_shadow *shadow, sunder_i_span span);
+bool sunder_i_shadow_takes(const sunder_i_shadow *shadow, sunder_i_sector sector);
 /* Is all that lies in these directions, `distance` away or more, hidden for certain? */
-bool sunder_i_shadow_hides(const sunder_i_shadow *shadow, sunder_i_span span, double distance);
+bool sunder_i_shadow_hides(const sunder_i_shadow *shadow, sunder_i_sector sector, double distance);
 
 #endif

@@ -207,7 +207,8 @@ static void complain(const char *what, uint64_t number, const polyset *p, const 
     print_error("%s: %s, pair %llu, gap %.17g, got (%s, %s), length %.17g, bound %.17g, %s, attained %d; brute force "
                 "%.17g\n%s\n%s\n",
                 what, MAKERS[number % KINDS].name, (unsigned long long)number, gap, s->dx_text ? s->dx_text : "-",
-                s->dy_text ? s->dy_text : "-", s->distance, s->lower_bound, sunder_contact_string(s->contact), s->attained, truth, a, b);
+                s->dy_text ? s->dy_text : "-", s->distance, s->lower_bound, sunder_contact_string(s->contact),
+                s->attained, truth, a, b);
     free(a);
     free(b);
     fail();

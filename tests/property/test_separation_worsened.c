@@ -192,8 +192,8 @@ static void check_nearly_parallel(void **state)
         convex_depth(expected, &p, &q);
         assert_int_equal(s.meet, mpq_sgn(expected) > 0);
         if (s.meet && !mpq_equal(s.square, expected))
-            fail_msg("trial %zu: %.17g, but %.17g\n%s\n%s", k, mpq_get_d(s.square), mpq_get_d(expected), polyset_wkt(&p),
-                     polyset_wkt(&q));
+            fail_msg("trial %zu: %.17g, but %.17g\n%s\n%s", k, mpq_get_d(s.square), mpq_get_d(expected),
+                     polyset_wkt(&p), polyset_wkt(&q));
         meet += s.meet;
         mpq_clear(expected);
         standing_clear(&s);

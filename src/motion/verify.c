@@ -3,12 +3,12 @@
  * The point p + t (q - p) is in an open part exactly when it lies strictly left of each of its sides. Each side's cross
  * product is linear in t, f(t) = (1 - t) f(p) + t f(q), so the t in question are an open interval, cut to [0, 1]. The
  * leg is free of the part when no t is left. */
-#include "motion/space.h"
+#include "motion/free_space.h"
 
 #include <math.h>
 
 /* cross(b - a, c - a) times the positive w of c and a positive number of the side's own. */
-static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_place_at *c)
+static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_filtered_point *c)
 {
     sunder_i_arena *m = &l->arena;
     const sunder_i_rational_point o = sunder_i_rational_get(m, l, a);
@@ -27,9 +27,10 @@ typedef struct bound {
 static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b) { return sunder_i_ratio_cmp(m, a->at, b->at); }
 
 /* Is some point of the closed segment strictly left of every side? */
-static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
+static bool passes(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
+                   const sunder_i_filtered_point *q)
 {
-    sunder_i_lattice *l = s->ground.lattice;
+    sunder_i_lattice *l = s->filter.lattice;
     sunder_i_arena *m = &l->arena;
     const sunder_i_convex_pieces *c = &s->part;
     const uint32_t first = sunder_i_convex_pieces_first(c, part), end = c->end[part];
@@ -57,7 +58,7 @@ static bool passes(const sunder_i_space *s, uint32_t part, const sunder_i_place_
     return order < 0 || (order == 0 && !low.open && !high.open);
 }
 
-static bool box_apart(const sunder_i_space *s, uint32_t part, const double low[2], const double high[2])
+static bool box_apart(const sunder_i_free_space *s, uint32_t part, const double low[2], const double high[2])
 {
     const sunder_i_convex_pieces *c = &s->part;
     bool left = true, right = true, below = true, above = true;
@@ -71,10 +72,11 @@ static bool box_apart(const sunder_i_space *s, uint32_t part, const double low[2
     return left || right || below || above;
 }
 
-bool sunder_i_replay_is_free(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q)
+bool sunder_i_leg_verified(const sunder_i_free_space *s, const sunder_i_filtered_point *p,
+                           const sunder_i_filtered_point *q)
 {
-    sunder_i_arena *m = &s->ground.lattice->arena;
-    const double e = 4 * s->ground.error;
+    sunder_i_arena *m = &s->filter.lattice->arena;
+    const double e = 4 * s->filter.error;
     const double low[2] = {fmin(p->ax, q->ax) - e, fmin(p->ay, q->ay) - e};
     const double high[2] = {fmax(p->ax, q->ax) + e, fmax(p->ay, q->ay) + e};
     for (uint32_t part = 0; part < s->part.n; part++) {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "motion/view.h"
+#include "motion/visibility.h"
 #include "random.h"
 
 #include <math.h>
@@ -17,9 +17,9 @@
 #define PIECES 36
 
 typedef struct scene {
-    sunder_i_space space;
+    sunder_i_free_space space;
     sunder_i_corners corners;
-    sunder_i_view view;
+    sunder_i_visibility view;
     bool *seen; /* [nodes] by the last look */
 } scene;
 
@@ -52,7 +52,8 @@ static size_t make_obstacles(rng *r, int kind, double (*xy)[10], size_t *ends, s
             continue;
         }
         const size_t corners = rng_once_in(r, 3) ? 3 : 4, one = 1;
-        assert_int_equal(sunder_shape_from_rings(box, &corners, &one, 1, SUNDER_VALIDITY_STRICT, &shapes[i], NULL), SUNDER_OK);
+        assert_int_equal(sunder_shape_from_rings(box, &corners, &one, 1, SUNDER_VALIDITY_STRICT, &shapes[i], NULL),
+                         SUNDER_OK);
         out[n++] = (sunder_obstacle){shapes[i], NULL, NULL, 0};
     }
     static const double away[2][2] = {{1e16, -3e17}, {1e300, 0x1p-1074}};
@@ -75,12 +76,12 @@ static sunder_shape *make_robot(rng *r, int kind)
 }
 
 /* A free place somewhere. */
-static sunder_i_place_at somewhere(rng *r, int kind, const sunder_i_space *space)
+static sunder_i_filtered_point somewhere(rng *r, int kind, const sunder_i_free_space *space)
 {
     for (;;) {
         const double x = put(r, kind, rng_int(r, -6, 64)), y = put(r, kind, rng_int(r, -6, 64)), xy[2] = {x, y};
-        const sunder_i_place_at p = sunder_i_place_of_double(space->sum, space->ground.lattice, xy);
-        if (sunder_i_space_is_free(space, &p, &p, false, NULL)) return p;
+        const sunder_i_filtered_point p = sunder_i_filtered_of_double(space->sum, space->filter.lattice, xy);
+        if (sunder_i_leg_is_free(space, &p, &p, false, NULL)) return p;
     }
 }
 
@@ -91,51 +92,51 @@ static void make_scene(rng *r, int kind, scene *s)
     sunder_obstacle obstacle[PIECES + 1];
     sunder_shape *shapes[PIECES], *robot = make_robot(r, kind);
     const size_t n = make_obstacles(r, kind, xy, ends, obstacle, shapes);
-    assert_int_equal(sunder_i_space_build(obstacle, n, robot, 0, NULL, &s->space, NULL), SUNDER_OK);
+    assert_int_equal(sunder_i_free_space_build(obstacle, n, robot, 0, NULL, &s->space, NULL), SUNDER_OK);
     for (size_t i = 0; i < PIECES; i++) sunder_shape_free(shapes[i]);
     sunder_shape_free(robot);
-    const sunder_i_place_at start = somewhere(r, kind, &s->space), goal = somewhere(r, kind, &s->space);
+    const sunder_i_filtered_point start = somewhere(r, kind, &s->space), goal = somewhere(r, kind, &s->space);
     assert_int_equal(sunder_i_corners_find(&s->space, &start, &goal, &s->corners, NULL), SUNDER_OK);
-    assert_true(sunder_i_view_init(&s->view, &s->space, &s->corners));
+    assert_true(sunder_i_visibility_init(&s->view, &s->space, &s->corners));
     s->seen = calloc(s->corners.nodes, sizeof *s->seen);
     assert_non_null(s->seen);
 }
 
 static void free_scene(scene *s)
 {
-    sunder_i_view_free(&s->view);
+    sunder_i_visibility_free(&s->view);
     sunder_i_corners_free(&s->corners);
-    sunder_i_space_free(&s->space);
+    sunder_i_free_space_free(&s->space);
     free(s->seen);
 }
 
 static void look(scene *s, uint32_t v, uint32_t before, double room)
 {
     memset(s->seen, 0, s->corners.nodes * sizeof *s->seen);
-    sunder_i_view_look(&s->view, v, before, room);
+    sunder_i_visibility_look(&s->view, v, before, room);
     for (size_t i = 0; i < s->view.seen_n; i++) s->seen[s->view.seen[i]] = true;
 }
 
-static const sunder_i_place_at *place(const scene *s, uint32_t node)
+static const sunder_i_filtered_point *place(const scene *s, uint32_t node)
 {
     return &s->corners.place[s->corners.node[node]];
 }
 
 static bool is_free(const scene *s, uint32_t v, uint32_t w)
 {
-    return sunder_i_space_is_free(&s->space, place(s, v), place(s, w), false, NULL);
+    return sunder_i_leg_is_free(&s->space, place(s, v), place(s, w), false, NULL);
 }
 
 /* The sides of the neighbours of the plain corner v to the line pq, in *lowest and *highest; false: not a plain corner.
  */
-static bool sides(const scene *s, uint32_t v, const sunder_i_place_at *p, const sunder_i_place_at *q, int *lowest,
-                  int *highest)
+static bool sides(const scene *s, uint32_t v, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q,
+                  int *lowest, int *highest)
 {
     const uint32_t *beside = s->corners.beside[s->corners.node[v]];
     *lowest = *highest = 0;
-    if (beside[0] == SUNDER_I_NO_PLACE_AT) return false;
+    if (beside[0] == SUNDER_I_NO_VERTEX) return false;
     for (int k = 0; k < 2; k++) {
-        const int side = sunder_i_place_orient(&s->space.ground, p, q, &s->corners.place[beside[k]]);
+        const int side = sunder_i_filtered_orient(&s->space.filter, p, q, &s->corners.place[beside[k]]);
         if (side < *lowest) *lowest = side;
         if (side > *highest) *highest = side;
     }
@@ -143,7 +144,7 @@ static bool sides(const scene *s, uint32_t v, const sunder_i_place_at *p, const 
 }
 
 /* May a shortest path have a vertex at v where it comes along pq, as far as that corner is concerned? */
-static bool is_tangent(const scene *s, uint32_t v, const sunder_i_place_at *p, const sunder_i_place_at *q)
+static bool is_tangent(const scene *s, uint32_t v, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q)
 {
     int low, high;
     return !sides(s, v, p, q, &low, &high) || low == 0 || high == 0;
@@ -153,15 +154,15 @@ static bool is_tangent(const scene *s, uint32_t v, const sunder_i_place_at *p, c
 static bool is_taut(const scene *s, uint32_t u, uint32_t v, uint32_t w)
 {
     int low[2], high[2];
-    const sunder_i_place_at *a = place(s, u), *b = place(s, v), *c = place(s, w);
+    const sunder_i_filtered_point *a = place(s, u), *b = place(s, v), *c = place(s, w);
     if (!sides(s, v, a, b, &low[0], &high[0])) return true;
     sides(s, v, b, c, &low[1], &high[1]);
-    const int turn = sunder_i_place_orient(&s->space.ground, a, b, c);
+    const int turn = sunder_i_filtered_orient(&s->space.filter, a, b, c);
     if (turn > 0) return low[0] == 0 && low[1] == 0;
     if (turn < 0) return high[0] == 0 && high[1] == 0;
     /* Straight on; back is no way. */
-    const sunder_i_ground *g = &s->space.ground;
-    return sunder_i_place_cmp(g, a, b) == sunder_i_place_cmp(g, b, c);
+    const sunder_i_filter *g = &s->space.filter;
+    return sunder_i_filtered_cmp(g, a, b) == sunder_i_filtered_cmp(g, b, c);
 }
 
 /* Nodes that are seen from v and should be, for the counts; each that should be must be. */
@@ -170,7 +171,8 @@ static void check_look(const scene *s, uint32_t before, uint32_t v, double room,
     const uint32_t nodes = s->corners.nodes, start = nodes - 2, goal = nodes - 1;
     for (uint32_t w = 0; w < nodes; w++) {
         if (w == v || w == start || s->seen[w]) continue;
-        const double length = sunder_i_view_distance(&s->view, v, w) + sunder_i_view_distance(&s->view, w, goal);
+        const double length =
+            sunder_i_visibility_distance(&s->view, v, w) + sunder_i_visibility_distance(&s->view, w, goal);
         if (length > room * (1 - 1e-9) || !is_free(s, v, w)) continue;
         if (w != goal && !is_tangent(s, w, place(s, v), place(s, w))) continue;
         assert_true(before != SUNDER_I_NO_NODE && !is_taut(s, before, v, w));
@@ -191,7 +193,7 @@ static void nothing_is_missed(void **state)
             look(&s, v, SUNDER_I_NO_NODE, INFINITY);
             check_look(&s, SUNDER_I_NO_NODE, v, INFINITY, &seen);
             all += nodes;
-            const double room = sunder_i_view_distance(&s.view, v, nodes - 1) * (1 + rng_unit(&r));
+            const double room = sunder_i_visibility_distance(&s.view, v, nodes - 1) * (1 + rng_unit(&r));
             size_t unused = 0;
             look(&s, v, SUNDER_I_NO_NODE, room);
             check_look(&s, SUNDER_I_NO_NODE, v, room, &unused);

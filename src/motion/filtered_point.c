@@ -1,14 +1,16 @@
-/* Places: made of what users and sums name, compared and asked for sides, filtered in doubles. */
-#include "motion/place.h"
+/* Places: made of what users and sums name, compared and asked for sides. Doubles that are off by a known error decide
+ * first, by their difference or by a 2 x 2 determinant with a bound; what they leave open is decided in big integers,
+ * of which the points are made. */
+#include "motion/filtered_point.h"
 
 #include <float.h>
 #include <math.h>
 
 /* ---- Making places ---- */
 
-sunder_i_place_at sunder_i_place_make(sunder_i_lattice *l, sunder_i_rational_point at)
+sunder_i_filtered_point sunder_i_filtered_make(sunder_i_lattice *l, sunder_i_rational_point at)
 {
-    sunder_i_place_at p = {at, 0, 0};
+    sunder_i_filtered_point p = {at, 0, 0};
     if (l->arena.failed) return p;
     sunder_i_arena scratch = {0};
     sunder_i_rational_doubles(&scratch, at, -l->approx_shift, &p.ax, &p.ay);
@@ -17,9 +19,9 @@ sunder_i_place_at sunder_i_place_make(sunder_i_lattice *l, sunder_i_rational_poi
     return p;
 }
 
-sunder_i_place_at sunder_i_place_of_vertex(sunder_i_lattice *l, const sunder_i_hpoint *vertex)
+sunder_i_filtered_point sunder_i_filtered_of_vertex(sunder_i_lattice *l, const sunder_i_hpoint *vertex)
 {
-    return sunder_i_place_make(l, sunder_i_hpoint_read(&l->arena, l, vertex));
+    return sunder_i_filtered_make(l, sunder_i_hpoint_read(&l->arena, l, vertex));
 }
 
 static sunder_i_big two_to(sunder_i_arena *arena, sunder_i_big a, long e)
@@ -51,32 +53,33 @@ static sunder_i_ratio on_lattice(const sunder_sum *sum, sunder_i_arena *arena, i
     return sunder_i_ratio_reduced(arena, v);
 }
 
-sunder_i_place_at sunder_i_place_of_rational(const sunder_sum *sum, sunder_i_lattice *l, sunder_i_ratio x,
-                                             sunder_i_ratio y)
+sunder_i_filtered_point sunder_i_filtered_of_rational(const sunder_sum *sum, sunder_i_lattice *l, sunder_i_ratio x,
+                                                      sunder_i_ratio y)
 {
     sunder_i_arena *arena = &l->arena;
     x = on_lattice(sum, arena, 0, x);
     y = on_lattice(sum, arena, 1, y);
-    return sunder_i_place_make(l, (sunder_i_rational_point){sunder_i_big_mul(arena, x.num, y.den),
-                                                            sunder_i_big_mul(arena, y.num, x.den),
-                                                            sunder_i_big_mul(arena, x.den, y.den)});
+    return sunder_i_filtered_make(l, (sunder_i_rational_point){sunder_i_big_mul(arena, x.num, y.den),
+                                                               sunder_i_big_mul(arena, y.num, x.den),
+                                                               sunder_i_big_mul(arena, x.den, y.den)});
 }
 
-sunder_i_place_at sunder_i_place_of_double(const sunder_sum *sum, sunder_i_lattice *l, const double xy[2])
+sunder_i_filtered_point sunder_i_filtered_of_double(const sunder_sum *sum, sunder_i_lattice *l, const double xy[2])
 {
-    return sunder_i_place_of_rational(sum, l, sunder_i_ratio_double(&l->arena, xy[0]),
-                                      sunder_i_ratio_double(&l->arena, xy[1]));
+    return sunder_i_filtered_of_rational(sum, l, sunder_i_ratio_double(&l->arena, xy[0]),
+                                         sunder_i_ratio_double(&l->arena, xy[1]));
 }
 
 /* ---- Order ---- */
 
-static int filter(const sunder_i_ground *g, double a, double b)
+static int filter(const sunder_i_filter *g, double a, double b)
 {
     const double d = a - b, bound = 2 * g->error;
     return d > bound ? 1 : d < -bound ? -1 : 0;
 }
 
-static int coordinate_cmp(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b, int axis)
+static int coordinate_cmp(const sunder_i_filter *g, const sunder_i_filtered_point *a, const sunder_i_filtered_point *b,
+                          int axis)
 {
     const int c = axis ? filter(g, a->ay, b->ay) : filter(g, a->ax, b->ax);
     if (c) return c;
@@ -87,20 +90,22 @@ static int coordinate_cmp(const sunder_i_ground *g, const sunder_i_place_at *a, 
     return e;
 }
 
-int sunder_i_place_cmp_y(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b)
+int sunder_i_filtered_cmp_y(const sunder_i_filter *g, const sunder_i_filtered_point *a,
+                            const sunder_i_filtered_point *b)
 {
     return coordinate_cmp(g, a, b, 1);
 }
 
-int sunder_i_place_cmp_x(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b)
+int sunder_i_filtered_cmp_x(const sunder_i_filter *g, const sunder_i_filtered_point *a,
+                            const sunder_i_filtered_point *b)
 {
     return coordinate_cmp(g, a, b, 0);
 }
 
-int sunder_i_place_cmp(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b)
+int sunder_i_filtered_cmp(const sunder_i_filter *g, const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
 {
-    const int c = sunder_i_place_cmp_x(g, a, b);
-    return c ? c : sunder_i_place_cmp_y(g, a, b);
+    const int c = sunder_i_filtered_cmp_x(g, a, b);
+    return c ? c : sunder_i_filtered_cmp_y(g, a, b);
 }
 
 /* ---- Sides ---- */
@@ -108,7 +113,7 @@ int sunder_i_place_cmp(const sunder_i_ground *g, const sunder_i_place_at *a, con
 /* Sign of cross(b - a, c - a) where doubles settle it, else 0. Each coordinate is off by at most e, so a difference by
  * at most 2 e + u |difference|, u = DBL_EPSILON / 2; with f = 2 e + 2 u |.| for both that and the roundings behind it,
  * the two products are off by at most f (|p| + |q|) + f^2 and a rounding each. */
-static int filter_orient(const sunder_i_ground *g, const double a[2], const double b[2], const double c[2])
+static int filter_orient(const sunder_i_filter *g, const double a[2], const double b[2], const double c[2])
 {
     const double px = b[0] - a[0], py = b[1] - a[1], qx = c[0] - a[0], qy = c[1] - a[1];
     const double size = fabs(px) + fabs(py) + fabs(qx) + fabs(qy);
@@ -118,8 +123,8 @@ static int filter_orient(const sunder_i_ground *g, const double a[2], const doub
     return det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
-int sunder_i_place_orient(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b,
-                          const sunder_i_place_at *c)
+int sunder_i_filtered_orient(const sunder_i_filter *g, const sunder_i_filtered_point *a,
+                             const sunder_i_filtered_point *b, const sunder_i_filtered_point *c)
 {
     const double pa[2] = {a->ax, a->ay}, pb[2] = {b->ax, b->ay}, pc[2] = {c->ax, c->ay};
     const int s = filter_orient(g, pa, pb, pc);
@@ -130,12 +135,13 @@ int sunder_i_place_orient(const sunder_i_ground *g, const sunder_i_place_at *a, 
     return e;
 }
 
-static sunder_i_rational_point exactly(const sunder_i_ground *g, sunder_i_near p)
+static sunder_i_rational_point exactly(const sunder_i_filter *g, sunder_i_lattice_corner p)
 {
     return sunder_i_rational_get(&g->lattice->arena, g->lattice, p.point);
 }
 
-int sunder_i_side_of(const sunder_i_ground *g, sunder_i_near a, sunder_i_near b, const sunder_i_place_at *c)
+int sunder_i_filtered_side(const sunder_i_filter *g, sunder_i_lattice_corner a, sunder_i_lattice_corner b,
+                           const sunder_i_filtered_point *c)
 {
     const double pc[2] = {c->ax, c->ay};
     const int s = filter_orient(g, a.at, b.at, pc);
@@ -146,8 +152,8 @@ int sunder_i_side_of(const sunder_i_ground *g, sunder_i_near a, sunder_i_near b,
     return e;
 }
 
-int sunder_i_corner_side(const sunder_i_ground *g, const sunder_i_place_at *a, const sunder_i_place_at *b,
-                         sunder_i_near c)
+int sunder_i_filtered_corner_side(const sunder_i_filter *g, const sunder_i_filtered_point *a,
+                                  const sunder_i_filtered_point *b, sunder_i_lattice_corner c)
 {
     const double pa[2] = {a->ax, a->ay}, pb[2] = {b->ax, b->ay};
     const int s = filter_orient(g, pa, pb, c.at);
@@ -160,8 +166,8 @@ int sunder_i_corner_side(const sunder_i_ground *g, const sunder_i_place_at *a, c
 
 /* ---- Lengths ---- */
 
-sunder_i_big sunder_i_place_distance(sunder_i_arena *m, const sunder_i_place_at *a, const sunder_i_place_at *b,
-                                     unsigned long bits)
+sunder_i_big sunder_i_filtered_distance(sunder_i_arena *m, const sunder_i_filtered_point *a,
+                                        const sunder_i_filtered_point *b, unsigned long bits)
 {
     const sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
     const sunder_i_big square = sunder_i_rational_dot(m, d, d);

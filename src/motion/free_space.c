@@ -1,10 +1,20 @@
-#include "motion/space.h"
+/* Free space is what the parts leave over.
+ *
+ * Obstacles, the robot turned by half a turn, and a disc if there is a gap, all become lists of convex pieces on one
+ * lattice that holds the sums of all three; directions are ranked once, so that pieces are summed by merging. The sums
+ * of obstacle pieces and robot pieces are the parts. Their outline is found by the stages of outline/, all at once, and
+ * its stretches are kept: their ends are where shortest paths can bend.
+ *
+ *   an obstacle without area   a line gives pieces of two corners, a point one of one corner: see diagonals.h
+ *   no obstacles               no parts and no outline; every leg is free
+ *   repaired shapes            corners may have denominators: the lattice admits them */
+#include "motion/free_space.h"
 
 #include "motion/diagonals.h"
-#include "motion/whole.h"
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "predicate/predicate.h"
+#include "sum/to_shape.h"
 
 #include <float.h>
 #include <limits.h>
@@ -20,7 +30,7 @@ typedef struct maker {
     const sunder_shape *robot, *disc; /* disc: NULL without a gap */
     const sunder_sum_options *options;
     sunder_i_lattice *lattice;
-    sunder_i_space *out;
+    sunder_i_free_space *out;
     sunder_i_convex_pieces obstacles, robots, discs;
     sunder_i_diagonals diagonals; /* none where they make no difference */
 } maker;
@@ -165,7 +175,7 @@ static bool make_pieces(maker *m)
         pieces += (o->shape ? o->shape->pieces : 0) + points;
         corners += (o->shape ? piece_corners(o->shape) : 0) + 2 * points;
     }
-    sunder_i_space *out = m->out;
+    sunder_i_free_space *out = m->out;
     out->piece_obstacle = sunder_i_alloc(pieces, sizeof *out->piece_obstacle);
     if (!out->piece_obstacle || !sunder_i_convex_pieces_init(&m->obstacles, pieces, corners) ||
         !sunder_i_convex_pieces_init(&m->robots, m->robot->pieces + m->diagonals.n,
@@ -220,7 +230,7 @@ static bool measure(maker *m)
     }
     /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
      * (predicate/hpoint.c), a lattice point's within 2^-53. */
-    m->out->ground = (sunder_i_ground){l, 0x1p-48 * most};
+    m->out->filter = (sunder_i_filter){l, 0x1p-48 * most};
     return true;
 }
 
@@ -228,7 +238,7 @@ static bool measure(maker *m)
 
 static sunder_status keep_stretches(const sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
-    sunder_i_space *out = user;
+    sunder_i_free_space *out = user;
     out->stretch = sunder_i_alloc(coverage->stretches, sizeof *out->stretch);
     if (!out->stretch) return sunder_i_no_memory(err);
     memcpy(out->stretch, coverage->stretch, coverage->stretches * sizeof *out->stretch);
@@ -269,12 +279,28 @@ static sunder_status build(maker *m, sunder_error *err)
     return status;
 }
 
+/* The union of the members of a shape, as a shape of which the members have disjoint interiors and share no wall: a
+ * wall that two share is inside, and yet their pieces leave it out, so that a segment or a point, which has no area,
+ * would pass along it. *out stays NULL where there is one member only, or where members cross in places that no doubles
+ * hold; else the corners are the members' own. */
+static sunder_status without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
+{
+    *out = NULL;
+    if (shape->polygons < 2) return SUNDER_OK;
+    sunder_sum *sum;
+    sunder_status status = sunder_shape_union(shape, NULL, &sum, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_sum_to_shape(sum, true, SUNDER_VALIDITY_STRICT, out, err);
+    sunder_sum_free(sum);
+    return status;
+}
+
 /* What the interiors of the robot's pieces leave out of its own makes a difference to obstacles without area, unless a
  * disc covers it. */
 static sunder_status build_with_lines(maker *m, sunder_error *err)
 {
     sunder_shape *whole;
-    sunder_status status = sunder_i_whole(m->robot, &whole, err);
+    sunder_status status = without_seams(m->robot, &whole, err);
     if (status != SUNDER_OK) return status;
     if (whole) m->robot = whole;
     status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_no_memory(err);
@@ -283,8 +309,9 @@ static sunder_status build_with_lines(maker *m, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot, double gap,
-                                   const sunder_sum_options *options, sunder_i_space *out, sunder_error *err)
+sunder_status sunder_i_free_space_build(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
+                                        double gap, const sunder_sum_options *options, sunder_i_free_space *out,
+                                        sunder_error *err)
 {
     sunder_shape *disc = NULL;
     memset(out, 0, sizeof *out);
@@ -297,11 +324,11 @@ sunder_status sunder_i_space_build(const sunder_obstacle *obstacles, size_t n, c
     for (size_t i = 0; i < n && !lines; i++) lines = obstacles[i].lines > 0;
     const sunder_status status = lines && !disc ? build_with_lines(&m, err) : build(&m, err);
     sunder_shape_free(disc);
-    if (status != SUNDER_OK) sunder_i_space_free(out);
+    if (status != SUNDER_OK) sunder_i_free_space_free(out);
     return status;
 }
 
-void sunder_i_space_free(sunder_i_space *space)
+void sunder_i_free_space_free(sunder_i_free_space *space)
 {
     sunder_sum_free(space->sum);
     sunder_i_convex_pieces_free(&space->part);

@@ -1,5 +1,5 @@
-/* A* over the visibility graph, which is never made: from a node that is reached, edges go to what view.c says may be
- * seen and come next; they are tried only when their turn comes.
+/* A* over the visibility graph, which is never made: from a node that is reached, edges go to what visibility.c says
+ * may be seen and come next; they are tried only when their turn comes.
  *
  * The queue holds edges (v, w) by the length of the path over them to the goal, as the crow flies from w on. An edge
  * that comes out is skipped if w has been reached by less; else the exact test is made, and w is reached. So only edges
@@ -8,10 +8,11 @@
  *
  * Lengths are doubles until two of them are too close to tell apart; then they are taken to LENGTH_BITS bits, which is
  * more than 256 significant ones, and paths still equal are compared as sequences of places. */
-#include "motion/search.h"
+#include "motion/shortest_path.h"
 
 #include "base/heap.h"
-#include "motion/view.h"
+#include "base/invariant.h"
+#include "motion/visibility.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,10 +39,10 @@ typedef struct tie {
 } tie;
 
 typedef struct search {
-    const sunder_i_space *space;
+    const sunder_i_free_space *space;
     const sunder_i_corners *corners;
     const sunder_sum_options *options;
-    sunder_i_view view;
+    sunder_i_visibility view;
     reached *at;      /* [nodes] */
     uint32_t *way[2]; /* [nodes + 1] room for paths to compare */
     uint64_t *mark;   /* [nodes] stamps of parting() */
@@ -57,7 +58,7 @@ typedef struct search {
     bool no_memory, cancelled;
 } search;
 
-static const sunder_i_place_at *place_of(const search *s, uint32_t node)
+static const sunder_i_filtered_point *place_of(const search *s, uint32_t node)
 {
     return &s->corners->place[s->corners->node[node]];
 }
@@ -95,11 +96,11 @@ static void expand(search *s, uint32_t v)
 {
     const double so_far = s->at[v].length;
     const uint32_t before = s->all_round || v == s->start ? SUNDER_I_NO_NODE : s->at[v].before;
-    sunder_i_view_look(&s->view, v, before, s->limit - so_far);
+    sunder_i_visibility_look(&s->view, v, before, s->limit - so_far);
     for (size_t i = 0; i < s->view.seen_n && !s->no_memory; i++) {
         const uint32_t w = s->view.seen[i];
-        const double length = so_far + sunder_i_view_distance(&s->view, v, w);
-        const double key = length + s->haste * sunder_i_view_distance(&s->view, w, s->goal);
+        const double length = so_far + sunder_i_visibility_distance(&s->view, v, w);
+        const double key = length + s->haste * sunder_i_visibility_distance(&s->view, w, s->goal);
         if (key <= s->limit && !(s->at[w].known && s->at[w].length < length - s->slack)) push(s, (edge){key, v, w});
     }
 }
@@ -134,8 +135,8 @@ static size_t straighten(const search *s, uint32_t *path, size_t n)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
-        while (m >= 2 && sunder_i_place_orient(&s->space->ground, place_of(s, path[m - 2]), place_of(s, path[m - 1]),
-                                               place_of(s, path[i])) == 0)
+        while (m >= 2 && sunder_i_filtered_orient(&s->space->filter, place_of(s, path[m - 2]), place_of(s, path[m - 1]),
+                                                  place_of(s, path[i])) == 0)
             m--;
         path[m++] = path[i];
     }
@@ -148,7 +149,7 @@ static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t
     sunder_i_big sum = sunder_i_big_i64(arena, 0);
     for (size_t i = 0; i + 1 < n; i++)
         sum = sunder_i_big_add(arena, sum,
-                               sunder_i_place_distance(arena, place_of(s, path[i]), place_of(s, path[i + 1]), bits));
+                               sunder_i_filtered_distance(arena, place_of(s, path[i]), place_of(s, path[i + 1]), bits));
     return sum;
 }
 
@@ -168,9 +169,9 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     size_t same = 0;
     while (same < m && same < n && p[same] == q[same]) same++;
     if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
-    sunder_i_arena *arena = &s->space->ground.lattice->arena;
+    sunder_i_arena *arena = &s->space->filter.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const unsigned long bits = bits_for(s->space->ground.lattice, length);
+    const unsigned long bits = bits_for(s->space->filter.lattice, length);
     const size_t from = same ? same - 1 : 0;
     const sunder_i_big d =
         sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
@@ -181,7 +182,7 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     if (arena->failed) return 0;
     sunder_i_arena_release(arena, mark);
     if (c == 0 && same < m && same < n)
-        c = sunder_i_place_cmp(&s->space->ground, place_of(s, p[same]), place_of(s, q[same]));
+        c = sunder_i_filtered_cmp(&s->space->filter, place_of(s, p[same]), place_of(s, q[same]));
     return c ? c : (m > n) - (m < n);
 }
 
@@ -204,7 +205,7 @@ static int compare_ways(search *s, uint32_t v, uint32_t w)
 
 static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
 {
-    return sunder_i_space_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
+    return sunder_i_leg_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
 }
 
 /* Another way to a node that has been reached. If it is as long, which of the two goes is seen to in the end: what goes
@@ -225,7 +226,7 @@ static void take_again(search *s, edge e)
 
 static void take(search *s, edge e)
 {
-    const double length = s->at[e.from].length + sunder_i_view_distance(&s->view, e.from, e.to);
+    const double length = s->at[e.from].length + sunder_i_visibility_distance(&s->view, e.from, e.to);
     reached *to = &s->at[e.to];
     if (to->known && to->length < length - s->slack) return;
     if ((++s->tried & 255) == 0 && s->options && s->options->progress &&
@@ -248,7 +249,7 @@ static void run(search *s, double haste, double limit)
     s->limit = limit;
     s->at[s->start] = (reached){0, s->start, true};
     expand(s, s->start);
-    while (s->heap_n && !s->no_memory && !s->cancelled && !s->space->ground.lattice->arena.failed) {
+    while (s->heap_n && !s->no_memory && !s->cancelled && !s->space->filter.lattice->arena.failed) {
         const edge e = pop(s);
         const reached *goal = &s->at[s->goal];
         if (goal->known && (haste > 1 || e.key > goal->length + s->slack)) break;
@@ -329,7 +330,7 @@ static void find(search *s)
     for (int k = 0; k < 2; k++) s->way[k] = sunder_i_alloc(nodes + 1, sizeof *s->way[k]);
     s->mark = sunder_i_calloc(nodes, sizeof *s->mark);
     s->no_memory =
-        !sunder_i_view_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
+        !sunder_i_visibility_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
     if (s->no_memory) return;
     run(s, HASTE, INFINITY);
     /* In haste nodes are not reached by shortest paths, and that these go on from there nowhere proves nothing. */
@@ -345,8 +346,8 @@ static void find(search *s)
     if (s->at[s->goal].known && !s->no_memory && !s->cancelled) settle_ties(s);
 }
 
-sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *corners, const sunder_sum_options *options,
-                              uint32_t **path, size_t *n, sunder_error *err)
+sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_corners *corners,
+                                     const sunder_sum_options *options, uint32_t **path, size_t *n, sunder_error *err)
 {
     search s = {.space = space,
                 .corners = corners,
@@ -355,17 +356,18 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
                 .goal = corners->nodes - 1};
     find(&s);
     sunder_status status = SUNDER_OK;
-    if (s.no_memory || space->ground.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
+    if (s.no_memory || space->filter.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
         status = sunder_i_no_memory(err);
     else if (s.cancelled)
         status = sunder_i_cancelled(err);
     if (status == SUNDER_OK) {
+        SUNDER_I_ASSERT(s.at[s.goal].length <= s.limit + s.slack);
         *n = straighten(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
         for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];
         *path = s.way[0];
         s.way[0] = NULL;
     }
-    sunder_i_view_free(&s.view);
+    sunder_i_visibility_free(&s.view);
     sunder_i_free(s.way[0]);
     sunder_i_free(s.way[1]);
     sunder_i_free(s.mark);
@@ -375,25 +377,26 @@ sunder_status sunder_i_search(const sunder_i_space *space, sunder_i_corners *cor
     return status;
 }
 
-static double distance(const sunder_i_place_at *a, const sunder_i_place_at *b)
+static double distance(const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
 {
     return hypot(a->ax - b->ax, a->ay - b->ay);
 }
 
-double sunder_i_path_length(const sunder_i_space *space, const sunder_i_place_at *place, const uint32_t *path, size_t n)
+double sunder_i_path_length(const sunder_i_free_space *space, const sunder_i_filtered_point *place,
+                            const uint32_t *path, size_t n)
 {
-    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_lattice *l = space->filter.lattice;
     sunder_i_arena arena = {0};
     double about = 0;
     for (size_t i = 0; i + 1 < n; i++) about += distance(&place[path[i]], &place[path[i + 1]]);
     const unsigned long bits = bits_for(l, about);
     sunder_i_big sum = sunder_i_big_i64(&arena, 0);
     for (size_t i = 0; i + 1 < n; i++)
-        sum =
-            sunder_i_big_add(&arena, sum, sunder_i_place_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
-    const double length =
-        arena.failed ? (double)NAN
-                     : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1), l->exponent - (long)bits);
+        sum = sunder_i_big_add(&arena, sum,
+                               sunder_i_filtered_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
+    const double length = arena.failed
+                              ? (double)NAN
+                              : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1), l->exponent - (long)bits);
     sunder_i_arena_free(&arena);
     return length;
 }

@@ -1,11 +1,21 @@
-#include "motion/view.h"
+/* What may be seen from a node. The parts around it cast shadows over directions (shadow.h), near ones first; then the
+ * nodes are looked at, and those that are certainly hidden, or farther than the room that is left, are passed over.
+ * Both lie in trees of boxes along a space-filling curve, so that what is hidden or out of the way as a whole is
+ * dismissed as a whole.
+ *
+ * A path that reaches a corner along a leg goes on between straight ahead and the side of the obstacle that it bends
+ * round: elsewhere a shorter one would cut the corner short. That leaves a sector of directions to look at, mostly a
+ * small one. Wherever doubles do not say, all round is looked at. */
+#include "motion/visibility.h"
 
+#include "base/invariant.h"
 #include "spatial/curve.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+/* Nodes in a leaf of their tree: more make it smaller, and have more nodes looked at one by one. */
 #define LEAF_NODES 8
 /* A coordinate from the start is off by this much of itself at most: half a unit in the last place, and a division. */
 #define OFF 0x1p-51
@@ -22,20 +32,20 @@ static double from_origin(sunder_i_lattice *l, sunder_i_big x, sunder_i_big w, s
     return d;
 }
 
-static void take_places(sunder_i_view *view, const sunder_i_big origin[2])
+static void take_places(sunder_i_visibility *view, const sunder_i_big origin[2])
 {
     const sunder_i_corners *c = view->corners;
-    sunder_i_lattice *l = view->space->ground.lattice;
+    sunder_i_lattice *l = view->space->filter.lattice;
     for (uint32_t v = 0; v < c->vertices + 2; v++) {
         view->at[v][0] = from_origin(l, c->place[v].at.x, c->place[v].at.w, origin[0]);
         view->at[v][1] = from_origin(l, c->place[v].at.y, c->place[v].at.w, origin[1]);
     }
 }
 
-static void take_corners(sunder_i_view *view, const sunder_i_big origin[2])
+static void take_corners(sunder_i_visibility *view, const sunder_i_big origin[2])
 {
     const sunder_i_convex_pieces *part = &view->space->part;
-    sunder_i_lattice *l = view->space->ground.lattice;
+    sunder_i_lattice *l = view->space->filter.lattice;
     int64_t o[2];
     /* Native where that cannot overflow: plain coordinates are below 2^61. */
     const bool native = l->approx_shift == 0 && sunder_i_big_fits_i64(origin[0], &o[0]) &&
@@ -66,7 +76,7 @@ static void box_add(double box[4], const double low[2], const double high[2])
     }
 }
 
-static void fill_boxes(sunder_i_view *view)
+static void fill_boxes(sunder_i_visibility *view)
 {
     for (size_t i = 2 * view->leaves - 1; i >= 1; i--) {
         double *box = view->box[i];
@@ -84,7 +94,7 @@ static void fill_boxes(sunder_i_view *view)
     }
 }
 
-static bool build_tree(sunder_i_view *view)
+static bool build_tree(sunder_i_visibility *view)
 {
     sunder_i_arena arena = {0};
     for (uint32_t i = 0; i < view->nodes; i++) view->tree[i] = i;
@@ -95,7 +105,8 @@ static bool build_tree(sunder_i_view *view)
     return ok;
 }
 
-bool sunder_i_view_init(sunder_i_view *view, const sunder_i_space *space, const sunder_i_corners *corners)
+bool sunder_i_visibility_init(sunder_i_visibility *view, const sunder_i_free_space *space,
+                              const sunder_i_corners *corners)
 {
     memset(view, 0, sizeof *view);
     view->space = space;
@@ -109,9 +120,9 @@ bool sunder_i_view_init(sunder_i_view *view, const sunder_i_space *space, const 
     view->seen = sunder_i_alloc(view->nodes, sizeof *view->seen);
     view->box = sunder_i_alloc(2 * view->leaves, sizeof *view->box);
     if (!view->at || !view->corner || !view->tree || !view->seen || !view->box) return false;
-    sunder_i_lattice *l = space->ground.lattice;
+    sunder_i_lattice *l = space->filter.lattice;
     sunder_i_arena *m = &l->arena;
-    const sunder_i_place_at *start = &corners->place[corners->vertices];
+    const sunder_i_filtered_point *start = &corners->place[corners->vertices];
     const sunder_i_big one = sunder_i_big_i64(m, 1);
     const sunder_i_big origin[2] = {sunder_i_big_div_floor(m, start->at.x, start->at.w),
                                     sunder_i_big_div_floor(m, start->at.y, start->at.w)};
@@ -122,7 +133,7 @@ bool sunder_i_view_init(sunder_i_view *view, const sunder_i_space *space, const 
     return !m->failed && build_tree(view);
 }
 
-void sunder_i_view_free(sunder_i_view *view)
+void sunder_i_visibility_free(sunder_i_visibility *view)
 {
     sunder_i_free(view->at);
     sunder_i_free(view->corner);
@@ -132,9 +143,12 @@ void sunder_i_view_free(sunder_i_view *view)
     memset(view, 0, sizeof *view);
 }
 
-static const double *node_at(const sunder_i_view *view, uint32_t node) { return view->at[view->corners->node[node]]; }
+static const double *node_at(const sunder_i_visibility *view, uint32_t node)
+{
+    return view->at[view->corners->node[node]];
+}
 
-double sunder_i_view_distance(const sunder_i_view *view, uint32_t a, uint32_t b)
+double sunder_i_visibility_distance(const sunder_i_visibility *view, uint32_t a, uint32_t b)
 {
     const double *p = node_at(view, a), *q = node_at(view, b);
     return hypot(p[0] - q[0], p[1] - q[1]);
@@ -147,7 +161,7 @@ static double size_of(const double p[2]) { return fabs(p[0]) + fabs(p[1]); }
 /* What the coordinates of such a place may be off by, differences rounded, numbers below the normal ones too. */
 static double off_of(double size) { return 2 * OFF * size + DBL_MIN; }
 
-/* Side of c to the line ab where doubles settle it, else 0. The error is derived as in place.c. */
+/* Side of c to the line ab where doubles settle it, else 0. The error is derived as in filtered_point.c. */
 static int clear_side(const double a[2], const double b[2], const double c[2])
 {
     const double px = b[0] - a[0], py = b[1] - a[1], qx = c[0] - a[0], qy = c[1] - a[1];
@@ -158,37 +172,37 @@ static int clear_side(const double a[2], const double b[2], const double c[2])
     return det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
-/* The direction of the leg pq as a span that holds it for certain; false if nothing is certain. */
-static bool leg_span(const double p[2], const double q[2], sunder_i_span *out)
+/* The direction of the leg pq as a sector that holds it for certain; false if nothing is certain. */
+static bool leg_span(const double p[2], const double q[2], sunder_i_sector *out)
 {
     const double d[1][2] = {{q[0] - p[0], q[1] - p[1]}};
-    return sunder_i_span_of(d, 1, off_of(size_of(p)) + off_of(size_of(q)), false, out);
+    return sunder_i_sector_of(d, 1, off_of(size_of(p)) + off_of(size_of(q)), false, out);
 }
 
 /* A path that comes to a plain corner along uv and bends there bends round it: with O on its left it goes on between
  * straight on and the side of O that leaves v, and with O on its right likewise. */
-static sunder_i_span directions(const sunder_i_view *view, uint32_t v, uint32_t before)
+static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, uint32_t before)
 {
-    const sunder_i_span all = {0, 4};
+    const sunder_i_sector all = {0, 4};
     const uint32_t place = view->corners->node[v], *beside = view->corners->beside[place];
-    if (before == SUNDER_I_NO_NODE || beside[0] == SUNDER_I_NO_PLACE_AT) return all;
+    if (before == SUNDER_I_NO_NODE || beside[0] == SUNDER_I_NO_VERTEX) return all;
     const double *u = node_at(view, before), *at = view->at[place];
     const int a = clear_side(u, at, view->at[beside[0]]), b = clear_side(u, at, view->at[beside[1]]);
-    sunder_i_span on, along;
+    sunder_i_sector on, along;
     if (a + b == 0 || !leg_span(u, at, &on)) return all;
     const bool left = a + b > 0;
     if (!leg_span(at, view->at[beside[left ? 1 : 0]], &along)) return all;
-    const sunder_i_span *low = left ? &on : &along, *high = left ? &along : &on;
+    const sunder_i_sector *low = left ? &on : &along, *high = left ? &along : &on;
     double width = sunder_i_turn_between(low->low, high->low + high->width);
     /* It is half of all directions at most, and what is more is less than nothing: both are one direction. */
     if (width > 3) width = low->width + high->width;
-    return width < 2.5 ? (sunder_i_span){low->low, width} : all;
+    return width < 2.5 ? (sunder_i_sector){low->low, width} : all;
 }
 
 /* ---- Looking ---- */
 
 typedef struct look {
-    sunder_i_view *view;
+    sunder_i_visibility *view;
     const double *eye, *goal;
     double error; /* of the eye */
     double room;  /* from the eye to the goal, rounded up */
@@ -221,10 +235,10 @@ static bool is_out(const look *k, const double box[4], bool casts)
     near_box(k, box, near);
     const double gap = gap_of(near);
     const double corner[4][2] = {{near[0], near[1]}, {near[2], near[1]}, {near[2], near[3]}, {near[0], near[3]}};
-    sunder_i_span span;
-    if (gap <= 0 || !sunder_i_span_of(corner, 4, OFF * gap, false, &span)) return false;
-    return (casts && !sunder_i_shadow_takes(&k->view->shadow, span)) ||
-           sunder_i_shadow_hides(&k->view->shadow, span, gap);
+    sunder_i_sector sector;
+    if (gap <= 0 || !sunder_i_sector_of(corner, 4, OFF * gap, false, &sector)) return false;
+    return (casts && !sunder_i_shadow_takes(&k->view->shadow, sector)) ||
+           sunder_i_shadow_hides(&k->view->shadow, sector, gap);
 }
 
 static void cast_part(look *k, uint32_t part)
@@ -244,9 +258,9 @@ static void cast_part(look *k, uint32_t part)
 /* The box of parts from the start, widened by what its doubles may be off. */
 static void part_box(const look *k, size_t i, double out[4])
 {
-    const sunder_i_space *s = k->view->space;
+    const sunder_i_free_space *s = k->view->space;
     for (int axis = 0; axis < 2; axis++) {
-        const double from = k->view->from[axis], off = 4 * s->ground.error;
+        const double from = k->view->from[axis], off = 4 * s->filter.error;
         out[axis] = s->tree.box[i][axis] - from - off;
         out[axis + 2] = s->tree.box[i][axis + 2] - from + off;
     }
@@ -286,20 +300,21 @@ static void cast_shadows(look *k)
 
 static void see_node(look *k, uint32_t v, uint32_t w)
 {
-    sunder_i_view *view = k->view;
+    sunder_i_visibility *view = k->view;
     const double *at = node_at(view, w), d[1][2] = {{at[0] - k->eye[0], at[1] - k->eye[1]}};
     const double error = off_of(size_of(at)) + k->error;
-    sunder_i_span span;
+    sunder_i_sector sector;
     if (w == v || w == view->nodes - 2) return; /* itself, and the start */
-    if (sunder_i_span_of(d, 1, error, false, &span) &&
-        sunder_i_shadow_hides(&view->shadow, span, size_of(d[0]) - 2 * error))
+    if (sunder_i_sector_of(d, 1, error, false, &sector) &&
+        sunder_i_shadow_hides(&view->shadow, sector, size_of(d[0]) - 2 * error))
         return;
+    SUNDER_I_ASSERT(view->seen_n < view->nodes);
     view->seen[view->seen_n++] = w;
 }
 
 static void see_nodes(look *k, uint32_t v)
 {
-    const sunder_i_view *view = k->view;
+    const sunder_i_visibility *view = k->view;
     size_t stack[64], n = 0;
     stack[n++] = 1;
     while (n) {
@@ -317,15 +332,15 @@ static void see_nodes(look *k, uint32_t v)
 }
 
 /* Would a path along vw that bends at the plain corner w cut it short there? The line parts its two neighbours. */
-static bool bends_in_vain(const sunder_i_view *view, uint32_t v, uint32_t w)
+static bool bends_in_vain(const sunder_i_visibility *view, uint32_t v, uint32_t w)
 {
     const uint32_t place = view->corners->node[w], *beside = view->corners->beside[place];
-    if (beside[0] == SUNDER_I_NO_PLACE_AT) return false;
+    if (beside[0] == SUNDER_I_NO_VERTEX) return false;
     const double *a = node_at(view, v), *b = view->at[place];
     return clear_side(a, b, view->at[beside[0]]) * clear_side(a, b, view->at[beside[1]]) < 0;
 }
 
-void sunder_i_view_look(sunder_i_view *view, uint32_t v, uint32_t before, double room)
+void sunder_i_visibility_look(sunder_i_visibility *view, uint32_t v, uint32_t before, double room)
 {
     const double *eye = node_at(view, v);
     look k = {view, eye, node_at(view, (uint32_t)view->nodes - 1), off_of(size_of(eye)), room};

@@ -3,14 +3,14 @@
  * A closed segment pq and an open convex polygon are disjoint exactly when a line through a side of the polygon, or
  * the line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel
  * to these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
-#include "motion/space.h"
+#include "motion/free_space.h"
 
 #include "spatial/curve.h"
 
 #include <float.h>
 #include <math.h>
 
-static void part_box(const sunder_i_space *s, uint32_t part, double box[4])
+static void part_box(const sunder_i_free_space *s, uint32_t part, double box[4])
 {
     const sunder_i_convex_pieces *c = &s->part;
     box[0] = box[1] = INFINITY;
@@ -21,8 +21,8 @@ static void part_box(const sunder_i_space *s, uint32_t part, double box[4])
         box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
     }
     for (int k = 0; k < 2; k++) {
-        box[k] -= s->ground.error;
-        box[k + 2] += s->ground.error;
+        box[k] -= s->filter.error;
+        box[k + 2] += s->filter.error;
     }
 }
 
@@ -34,7 +34,7 @@ static void join_box(double all[4], const double box[4])
     }
 }
 
-static void fill_boxes(const sunder_i_space *s, sunder_i_part_tree *t)
+static void fill_boxes(const sunder_i_free_space *s, sunder_i_part_tree *t)
 {
     for (size_t i = 2 * t->leaves - 1; i >= 1; i--) {
         double *box = t->box[i];
@@ -54,7 +54,7 @@ static void fill_boxes(const sunder_i_space *s, sunder_i_part_tree *t)
     }
 }
 
-bool sunder_i_part_tree_build(sunder_i_space *s)
+bool sunder_i_part_tree_build(sunder_i_free_space *s)
 {
     sunder_i_part_tree *t = &s->tree;
     const size_t n = s->part.n;
@@ -88,20 +88,23 @@ bool sunder_i_part_tree_build(sunder_i_space *s)
 /* ---- One part ---- */
 
 /* Are both ends on or beyond one side of the part, or all of the part on one side of the line pq? */
-static bool meets(const sunder_i_space *s, uint32_t part, const sunder_i_place_at *p, const sunder_i_place_at *q)
+static bool meets(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
+                  const sunder_i_filtered_point *q)
 {
     const sunder_i_convex_pieces *c = &s->part;
     const uint32_t first = sunder_i_convex_pieces_first(c, part), end = c->end[part];
     for (uint32_t k = first; k < end; k++) {
         const uint32_t next = k + 1 < end ? k + 1 : first;
-        const sunder_i_near a = {c->corner[k], s->corner[k]}, b = {c->corner[next], s->corner[next]};
-        if (sunder_i_side_of(&s->ground, a, b, p) <= 0 && (p == q || sunder_i_side_of(&s->ground, a, b, q) <= 0))
+        const sunder_i_lattice_corner a = {c->corner[k], s->corner[k]}, b = {c->corner[next], s->corner[next]};
+        if (sunder_i_filtered_side(&s->filter, a, b, p) <= 0 &&
+            (p == q || sunder_i_filtered_side(&s->filter, a, b, q) <= 0))
             return false;
     }
     if (p == q) return true;
     int left = 0, right = 0;
     for (uint32_t k = first; k < end && !(left && right); k++) {
-        const int side = sunder_i_corner_side(&s->ground, p, q, (sunder_i_near){c->corner[k], s->corner[k]});
+        const int side =
+            sunder_i_filtered_corner_side(&s->filter, p, q, (sunder_i_lattice_corner){c->corner[k], s->corner[k]});
         left += side > 0;
         right += side < 0;
     }
@@ -126,9 +129,9 @@ static bool box_near(const double box[4], const ray *r)
            reach + r->slack * (fabs(r->dx) + fabs(r->dy)) + 4 * DBL_EPSILON * (fabs(r->dx * my) + fabs(r->dy * mx));
 }
 
-static ray ray_of(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q)
+static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q)
 {
-    const double e = s->ground.error;
+    const double e = s->filter.error;
     ray r = {p->ax, p->ay, q->ax - p->ax, q->ay - p->ay, {0, 0}, {0, 0}, 0};
     r.low[0] = fmin(p->ax, q->ax) - e, r.high[0] = fmax(p->ax, q->ax) + e;
     r.low[1] = fmin(p->ay, q->ay) - e, r.high[1] = fmax(p->ay, q->ay) + e;
@@ -137,8 +140,8 @@ static ray ray_of(const sunder_i_space *s, const sunder_i_place_at *p, const sun
     return r;
 }
 
-bool sunder_i_space_is_free(const sunder_i_space *s, const sunder_i_place_at *p, const sunder_i_place_at *q, bool least,
-                            uint32_t *part)
+bool sunder_i_leg_is_free(const sunder_i_free_space *s, const sunder_i_filtered_point *p,
+                          const sunder_i_filtered_point *q, bool least, uint32_t *part)
 {
     const sunder_i_part_tree *t = &s->tree;
     const ray r = ray_of(s, p, q);
