@@ -113,15 +113,9 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
     }
 }
 
-void gis_listen_begin(gis_listener *listener)
-{
-    CPLPushErrorHandlerEx(hear, listener);
-}
+void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear, listener); }
 
-void gis_listen_end(void)
-{
-    CPLPopErrorHandler();
-}
+void gis_listen_end(void) { CPLPopErrorHandler(); }
 
 void gis_listener_clear(gis_listener *listener)
 {

@@ -112,10 +112,7 @@ bool gis_interrupted(void)
     return atomic_load_explicit(&interrupted, memory_order_relaxed) && atomic_load(&outcome) == GIS_OPEN;
 }
 
-bool gis_go_on(gis_error *error)
-{
-    return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED);
-}
+bool gis_go_on(gis_error *error) { return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED); }
 
 static bool go_on(void *user)
 {
@@ -123,10 +120,7 @@ static bool go_on(void *user)
     return !gis_interrupted();
 }
 
-void gis_watch(void)
-{
-    sunder_watch(go_on, NULL);
-}
+void gis_watch(void) { sunder_watch(go_on, NULL); }
 
 void gis_hold(void)
 {
@@ -140,10 +134,7 @@ void gis_release(void)
     if (--held == 0) pthread_sigmask(SIG_UNBLOCK, &set, NULL);
 }
 
-void gis_set_outcome(gis_outcome now)
-{
-    atomic_store(&outcome, (int)now);
-}
+void gis_set_outcome(gis_outcome now) { atomic_store(&outcome, (int)now); }
 
 bool gis_decide(gis_error *error)
 {
@@ -167,20 +158,11 @@ static gis_leftover *add(const char *path, const char *back_to, gis_outcome stay
     return leftover;
 }
 
-gis_leftover *gis_leftover_temporary(const char *path)
-{
-    return add(path, NULL, GIS_OPEN);
-}
+gis_leftover *gis_leftover_temporary(const char *path) { return add(path, NULL, GIS_OPEN); }
 
-gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path)
-{
-    return add(path, NULL, outcome_then);
-}
+gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path) { return add(path, NULL, outcome_then); }
 
-gis_leftover *gis_leftover_former(const char *path, const char *back_to)
-{
-    return add(path, back_to, GIS_OPEN);
-}
+gis_leftover *gis_leftover_former(const char *path, const char *back_to) { return add(path, back_to, GIS_OPEN); }
 
 void gis_leftover_forget(gis_leftover *leftover)
 {
@@ -195,7 +177,4 @@ void gis_leftover_forget(gis_leftover *leftover)
     CPLFree(leftover);
 }
 
-void gis_failure_told(int exit_status)
-{
-    atomic_store(&told, exit_status);
-}
+void gis_failure_told(int exit_status) { atomic_store(&told, exit_status); }

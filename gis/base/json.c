@@ -15,10 +15,7 @@ void gis_json_clear(gis_json *out)
     *out = (gis_json){0};
 }
 
-const char *gis_json_text(const gis_json *out)
-{
-    return out->failed ? NULL : out->text ? out->text : "";
-}
+const char *gis_json_text(const gis_json *out) { return out->failed ? NULL : out->text ? out->text : ""; }
 
 static void append(gis_json *out, const char *bytes, size_t n)
 {

@@ -8,15 +8,9 @@
 
 enum { LONGEST = 40 }; /* longer words are no slips of the pen */
 
-static int letter(char c)
-{
-    return tolower((unsigned char)c);
-}
+static int letter(char c) { return tolower((unsigned char)c); }
 
-static size_t least(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
 static size_t distance(const char *a, size_t n, const char *b, size_t m)
 {
@@ -46,10 +40,7 @@ static bool begins_or_ends(const char *word, size_t n, const char *part, size_t 
     return m >= SHORTEST_PART && m < n && (strncasecmp(word, part, m) == 0 || strncasecmp(word + n - m, part, m) == 0);
 }
 
-gis_nearest gis_nearest_to(const char *word, size_t n)
-{
-    return (gis_nearest){.word = word, .n = n};
-}
+gis_nearest gis_nearest_to(const char *word, size_t n) { return (gis_nearest){.word = word, .n = n}; }
 
 void gis_nearest_offer(gis_nearest *search, const char *word, size_t n)
 {

@@ -9,10 +9,7 @@
 /* GDAL's bar, 0...10...20 ... 100 - done.: a mark each 2.5 percent, every fourth a number. */
 enum { BAR_MARKS = 40, MARKS_A_NUMBER = 4, PERCENT_A_NUMBER = 10 };
 
-gis_progress gis_progress_new(gis_progress_kind kind)
-{
-    return (gis_progress){.kind = kind, .to = 1, .shown = -1};
-}
+gis_progress gis_progress_new(gis_progress_kind kind) { return (gis_progress){.kind = kind, .to = 1, .shown = -1}; }
 
 void gis_progress_stage(gis_progress *progress, double from, double to)
 {

@@ -46,10 +46,7 @@ static void empty(int directory, int depth)
     }
 }
 
-void gis_take_away(const char *path)
-{
-    remove_entry(AT_FDCWD, path, 0);
-}
+void gis_take_away(const char *path) { remove_entry(AT_FDCWD, path, 0); }
 
 #else
 

@@ -114,10 +114,7 @@ bool gis_buffer_gather(gis_buffer *buffer, gis_error *error)
 
 /* ---- One set ----------------------------------------------------------------------------------------------------- */
 
-static bool has_shape(const gis_buffer *buffer, size_t feature)
-{
-    return buffer->input.shape[feature] != NULL;
-}
+static bool has_shape(const gis_buffer *buffer, size_t feature) { return buffer->input.shape[feature] != NULL; }
 
 /* Has it polygons, if only empty ones? */
 static bool has_polygons(const gis_buffer *buffer, size_t feature)

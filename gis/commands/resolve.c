@@ -9,8 +9,10 @@
 
 /* ---- Words ------------------------------------------------------------------------------------------------------- */
 
-bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned), unsigned *number,
-                        gis_error *error)
+/* The number of a CHOICE's word in the enumeration that `word` gives the words of, from 0 on up to its end, the empty
+ * word. False, with an error: the table of options and the enumeration do not agree. */
+static bool resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned),
+                           unsigned *number, gis_error *error)
 {
     const char *given = options->text[id];
     for (unsigned i = 0; word(i)[0]; i++)
@@ -24,35 +26,12 @@ bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char
 }
 
 /* The functions that give an enumeration its words, of one type. */
-static const char *algorithm_word(unsigned i)
-{
-    return sunder_algorithm_string((sunder_algorithm)i);
-}
-
-static const char *decomposition_word(unsigned i)
-{
-    return sunder_decomposition_string((sunder_decomposition)i);
-}
-
-static const char *order_word(unsigned i)
-{
-    return sunder_order_string((sunder_order)i);
-}
-
-static const char *operation_word(unsigned i)
-{
-    return sunder_operation_string((sunder_operation)i);
-}
-
-static const char *invalid_word(unsigned i)
-{
-    return gis_invalid_string((gis_invalid)i);
-}
-
-static const char *weighting_word(unsigned i)
-{
-    return gis_weighting_string((gis_weighting)i);
-}
+static const char *algorithm_word(unsigned i) { return sunder_algorithm_string((sunder_algorithm)i); }
+static const char *decomposition_word(unsigned i) { return sunder_decomposition_string((sunder_decomposition)i); }
+static const char *order_word(unsigned i) { return sunder_order_string((sunder_order)i); }
+static const char *operation_word(unsigned i) { return sunder_operation_string((sunder_operation)i); }
+static const char *invalid_word(unsigned i) { return gis_invalid_string((gis_invalid)i); }
+static const char *weighting_word(unsigned i) { return gis_weighting_string((gis_weighting)i); }
 
 /* The library has no words for this one. */
 static const char *containment_word(unsigned i)
@@ -66,7 +45,7 @@ static const char *containment_word(unsigned i)
 static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_error *error)
 {
     unsigned policy;
-    if (!gis_resolve_choice(options, OPT_INVALID, invalid_word, &policy, error)) return false;
+    if (!resolve_choice(options, OPT_INVALID, invalid_word, &policy, error)) return false;
     *out = (gis_invalid)policy;
     return true;
 }
@@ -86,6 +65,9 @@ gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id
 {
     return (gis_optional_length){options->text[id], options->length[id]};
 }
+
+/* It is the last operand of every command; NULL: not given. */
+static const char *output_of(const gis_options *options) { return options->operand[options->command->most - 1]; }
 
 /* The operand that messages call INPUT, or OBSTACLES. */
 static gis_source_request resolve_source(const gis_options *options)
@@ -116,7 +98,7 @@ static bool resolve_contained(const gis_options *options, sunder_containment *ou
     bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
     unsigned contained = SUNDER_CONTAINMENT_SEPARATE;
     if (!(points && !options->given[OPT_CONTAINED]) &&
-        !gis_resolve_choice(options, OPT_CONTAINED, containment_word, &contained, error))
+        !resolve_choice(options, OPT_CONTAINED, containment_word, &contained, error))
         return false;
     *out = (sunder_containment)contained;
     return true;
@@ -137,7 +119,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .list_inside = options->given[OPT_LIST_INSIDE],
         .threads = thread_count(options),
     };
-    if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
+    if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
     return resolve_contained(options, &out->contained, error);
 }
@@ -146,7 +128,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
 {
     *out = (gis_layer_input_request){
         .source = resolve_source(options),
-        .output = gis_resolve_output(options),
+        .output = output_of(options),
         .scale = options->number[OPT_SCALE],
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
@@ -185,9 +167,9 @@ bool gis_resolve_operands(const gis_options *options, gis_operands_request *out,
 bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_error *error)
 {
     unsigned algorithm, decomposition, order;
-    if (!gis_resolve_choice(options, OPT_ALGORITHM, algorithm_word, &algorithm, error) ||
-        !gis_resolve_choice(options, OPT_DECOMPOSITION, decomposition_word, &decomposition, error) ||
-        !gis_resolve_choice(options, OPT_ORDER, order_word, &order, error))
+    if (!resolve_choice(options, OPT_ALGORITHM, algorithm_word, &algorithm, error) ||
+        !resolve_choice(options, OPT_DECOMPOSITION, decomposition_word, &decomposition, error) ||
+        !resolve_choice(options, OPT_ORDER, order_word, &order, error))
         return false;
     *out = (sunder_sum_options){
         .algorithm = (sunder_algorithm)algorithm,
@@ -196,7 +178,7 @@ bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_e
         .seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0,
         .keep_map = options->given[OPT_PLANAR_MAP],
     };
-    const char *output = gis_resolve_output(options);
+    const char *output = output_of(options);
     if (!out->keep_map) return true;
     if (out->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
         return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
@@ -223,7 +205,7 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
         .threads = thread_count(options),
     };
     if (!gis_resolve_layer(options, &out->layer, error) ||
-        !gis_resolve_choice(options, OPT_OPERATION, operation_word, &operation, error))
+        !resolve_choice(options, OPT_OPERATION, operation_word, &operation, error))
         return false;
     out->operation = (sunder_operation)operation;
     out->shape = resolve_shape(options, OPT_SHAPE, out->layer.invalid);
@@ -247,7 +229,7 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
         .scale = options->number[OPT_SCALE],
         .free_space = options->given[OPT_FREE_SPACE],
     };
-    if (out->free_space && !gis_resolve_output(options))
+    if (out->free_space && !output_of(options))
         return gis_fail_usage(error, "--free-space needs OUTPUT: it writes layers");
     if (!resolve_place(options, OPT_FROM, &out->from, error) || !resolve_place(options, OPT_TO, &out->to, error))
         return false;
@@ -276,15 +258,9 @@ gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, 
     };
 }
 
-/* It is the last operand of every command. */
-const char *gis_resolve_output(const gis_options *options)
-{
-    return options->operand[options->command->most - 1];
-}
-
 gis_destinations gis_resolve_destinations(const gis_options *options)
 {
-    gis_destinations to = {.output = gis_resolve_output(options), .stats = options->text[OPT_STATS]};
+    gis_destinations to = {.output = output_of(options), .stats = options->text[OPT_STATS]};
     for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];

@@ -11,11 +11,6 @@
 #include "sum/operands.h"
 #include "write/deliver.h"
 
-/* The number of a CHOICE's word in the enumeration that `word` gives the words of, from 0 on up to its end, the empty
- * word. False, with an error: the table of options and the enumeration do not agree. */
-bool gis_resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned), unsigned *number,
-                        gis_error *error);
-
 gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id id);
 
 /* Separate, check: the layer and its rules. */
@@ -31,8 +26,6 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
 
 /* OUTPUT; `main_layer` is the name of the main layer unless --output-layer says another. */
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer);
-/* The operand OUTPUT; NULL: not given. */
-const char *gis_resolve_output(const gis_options *options);
 gis_destinations gis_resolve_destinations(const gis_options *options);
 gis_progress gis_resolve_progress(const gis_options *options);
 

@@ -9,10 +9,7 @@ static sunder_point point_at(OGRGeometryH ring, int i)
     return (sunder_point){OGR_G_GetX(ring, i), OGR_G_GetY(ring, i)};
 }
 
-static bool same_point(sunder_point p, sunder_point q)
-{
-    return p.x == q.x && p.y == q.y;
-}
+static bool same_point(sunder_point p, sunder_point q) { return p.x == q.x && p.y == q.y; }
 
 /* +1 counter-clockwise, -1 clockwise, 0 where the lowest vertex is a spike or all is one point. The lowest vertex (of
  * several the rightmost) lies on the hull, so the turn there is the turn of the ring, if the ring is simple; of a ring

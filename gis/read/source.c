@@ -254,35 +254,17 @@ void gis_source_close(gis_source *source)
 
 /* ---- Getters ----------------------------------------------------------------------------------------------------- */
 
-size_t gis_source_count(const gis_source *source)
-{
-    return source->n;
-}
-
-OGRFeatureH gis_source_feature(const gis_source *source, size_t i)
-{
-    return source->features[i];
-}
+size_t gis_source_count(const gis_source *source) { return source->n; }
+OGRFeatureH gis_source_feature(const gis_source *source, size_t i) { return source->features[i]; }
 
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
 {
     return OGR_F_GetGeometryRef(source->features[i]);
 }
 
-GIntBig gis_source_fid(const gis_source *source, size_t i)
-{
-    return OGR_F_GetFID(source->features[i]);
-}
-
-bool gis_source_fids_unique(const gis_source *source)
-{
-    return source->fids_unique;
-}
-
-gis_content gis_source_content(const gis_source *source, size_t i)
-{
-    return (gis_content)source->contents[i];
-}
+GIntBig gis_source_fid(const gis_source *source, size_t i) { return OGR_F_GetFID(source->features[i]); }
+bool gis_source_fids_unique(const gis_source *source) { return source->fids_unique; }
+gis_content gis_source_content(const gis_source *source, size_t i) { return (gis_content)source->contents[i]; }
 
 size_t gis_source_content_count(const gis_source *source, gis_content content)
 {
@@ -291,52 +273,18 @@ size_t gis_source_content_count(const gis_source *source, gis_content content)
     return count;
 }
 
-const char *gis_source_name(const gis_source *source)
-{
-    return source->name;
-}
-
-const char *gis_source_path(const gis_source *source)
-{
-    return source->path;
-}
-
-GDALDatasetH gis_source_dataset(const gis_source *source)
-{
-    return source->dataset;
-}
-
-OGRLayerH gis_source_layer(const gis_source *source)
-{
-    return source->layer;
-}
-
-OGRwkbGeometryType gis_source_type(const gis_source *source)
-{
-    return OGR_L_GetGeomType(source->layer);
-}
-
-OGRSpatialReferenceH gis_source_crs(const gis_source *source)
-{
-    return source->crs;
-}
-
-bool gis_source_is_result(const gis_source *source)
-{
-    return source->is_result;
-}
-
-const char *gis_source_where(const gis_source *source)
-{
-    return source->where;
-}
+const char *gis_source_name(const gis_source *source) { return source->name; }
+const char *gis_source_path(const gis_source *source) { return source->path; }
+GDALDatasetH gis_source_dataset(const gis_source *source) { return source->dataset; }
+OGRLayerH gis_source_layer(const gis_source *source) { return source->layer; }
+OGRwkbGeometryType gis_source_type(const gis_source *source) { return OGR_L_GetGeomType(source->layer); }
+OGRSpatialReferenceH gis_source_crs(const gis_source *source) { return source->crs; }
+bool gis_source_is_result(const gis_source *source) { return source->is_result; }
+const char *gis_source_where(const gis_source *source) { return source->where; }
 
 int gis_source_field(const gis_source *source, const char *name)
 {
     return OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(source->layer), name);
 }
 
-const gis_list *gis_source_warnings(const gis_source *source)
-{
-    return &source->warnings;
-}
+const gis_list *gis_source_warnings(const gis_source *source) { return &source->warnings; }

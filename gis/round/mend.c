@@ -19,14 +19,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static bool same_vertex(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error)
 {
-    while (set->vertices > first + 1 && same_vertex(set->xy + 2 * first, set->xy + 2 * (set->vertices - 1)))
+    while (set->vertices > first + 1 && gis_same_vertex(set->xy + 2 * first, set->xy + 2 * (set->vertices - 1)))
         set->vertices--;
     const sunder_point *point = (const sunder_point *)set->xy; /* pairs of doubles, laid out as points are */
     *kept = false;
@@ -52,13 +47,16 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
     return status == SUNDER_OK || status == SUNDER_EINVALID || gis_core_failed(error, NULL, &why);
 }
 
-bool gis_polygon_look(const gis_polygons *set, size_t first, size_t last, gis_error *error, gis_polygon_state *state)
+/* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_VALIDITY_STRICT
+ * alone: an interior that falls apart, a ring that meets itself. */
+typedef enum polygon_state { BROKEN, TOUCHES, WELL } polygon_state;
+
+/* False only where the question cannot be answered. */
+static bool look_at(const gis_polygons *set, size_t first, size_t last, polygon_state *state, gis_error *error)
 {
     sunder_shape *shape;
     if (!strict_shape(set, first, last, &shape, error)) return false;
-    *state = !shape                        ? GIS_POLYGON_BROKEN
-             : sunder_shape_touches(shape) ? GIS_POLYGON_TOUCHES
-                                           : GIS_POLYGON_WELL;
+    *state = !shape ? BROKEN : sunder_shape_touches(shape) ? TOUCHES : WELL;
     sunder_shape_free(shape);
     return true;
 }
@@ -84,7 +82,9 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
     return true;
 }
 
-bool gis_settle_polygon(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
+/* Appends rings [first, last) of another set, which touch, as polygons that are valid in the sense of OGC; their
+ * corners are the same. */
+static bool settle(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
 {
     sunder_shape *shape;
     sunder_sum *sum = NULL;
@@ -135,7 +135,7 @@ double gis_place_along(const double *a, const double *b, const double *c, const 
 static bool is_near(const double *a, const double *b, const double *c, const double reach[2], bend *found)
 {
     double off, t;
-    if (same_vertex(a, c) || same_vertex(b, c)) return false;
+    if (gis_same_vertex(a, c) || gis_same_vertex(b, c)) return false;
     t = gis_place_along(a, b, c, reach, &off);
     if (!(t > 0 && t < 1)) return false;
     double x = a[0] + t * (b[0] - a[0]), y = a[1] + t * (b[1] - a[1]);
@@ -176,7 +176,7 @@ static bool bend_ring(const gis_polygons *from, size_t r, const column *columns,
         size_t found = find_bends(columns, n, a, b, ulps, bends);
         for (size_t k = 0; k < found; k++) {
             *moved = fmax(*moved, bends[k].distance);
-            if ((k == 0 || !same_vertex(bends[k].xy, bends[k - 1].xy)) &&
+            if ((k == 0 || !gis_same_vertex(bends[k].xy, bends[k - 1].xy)) &&
                 !gis_polygons_vertex(to, bends[k].xy[0], bends[k].xy[1], error))
                 return false;
         }
@@ -231,7 +231,7 @@ static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *ou
         bool kept;
         for (size_t v = 0; v < n; v++) {
             *moved = fmax(*moved, gis_ulp(fmax(fabs(xy[2 * v]), fabs(xy[2 * v + 1]))));
-            if (out->vertices > start && same_vertex(out->xy + 2 * (out->vertices - 1), xy + 2 * v)) continue;
+            if (out->vertices > start && gis_same_vertex(out->xy + 2 * (out->vertices - 1), xy + 2 * v)) continue;
             if (!gis_polygons_vertex(out, xy[2 * v], xy[2 * v + 1], error)) return false;
         }
         if (!gis_end_ring_with_area(out, start, &kept, error)) return false;
@@ -260,12 +260,11 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
 {
     for (size_t p = 0; p < set->polygons; p++) {
         size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
-        gis_polygon_state state;
-        if (!gis_polygon_look(set, from, to, error, &state)) return false;
-        if (!(state == GIS_POLYGON_TOUCHES ? gis_settle_polygon(done, set, from, to, error)
-                                           : gis_polygons_append(state == GIS_POLYGON_WELL ? done : broken, set, from,
-                                                                 to, error)))
-            return false;
+        polygon_state state;
+        if (!look_at(set, from, to, &state, error)) return false;
+        bool ok = state == TOUCHES ? settle(done, set, from, to, error)
+                                   : gis_polygons_append(state == WELL ? done : broken, set, from, to, error);
+        if (!ok) return false;
     }
     return true;
 }
@@ -288,7 +287,8 @@ static bool mend_once(const gis_polygons *set, size_t first, size_t last, int ro
     return ok;
 }
 
-bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error *error)
+/* Replaces rings [first, set->rings) by valid polygons, and raises *moved to how far that moves a boundary. */
+static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *error)
 {
     gis_polygons work = {0};
     double total = 0;
@@ -314,18 +314,18 @@ bool gis_mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error 
 
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error)
 {
-    gis_polygon_state state;
-    if (!gis_polygon_look(set, first, set->rings, error, &state)) return false;
-    if (state == GIS_POLYGON_WELL) return gis_polygons_end_polygon(set, error);
-    if (state == GIS_POLYGON_BROKEN) {
+    polygon_state state;
+    if (!look_at(set, first, set->rings, &state, error)) return false;
+    if (state == WELL) return gis_polygons_end_polygon(set, error);
+    if (state == BROKEN) {
         *repaired += 1;
-        return gis_mend_polygon(set, first, moved, error);
+        return mend(set, first, moved, error);
     }
     gis_polygons copy = {0};
     bool ok = gis_polygons_append(&copy, set, first, set->rings, error);
     set->vertices = first ? set->ring_end[first - 1] : 0;
     set->rings = first;
-    ok = ok && gis_settle_polygon(set, &copy, 0, copy.rings, error);
+    ok = ok && settle(set, &copy, 0, copy.rings, error);
     gis_polygons_clear(&copy);
     return ok;
 }

@@ -55,11 +55,6 @@ bool gis_vertex_deviation(const sunder_sum *sum, uint32_t vertex, double *deviat
     return sunder_sum_vertices(sum, &vertex, 1, xy, deviation, &why) == SUNDER_OK || gis_core_failed(error, NULL, &why);
 }
 
-static bool same_vertex(const double *a, const double *b)
-{
-    return a[0] == b[0] && a[1] == b[1];
-}
-
 /* Appends one ring of the sum; repeated vertices once. A ring that has fallen together is not appended. */
 static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, double *deviation,
                         bool *kept, gis_error *error)
@@ -76,7 +71,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
                         "`sunder sum --exact` gives it as JSON");
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
-        if (m > 0 && same_vertex(xy + 2 * (m - 1), xy + 2 * i)) continue;
+        if (m > 0 && gis_same_vertex(xy + 2 * (m - 1), xy + 2 * i)) continue;
         xy[2 * m] = xy[2 * i];
         xy[2 * m + 1] = xy[2 * i + 1];
         m++;

@@ -30,10 +30,7 @@ static struct flock range(short type, off_t start, off_t length)
     return (struct flock){.l_type = type, .l_whence = SEEK_SET, .l_start = start, .l_len = length};
 }
 
-int gis_sqlite_patience(void)
-{
-    return atoi(CPLGetConfigOption("SQLITE_BUSY_TIMEOUT", "5000"));
-}
+int gis_sqlite_patience(void) { return atoi(CPLGetConfigOption("SQLITE_BUSY_TIMEOUT", "5000")); }
 
 bool gis_sqlite_is(const char *path)
 {
@@ -58,15 +55,9 @@ static bool meets(const char *path, short type, off_t start, off_t length)
     return met;
 }
 
-bool gis_sqlite_in_use(const char *path)
-{
-    return meets(path, F_WRLCK, PENDING, ALL);
-}
+bool gis_sqlite_in_use(const char *path) { return meets(path, F_WRLCK, PENDING, ALL); }
 
-bool gis_sqlite_being_written(const char *path)
-{
-    return meets(path, F_WRLCK, PENDING, 2);
-}
+bool gis_sqlite_being_written(const char *path) { return meets(path, F_WRLCK, PENDING, 2); }
 
 /* Milliseconds between two attempts: much shorter than a person notices, much longer than an attempt takes. */
 enum { MOMENT = 20 };

@@ -39,10 +39,7 @@ static bool sync_path(const char *path, gis_error *error)
     return done || gis_fail(error, "%s: cannot be brought to the disk: %s", path, strerror(reason));
 }
 
-static bool is_dots(const char *name)
-{
-    return strcmp(name, ".") == 0 || strcmp(name, "..") == 0;
-}
+static bool is_dots(const char *name) { return strcmp(name, ".") == 0 || strcmp(name, "..") == 0; }
 
 static bool is_directory(const char *path)
 {

@@ -17,10 +17,7 @@
 #include <unistd.h>
 
 
-char *gis_join(const char *directory, const char *name)
-{
-    return CPLStrdup(CPLSPrintf("%s/%s", directory, name));
-}
+char *gis_join(const char *directory, const char *name) { return CPLStrdup(CPLSPrintf("%s/%s", directory, name)); }
 
 bool gis_there(const char *path)
 {
@@ -105,20 +102,11 @@ void gis_stage_free(gis_stage *stage)
     CPLFree(stage);
 }
 
-char *gis_stage_inside(const gis_stage *stage, const char *name)
-{
-    return gis_join(stage->inside, name);
-}
+char *gis_stage_inside(const gis_stage *stage, const char *name) { return gis_join(stage->inside, name); }
 
-char *gis_stage_outside(const gis_stage *stage, const char *name)
-{
-    return gis_join(stage->directory, name);
-}
+char *gis_stage_outside(const gis_stage *stage, const char *name) { return gis_join(stage->directory, name); }
 
-const char *gis_stage_main(const gis_stage *stage)
-{
-    return stage->main;
-}
+const char *gis_stage_main(const gis_stage *stage) { return stage->main; }
 
 /* ---- Copying in -------------------------------------------------------------------------------------------------- */
 

@@ -16,10 +16,7 @@ typedef struct map_run {
     gis_polygons face;
 } map_run;
 
-static gis_value covered_by(uint32_t n)
-{
-    return (gis_value){.kind = GIS_INTEGER, .as.integer = (GIntBig)n};
-}
+static gis_value covered_by(uint32_t n) { return (gis_value){.kind = GIS_INTEGER, .as.integer = (GIntBig)n}; }
 
 static const double *vertex(const map_run *run, uint32_t half)
 {

@@ -136,10 +136,7 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     return true;
 }
 
-bool gis_sink_takes_more(const gis_sink *sink)
-{
-    return !sink->to_stdout;
-}
+bool gis_sink_takes_more(const gis_sink *sink) { return !sink->to_stdout; }
 
 static void free_layer(gis_sink_layer *layer)
 {
@@ -211,17 +208,6 @@ void gis_sink_free(gis_sink *sink)
     free(sink);
 }
 
-const gis_list *gis_sink_losses(const gis_sink *sink)
-{
-    return &sink->losses;
-}
+const gis_list *gis_sink_losses(const gis_sink *sink) { return &sink->losses; }
 
-const gis_list *gis_sink_warnings(const gis_sink *sink)
-{
-    return &sink->warnings;
-}
-
-const char *gis_sink_layer_name(const gis_sink_layer *layer)
-{
-    return layer->name;
-}
+const gis_list *gis_sink_warnings(const gis_sink *sink) { return &sink->warnings; }

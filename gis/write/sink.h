@@ -114,7 +114,5 @@ void gis_sink_free(gis_sink *sink);
 const gis_list *gis_sink_losses(const gis_sink *sink);
 /* Other things worth a warning (fields replaced, what GDAL said). */
 const gis_list *gis_sink_warnings(const gis_sink *sink);
-/* Where the main layer can be opened when published, and its name there. */
-const char *gis_sink_layer_name(const gis_sink_layer *layer);
 
 #endif

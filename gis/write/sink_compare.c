@@ -65,10 +65,7 @@ static ring_view normal_ring(const double *xy, size_t n)
     return best;
 }
 
-static int order_rings(const void *a, const void *b)
-{
-    return compare_rings(a, b);
-}
+static int order_rings(const void *a, const void *b) { return compare_rings(a, b); }
 
 typedef struct member {
     ring_view *rings; /* the outer one first, then the holes sorted */

@@ -51,10 +51,7 @@ bool gis_sink_begin_transaction(gis_sink *sink, gis_error *error)
     return sink->in_transaction || gis_fail(error, "%s: no transaction can be started", sink->request.path);
 }
 
-static bool in_sqlite_file(const gis_sink *sink)
-{
-    return sink->place == GIS_PLACE_DATABASE && sink->format.sqlite;
-}
+static bool in_sqlite_file(const gis_sink *sink) { return sink->place == GIS_PLACE_DATABASE && sink->format.sqlite; }
 
 /* ---- The lock of a SQLite file ----------------------------------------------------------------------------------- */
 

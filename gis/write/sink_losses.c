@@ -33,10 +33,7 @@ static const char *type_name(OGRFieldDefnH field)
     return subtype == OFSTNone ? OGR_GetFieldTypeName(OGR_Fld_GetType(field)) : OGR_GetFieldSubTypeName(subtype);
 }
 
-static bool same_text(const char *a, const char *b)
-{
-    return (!a || !a[0]) ? !b || !b[0] : b && strcmp(a, b) == 0;
-}
+static bool same_text(const char *a, const char *b) { return (!a || !a[0]) ? !b || !b[0] : b && strcmp(a, b) == 0; }
 
 /* A layer that is still open for writing repeats what it was told: so a domain counts only if the dataset has it. */
 static bool has_domain(GDALDatasetH dataset, OGRFieldDefnH field)

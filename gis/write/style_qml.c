@@ -90,10 +90,7 @@ static void add_marker(text *to, const char *shape, const char *colour, const ch
     add(to, "</layer>");
 }
 
-static const char *symbol_type(kind of)
-{
-    return of == OF_POINTS ? "marker" : of == OF_LINES ? "line" : "fill";
-}
+static const char *symbol_type(kind of) { return of == OF_POINTS ? "marker" : of == OF_LINES ? "line" : "fill"; }
 
 static void begin_symbol(text *to, const char *type, const char *name)
 {
@@ -163,10 +160,7 @@ static void begin_single(text *to)
             "<symbols>\n");
 }
 
-static void end_single(text *to)
-{
-    add(to, "</symbols>\n</renderer-v2>\n");
-}
+static void end_single(text *to) { add(to, "</symbols>\n</renderer-v2>\n"); }
 
 /* A head of fixed size at the end of each move: moves are often shorter on the sheet than any arrow. */
 static void add_arrows(text *to)
