@@ -8,7 +8,8 @@
  * Once ranked (directions.h), each piece starts with a side of the least rank, and ranks do not fall: so that a sum is
  * a merge of two lists (merge.h).
  *
- * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges are, diagonals not. */
+ * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges, not the diagonals.
+ */
 #ifndef SUNDER_I_CONVEX_PIECES_H
 #define SUNDER_I_CONVEX_PIECES_H
 

@@ -56,7 +56,8 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
 /* Is each option one of its values? */
 static sunder_status check_options(const sunder_sum_options *o, sunder_error *err)
 {
-    if ((unsigned)o->algorithm > SUNDER_ALGORITHM_DIVIDE) return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
+    if ((unsigned)o->algorithm > SUNDER_ALGORITHM_DIVIDE)
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such algorithm");
     if ((unsigned)o->decomposition > SUNDER_DECOMPOSITION_MIXED)
         return sunder_i_fail(err, SUNDER_EARG, "there is no such decomposition");
     if ((unsigned)o->order > SUNDER_ORDER_GIVEN) return sunder_i_fail(err, SUNDER_EARG, "there is no such order");
@@ -74,7 +75,9 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
-    sum->method.algorithm = o.algorithm ? o.algorithm : o.keep_map ? SUNDER_ALGORITHM_ARRANGEMENT : SUNDER_ALGORITHM_CONVOLUTION;
+    sum->method.algorithm = o.algorithm  ? o.algorithm
+                            : o.keep_map ? SUNDER_ALGORITHM_ARRANGEMENT
+                                         : SUNDER_ALGORITHM_CONVOLUTION;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
     if (sum->method.algorithm == SUNDER_ALGORITHM_CONVOLUTION)

@@ -52,7 +52,8 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
     stage s;
     sunder_sum *whole;
     sunder_i_seat seat;
-    sunder_status status = first_stage(p, b, operation == SUNDER_OPERATION_CLOSE, begin(&s, asked, 0, ready), &whole, err);
+    const bool close = operation == SUNDER_OPERATION_CLOSE;
+    sunder_status status = first_stage(p, b, close, begin(&s, asked, 0, ready), &whole, err);
     if (status != SUNDER_OK) return status;
     status = sunder_i_seat_make(p, b, &seat, err);
     if (status == SUNDER_OK) {
@@ -79,7 +80,8 @@ sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, su
                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
     if (b->polygons == 0) return sunder_i_fail(err, SUNDER_EARG, "the shape to grow or shrink by has no area");
-    if ((unsigned)operation > SUNDER_OPERATION_CLOSE) return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
+    if ((unsigned)operation > SUNDER_OPERATION_CLOSE)
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such operation");
     if (operation == SUNDER_OPERATION_DILATE) return sunder_minkowski_sum(p, b, options, out, err);
     sunder_sum_options o = {0};
     if (options) o = *options;

@@ -1,4 +1,5 @@
-/* Rings off the graph of boundary edges, straight vertices left out, and what of the covered stretches is degenerate. */
+/* Rings off the graph of boundary edges, straight vertices left out; degenerate segments and points off what is covered
+ * on both banks, or touched by no stretch. */
 #include "outline/boundary.h"
 
 #include "outline/boundary_graph.h"

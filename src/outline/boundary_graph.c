@@ -1,3 +1,4 @@
+/* Edges, and their ends sorted around each vertex by rank; then covered walks, by turning across covered wedges. */
 #include "outline/boundary_graph.h"
 
 #include "base/sort.h"

@@ -23,7 +23,7 @@ typedef struct sunder_i_graph {
     sunder_i_ray *ray;  /* counter-clockwise around each vertex, from the positive x axis */
     uint32_t *walk;     /* [edges] which covered walk an edge belongs to */
     uint32_t walks;
-    uint32_t *walk_start; /* [walks] an edge that leaves the walk's lexicographically smallest vertex, or arrives there */
+    uint32_t *walk_start; /* [walks] an edge that leaves, or arrives at, the walk's lexicographically smallest vertex */
     bool *walk_outer;     /* [walks] is the walk the outer boundary of its component? */
     uint32_t *component;  /* [walks] numbered from 0 */
     uint32_t components;

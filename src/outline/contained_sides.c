@@ -1,12 +1,13 @@
 /* Where many members are grown by one shape and overlap, most of their sides lie inside some other part, and the
- * cells (cells.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
+ * cells (culling.h) spend most of their time on such; where members nearly coincide, no cell parts them, and all their
  * sides would meet all parts along their lines. A side inside an open convex set is one with both its ends there;
  * which parts may hold it is read off a grid. A filter: what it does not find is found by the cells. Floating point
- * with one-sided bounds, so that nothing is taken for buried that is not. */
+ * with one-sided bounds, so that nothing is taken for contained that is not. */
 #include "outline/contained_sides.h"
 
 #include "base/sort.h"
 #include "base/watch.h"
+#include "outline/tuning.h"
 #include "predicate/kernel.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ typedef struct grid {
     int shift;
     uint32_t size[2];
     uint32_t *end, *list; /* [squares] past its last entry in list */
-    size_t spent, allowed; /* parts looked at, see bury() */
+    size_t spent, allowed; /* parts looked at, see drop() */
 } grid;
 
 /* ---- Inside a part? ---- */
@@ -77,8 +78,8 @@ static bool holds(const grid *g, uint32_t part, sunder_i_point p)
 
 /* ---- The grid ---- */
 
-/* sunder_i_approx() is off by half an ulp of the largest, 2^-53 of it, which is less than 2^60 units here: by 2^7, and by
- * half a unit where that is rounded. False if memory is out, or if all is next to nothing, where doubles underflow. */
+/* sunder_i_approx() is off by half an ulp of the largest, 2^-53 of it, which is less than 2^60 units here: by 2^7, and
+ * by half a unit where that is rounded. False if memory is out, or if all is next to nothing, where doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
     const sunder_i_convex_pieces *s = g->parts;
@@ -162,7 +163,8 @@ static void choose_squares(grid *g)
             const int64_t columns = (g->all.high[k] - g->all.low[k]) >> g->shift;
             g->size[k] = columns < UINT32_MAX / 2 ? (uint32_t)columns + 1 : UINT32_MAX;
         }
-        if (ldexp(1, g->shift + 1) > extent / (double)n && (double)g->size[0] * g->size[1] <= 4.0 * (double)n) break;
+        if (ldexp(1, g->shift + 1) > extent / (double)n && (double)g->size[0] * g->size[1] <= MOST_SQUARES * (double)n)
+            break;
     }
 }
 
@@ -191,7 +193,7 @@ static bool make_lists(grid *g, bool *made)
         entries += (double)(column(g, 0, b->high[0]) - column(g, 0, b->low[0]) + 1) *
                    (double)(column(g, 1, b->high[1]) - column(g, 1, b->low[1]) + 1);
     }
-    if (entries > 64.0 * n || entries > UINT32_MAX / 2) return true;
+    if (entries > MOST_ENTRIES * n || entries > UINT32_MAX / 2) return true;
     g->end = sunder_i_calloc(squares, sizeof *g->end);
     g->list = sunder_i_alloc((size_t)entries, sizeof *g->list);
     if (!g->end || !g->list) return false;
@@ -211,7 +213,6 @@ static bool make_lists(grid *g, bool *made)
 /* ---- Sides ---- */
 
 #define NONE UINT32_MAX
-#define LOOKS 1024 /* of one side: those at the front hold most */
 
 static bool holds_both(const grid *g, uint32_t part, sunder_i_point a, sunder_i_point b)
 {
@@ -239,12 +240,12 @@ static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_
     return NONE;
 }
 
-/* A side that is buried saves some thousand instructions, about what 64 looks cost; where sides are held by several
+/* Looks are saved where sides are dropped; where sides are held by several
  * parts together, not by one, that is noticed soon, and the rest is left to the cells. The smallest parts come
  * first: of features one within the other only the last, which nothing holds, is looked for in vain. */
-static void bury(sunder_i_convex_pieces *s, grid *g)
+static void drop(sunder_i_convex_pieces *s, grid *g)
 {
-    g->allowed = 4 * LOOKS + 4 * (size_t)s->n;
+    g->allowed = SIDES_ON_TRUST * LOOKS + LOOKS_ON_TRUST * (size_t)s->n;
     for (size_t left = s->n; left-- > 0 && g->spent < g->allowed && sunder_i_step();) {
         const uint32_t i = g->order[left];
         const uint32_t first = sunder_i_convex_pieces_first(s, i), end = s->end[i];
@@ -253,7 +254,7 @@ static void bury(sunder_i_convex_pieces *s, grid *g)
             if (!s->candidate[k]) continue;
             holder = find_holder(g, g->corner[k], g->corner[k + 1 < end ? k + 1 : first], i, holder);
             s->candidate[k] = holder == NONE;
-            if (holder != NONE) g->allowed += 64;
+            if (holder != NONE) g->allowed += LOOKS_SAVED;
         }
     }
 }
@@ -269,7 +270,7 @@ sunder_status sunder_i_drop_contained_sides(sunder_i_convex_pieces *parts, sunde
         measure(&g);
         choose_squares(&g);
         no_memory = !make_lists(&g, &made);
-        if (made) bury(parts, &g);
+        if (made) drop(parts, &g);
     }
     sunder_i_free(g.rounded);
     sunder_i_free(g.reach);

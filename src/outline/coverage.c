@@ -1,5 +1,12 @@
+/* Coverage along one line after the other. A part is convex, so where it meets a line is found by bisection: of its ranks
+ * for the corners that are lowest and highest across the line, then of the two chains between them for where each comes
+ * through. Events are sorted by fractions along the line (degree 2, compared in degree 4), and counted.
+ *
+ * Ends of intervals of cover are open and those of candidates closed, so at one place three states are told apart: just
+ * before it, at it, just after it. */
 #include "outline/coverage.h"
 
+#include "base/invariant.h"
 #include "base/sort.h"
 #include "base/watch.h"
 #include "predicate/kernel.h"
@@ -209,6 +216,7 @@ static void sweep(finder *f, uint32_t number)
             s.domain += e->change.domain;
         }
         /* The place itself: intervals of cover are open, candidates closed. */
+        SUNDER_I_ASSERT(s.cover >= 0 && s.left >= 0 && s.right >= 0 && s.domain >= 0);
         const bool point_free = before.cover == cover_ends && before.domain + domain_starts > 0;
         if (point_free) {
             const uint32_t vertex = add_vertex(f, line, &here->at, corner);
@@ -218,6 +226,7 @@ static void sweep(finder *f, uint32_t number)
         }
         i = j;
     }
+    SUNDER_I_ASSERT(s.cover == 0 && s.left == 0 && s.right == 0 && s.domain == 0); /* what begins ends */
 }
 
 static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)

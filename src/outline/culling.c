@@ -1,29 +1,14 @@
+/* The hierarchy of cells, from the root down: a cell is halved, each part is asked of each half whether it is beyond it,
+ * holds it, or has sides that pass, and the half is closed, left, or put on the stack (culling.h says what comes of it).
+ * What makes a descent worth while and what ends it is in tuning.h. */
 #include "outline/culling_inner.h"
 
 #include "base/watch.h"
+#include "outline/tuning.h"
 
 #include <string.h>
 
-/* Up to so many pairs of a line and a part other than its own make a leaf: then looking at a pair costs less than
- * sorting it out. Measured on stars, combs, forks and random polygons. */
-#define LEAF_PAIRS 48
-#define LEAF_PAIRS_OF_TWO 6 /* the next split may leave each of two parts alone with its sides */
-/* Sides that nearly coincide pass, as a bundle, through both halves of a cell, and through both halves of these: every
- * split doubles what there is to ask and none brings anything. So a cell is left as it is where the pairs of a side and
- * a part have grown by more than this since some ancestor had them, unless a trial shows that it pays to go on. As one
- * split at most doubles them, all leaves together have no more than four times the pairs of the root, whatever the
- * input. */
-#define MOST_GROWTH 2
-#define TRIAL_PAIRS 4096 /* what fewer cost is no matter */
-/* Nor is it split on after so many splits in a row of which one half keeps nine tenths of the sides, and an eighth of
- * its parts more: that may be a cluster in a corner of the cell, which may be far below it in size and is worth the
- * way the more pairs it has; or sides that are truly concurrent. */
-#define STUBBORN_SPLITS 12
-#define STUBBORN_SHARE 8
-#define MANY_SIDES 250
-#define RECENT_BITS_MOST 14 /* 128 KB, which stay in the second-level cache; more hardly finds more */
-
-/* Do two half-planes cover the box? f and g are the cross products of filter_subsum(), positive inside; if f + r g
+/* Do two half-planes cover the box? f and g are the cross products of filter_part(), positive inside; if f + r g
  * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
  * sides run against each other is tried. */
 static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
@@ -38,8 +23,6 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     const double error = 4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + 0x1p-900;
     return fc + r * gc - reach > error;
 }
-
-#define SINGLES 8 /* so many parts with one side in the cell are tried in pairs; more are rare */
 
 /* Two parts, each with a single side in the box, that cover it together: seams between neighbouring pieces. */
 static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
@@ -220,7 +203,7 @@ static bool keep_whole(const builder *b, half h[2], const run *runs, const entry
 
 /* One part against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
  * half. */
-static void filter_subsum(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
+static void filter_part(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
 {
     run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
     const run single_most = b->single_most;
@@ -305,7 +288,7 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
         b->done += c.share;
         return;
     }
-    c.stubborn = 10 * h->sides < 9 * parent->sides ? 0 : parent->stubborn + 1;
+    c.stubborn = KEPT(h->sides, parent->sides) ? parent->stubborn + 1 : 0;
     const bool grown = growth > MOST_GROWTH && !b->trial.on;
     const bool stubborn = c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
     const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !grown && !stubborn && choose_axis(b, &c);
@@ -363,7 +346,7 @@ static void split(builder *b, const cell *c)
             return;
         }
         if (!keep_whole(b, h, b->runs + from, &b->entries[i]))
-            filter_subsum(b, h, b->runs + from, &b->entries[i], hx, hy);
+            filter_part(b, h, b->runs + from, &b->entries[i], hx, hy);
         from += b->entries[i].runs;
     }
     const double growth = growth_of(c, h);
@@ -409,7 +392,8 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     b.stamp = sunder_i_calloc(lines->n, sizeof *b.stamp);
     b.single = sunder_i_calloc(2 * (size_t)lines->n, sizeof *b.single);
     b.shared = sunder_i_calloc(lines->n, sizeof *b.shared);
-    for (b.recent_bits = 6; b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits; b.recent_bits++) {}
+    b.recent_bits = RECENT_BITS_LEAST;
+    while (b.recent_bits < RECENT_BITS_MOST && lines->n >> b.recent_bits) b.recent_bits++;
     b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
     const bool ok = out->fate && out->live_line && b.stamp && b.single && b.shared && b.recent;
     if (ok) sunder_i_cells_forget_pairs(&b);

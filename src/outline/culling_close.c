@@ -2,6 +2,8 @@
  * candidates. */
 #include "outline/culling_inner.h"
 
+#include "outline/tuning.h"
+
 #include <string.h>
 
 /* Neighbouring leaves have most of their pairs in common (features that overlap: nine of ten). Those pushed of late are
@@ -101,11 +103,8 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
     }
 }
 
-/* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. A trial may take
- * half of what it can save, and leave half the pairs. */
-#define PAIR_COST 8
-
-/* Marks that the trial left on candidates stay: they only make more of them open. */
+/* A trial may take half of what it can save, and leave half the pairs. Marks that it left on candidates stay: they only
+ * make more of them open. */
 void sunder_i_cells_end_trial(builder *b)
 {
     trial *t = &b->trial;

@@ -24,9 +24,7 @@ typedef struct entry {
  * whole run at once; it falls apart where a cell becomes as small as it is. */
 typedef uint32_t run; /* its length less one above RUN_BITS, its first side below; a single side is its own number */
 
-#define LONGEST_RUN 32
-#define RUN_BITS 27  /* where there are more sides than these bits can number, every run is a single side */
-#define FEW_SIDES 16 /* parts with fewer are listed side by side */
+#define RUN_BITS 27 /* where there are more sides than these bits can number, every run is a single side */
 
 typedef struct cell {
     box b;
@@ -69,8 +67,8 @@ typedef struct builder {
     approx_side *side;
     uint32_t *before; /* [sides + 1] how many candidates there are before each side */
     box *reach;       /* [parts] bounding boxes, widened by the error */
-    double error;   /* bound on the distance error of a start point, see filter_subsum() */
-    entry *entries; /* lists of all cells on the stack, one after the other */
+    double error;     /* bound on the distance error of a start point, see filter_part() */
+    entry *entries;   /* lists of all cells on the stack, one after the other */
     size_t entries_n, entries_capacity;
     run *runs;
     size_t runs_n, runs_capacity;
@@ -83,9 +81,9 @@ typedef struct builder {
     uint32_t *single; /* [2 * lines] the last cell with a part whose only side is on the line, on either bank */
     uint64_t *recent; /* [2^recent_bits] pairs pushed of late; UINT64_MAX: none */
     int recent_bits;
-    bool *shared;     /* [lines] somewhere one part stands for several along the line */
-    uint32_t cells;   /* stamps given out */
-    double done;      /* share of the work, for progress */
+    bool *shared;   /* [lines] somewhere one part stands for several along the line */
+    uint32_t cells; /* stamps given out */
+    double done;    /* share of the work, for progress */
     bool no_memory;
 } builder;
 

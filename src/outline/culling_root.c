@@ -1,7 +1,9 @@
 /* The beginning: sides as doubles, and the lists of the root cell. */
+#include "outline/culling_inner.h"
+
 #include "base/sort.h"
 #include "base/watch.h"
-#include "outline/culling_inner.h"
+#include "outline/tuning.h"
 #include "predicate/predicate.h"
 
 /* The large arrays, in one block and with room that is never touched: glibc keeps up to twice the largest block

@@ -1,3 +1,5 @@
+/* Lines by hashing: a side's line is its class and one number, its offset, which is the same for all points of the line
+ * and exact: a plain integer, or a ratio in the pool where a corner has a denominator. */
 #include "outline/lines.h"
 
 #include "base/watch.h"

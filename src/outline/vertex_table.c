@@ -7,6 +7,8 @@
  * coordinates, which cost two divisions of big integers each. */
 #include "outline/vertex_table.h"
 
+#include "outline/tuning.h"
+
 #include <string.h>
 
 typedef struct square {
@@ -26,10 +28,6 @@ static square square_of(const sunder_i_vertex_table *g, double x, double y)
 {
     return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
 }
-
-/* So many taken slots in a row do not come about by chance: in a table of n places, half full, the longest row is about
- * 5 ln n long. */
-#define CROWD 128
 
 static uint32_t find(const sunder_i_vertex_table *g, size_t start, const sunder_i_hpoint *p, bool *crowded)
 {

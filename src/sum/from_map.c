@@ -60,9 +60,9 @@ static bool connect_faces(outline *o)
     if (!o->component) return false;
     sunder_i_union_init(o->component, faces);
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(o->map); e++) {
-        if (!sunder_i_planar_map_edge_alive(o->map, e) || !left_inside(o, 2 * e) || !left_inside(o, 2 * e + 1)) continue;
-        sunder_i_union_join(o->component, sunder_i_planar_map_face(o->map, 2 * e),
-                            sunder_i_planar_map_face(o->map, 2 * e + 1));
+        if (sunder_i_planar_map_edge_alive(o->map, e) && left_inside(o, 2 * e) && left_inside(o, 2 * e + 1))
+            sunder_i_union_join(o->component, sunder_i_planar_map_face(o->map, 2 * e),
+                                sunder_i_planar_map_face(o->map, 2 * e + 1));
     }
     return true;
 }

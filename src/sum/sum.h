@@ -22,6 +22,14 @@ struct sunder_sum {
     sunder_map *map;          /* NULL: not kept; stands on the lattice */
 };
 
+/* A vertex in units of the lattice. */
+static inline sunder_i_rational_point sunder_i_sum_point(sunder_i_arena *arena, const sunder_sum *sum, uint32_t vertex)
+{
+    return sunder_i_hpoint_read(arena, &sum->lattice, &sum->vertex[vertex]);
+}
+
+/* ---- texts.c ---- */
+
 /* The coordinate n / d on the lattice, as *num / *den * 2^exponent with the origins added; returns the exponent. The
  * arena is the caller's and not the lattice's, so that a const sum stays so and threads may ask at once. */
 long sunder_i_sum_coordinate(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big d,
