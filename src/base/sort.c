@@ -53,12 +53,28 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
 }
 
 #define DIGIT 11
+/* So few keys are inserted one by one: a pass over the digits counts 2^DIGIT of them whatever the number of keys. */
+#define FEW_KEYS 64
+
+static void sort_few(uint64_t *key, size_t n)
+{
+    for (size_t i = 1; i < n; i++) {
+        const uint64_t v = key[i];
+        size_t k = i;
+        for (; k > 0 && key[k - 1] > v; k--) key[k] = key[k - 1];
+        key[k] = v;
+    }
+}
 
 bool sunder_i_sort_keys(uint64_t *key, size_t n)
 {
     uint64_t used = 0;
     for (size_t i = 1; i < n; i++) used |= key[i] ^ key[0];
     if (used == 0) return true;
+    if (n <= FEW_KEYS) {
+        sort_few(key, n);
+        return true;
+    }
     uint64_t *scratch = sunder_i_alloc(n, sizeof *scratch);
     if (!scratch) return false;
     uint64_t *from = key, *to = scratch;

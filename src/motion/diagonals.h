@@ -21,8 +21,9 @@
 
 typedef struct sunder_i_diagonals {
     size_t n;
-    uint32_t (*corner)[4]; /* u, w, v, x: the diagonal uv, then a corner of the piece on its left, v, one on its right */
-    unsigned bits;         /* how much finer the lattice has to be */
+    uint32_t (
+        *corner)[4]; /* u, w, v, x: the diagonal uv, then a corner of the piece on its left, v, one on its right */
+    unsigned bits;   /* how much finer the lattice has to be */
 } sunder_i_diagonals;
 
 /* All diagonals of a shape, and the bits for them. False if memory is out. */

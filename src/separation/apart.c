@@ -84,11 +84,8 @@ static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
     sunder_i_lattice *l = &g.placed.lattice;
     const int64_t n = sunder_i_lattice_int(l, gap, 0);
     const nearness answer = any_near(&g, sunder_i_approx(l, n), &n);
-    if (l->arena.failed)
-        status = sunder_i_no_memory(err);
-    else
-        *apart = answer == FAR;
-    sunder_i_operands_free(&g);
+    status = sunder_i_operands_end(&g, err);
+    if (status == SUNDER_OK) *apart = answer == FAR;
     return status;
 }
 
@@ -106,9 +103,8 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
     nearness answer = sunder_i_operands_overlap(&g) ? NEAR : FAR;
     const double units = gap / g.unit;
     if (answer == FAR && gap > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
-    const bool failed = g.placed.lattice.arena.failed;
-    sunder_i_operands_free(&g);
-    if (failed) return sunder_i_no_memory(err);
+    status = sunder_i_operands_end(&g, err);
+    if (status) return status;
     if (answer == IN_DOUBT) return exactly_apart(p, q, &options, gap, apart, err);
     *apart = answer == FAR;
     return SUNDER_OK;

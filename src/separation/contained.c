@@ -128,10 +128,7 @@ sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], cons
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     const bool answer = all_contained(&g);
-    if (g.placed.lattice.arena.failed)
-        status = sunder_i_no_memory(err);
-    else
-        *contained = answer;
-    sunder_i_operands_free(&g);
+    status = sunder_i_operands_end(&g, err);
+    if (status == SUNDER_OK) *contained = answer;
     return status;
 }

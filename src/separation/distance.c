@@ -285,17 +285,14 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
             d = 0x1p-1074;
         link_ends(&g, &k, ends, ends + 2);
     }
-    if (g.placed.lattice.arena.failed)
-        status = sunder_i_no_memory(err);
-    else {
-        *distance = d;
-        for (int k = 0; k < 2; k++) {
-            on_p[k] = ends[k];
-            on_q[k] = ends[k + 2];
-        }
+    status = sunder_i_operands_end(&g, err);
+    if (status) return status;
+    *distance = d;
+    for (int k = 0; k < 2; k++) {
+        on_p[k] = ends[k];
+        on_q[k] = ends[k + 2];
     }
-    sunder_i_operands_free(&g);
-    return status;
+    return SUNDER_OK;
 }
 
 sunder_status sunder_pair_distance(const sunder_shape *p, const sunder_shape *q, double *distance, double on_p[2],

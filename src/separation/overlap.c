@@ -15,11 +15,8 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     const bool answer = sunder_i_operands_overlap(&g);
-    if (g.placed.lattice.arena.failed)
-        status = sunder_i_no_memory(err);
-    else
-        *overlap = answer;
-    sunder_i_operands_free(&g);
+    status = sunder_i_operands_end(&g, err);
+    if (status == SUNDER_OK) *overlap = answer;
     return status;
 }
 

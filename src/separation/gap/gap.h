@@ -91,15 +91,14 @@ static inline sunder_i_rational_point sunder_i_surd_point_of(const sunder_i_surd
 }
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact);
 
-typedef enum sunder_i_gap_nearest { SUNDER_I_GAP_NEAREST_CORNER, SUNDER_I_GAP_NEAREST_SIDE } sunder_i_gap_nearest;
-
 /* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
  * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
- * left of the side. *reach: what of the side is nearest. Exact. */
+ * left of the side. *flat: a point inside the side is nearest, not its corner. Exact. */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
-                          const sunder_i_surd_point *at, bool *inward, sunder_i_gap_nearest *reach);
-/* The same for all of the (closed) subsum. */
-int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at);
+                          const sunder_i_surd_point *at, bool *inward, bool *flat);
+/* The same for all of the (closed) subsum; *k: the side, if it is not above. */
+int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
+                     uint32_t *k, bool *flat);
 /* Order of the distances of two points from the origin, then lexicographic. Exact. */
 int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *a, const sunder_i_surd_point *b);
 /* The point's coordinates times 2^bits (lattice units), within 3. */

@@ -28,15 +28,7 @@ static bool find_centers(sunder_i_gap_problem *p)
             key[n++] = (uint64_t)u << 32 | v;
         }
     }
-    if (n <= 64) {
-        for (size_t i = 1; i < n; i++) {
-            const uint64_t v = key[i];
-            size_t k = i;
-            for (; k > 0 && key[k - 1] > v; k--) key[k] = key[k - 1];
-            key[k] = v;
-        }
-    } else if (!sunder_i_sort_keys(key, n))
-        return false;
+    if (!sunder_i_sort_keys(key, n)) return false;
     sunder_i_point *center = sunder_i_arena_alloc(arena, n + 1, sizeof *center);
     if (!center) return false;
     for (size_t i = 0; i < n; i++) {
@@ -68,6 +60,8 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
             *memory = false;
             return false;
         }
+        uint32_t side;
+        bool flat;
         /* In doubles first: inside; or on the far side of a side's line by more than the gap. */
         bool far = false, inside = true;
         for (uint32_t i = 0; i < s->sides && !far; i++) {
@@ -76,7 +70,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
             far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * (1 + 0x1p-40) * length;
             inside = inside && turn > s->bound[i];
         }
-        if (inside || (!far && sunder_i_gap_cmp(p, s, &origin) < 0)) return false;
+        if (inside || (!far && sunder_i_gap_cmp(p, s, &origin, &side, &flat) < 0)) return false;
     }
     return true;
 }

@@ -78,28 +78,7 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
         if (is_curve(s, &q->of->d, m, k + 1 < m->sides ? k + 1 : 0, true)) return 1;
     }
     bool inward;
-    sunder_i_gap_nearest reach;
-    const int order = sunder_i_gap_cmp_side(s->p, m, k, q->at, &inward, &reach);
-    *flat = reach == SUNDER_I_GAP_NEAREST_SIDE;
-    return order;
-}
-
-/* The point may be inside: all sides are asked. */
-static int compare_all(sunder_i_gap_state *s, const sunder_i_subsum *m, const question *q, uint32_t *k, bool *flat)
-{
-    bool inside = true;
-    int least = 1;
-    for (uint32_t i = 0; i < m->sides && least >= 0; i++) {
-        bool inward;
-        sunder_i_gap_nearest reach;
-        const int order = sunder_i_gap_cmp_side(s->p, m, i, q->at, &inward, &reach);
-        inside = inside && inward;
-        if (order >= least) continue;
-        least = order;
-        *k = i;
-        *flat = reach == SUNDER_I_GAP_NEAREST_SIDE;
-    }
-    return inside ? -1 : least;
+    return sunder_i_gap_cmp_side(s->p, m, k, q->at, &inward, flat);
 }
 
 /* Is the point nearer to the subsum than the gap (-1), farther (1), or exactly as far (0), at corner or side *k? Sides
@@ -109,10 +88,10 @@ static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t
     const sunder_i_subsum *m = s->g->subsum + of;
     const sunder_i_gap_piece *r = sunder_i_gap_load(s, of);
     if (!r) return -1;
-    if (r->vague) return compare_all(s, m, q, k, flat);
+    if (r->vague) return sunder_i_gap_cmp(s->p, m, q->at, k, flat);
     const double reach = s->gap + q->doubt, distance = sunder_i_gap_distance(s, r, q->x, q->y);
     if (distance > reach) return 1;
-    if (!(distance >= 2 * q->doubt)) return compare_all(s, m, q, k, flat);
+    if (!(distance >= 2 * q->doubt)) return sunder_i_gap_cmp(s->p, m, q->at, k, flat); /* it may be inside */
     int least = 1;
     for (uint32_t i = 0; i < r->n && least >= 0; i++) {
         /* Its line is nearer than the gap; its second corner is the next side's first. */

@@ -151,7 +151,9 @@ static bool leaves_over(sunder_i_gap_state *s, sunder_i_gap_point *p, size_t k)
         if (p->forwards ? turn <= 0 : turn >= 0) return false;
     }
     const sunder_i_surd_point *exact = sunder_i_gap_solve(s, p);
-    return exact && sunder_i_gap_cmp(s->p, s->g->subsum + k, exact) == 0;
+    uint32_t side;
+    bool flat;
+    return exact && sunder_i_gap_cmp(s->p, s->g->subsum + k, exact, &side, &flat) == 0;
 }
 
 void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, size_t k, bool forwards)

@@ -269,7 +269,7 @@ bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *s) { return s->r
 /* ---- The gap ---- */
 
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *s, uint32_t k,
-                          const sunder_i_surd_point *at, bool *inward, sunder_i_gap_nearest *reach)
+                          const sunder_i_surd_point *at, bool *inward, bool *flat)
 {
     sunder_i_arena *a = arena_of(problem);
     const sunder_i_mark mark = sunder_i_arena_mark(a);
@@ -284,7 +284,7 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);
     int order = 1;
     *inward = sunder_i_surd_sign(a, roots, turn) > 0;
-    *reach = SUNDER_I_GAP_NEAREST_CORNER;
+    *flat = false;
     if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the corner */
         const sunder_i_surd norm = sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
         const sunder_i_surd wide = sunder_i_surd_shl(a, norm, 2 * p->gap_bits);
@@ -292,22 +292,25 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     } else if (sunder_i_surd_sign(a, roots, difference(p, along, surd(p, mul(p, square, at->w)))) < 0) {
         const sunder_i_surd wide = sunder_i_surd_shl(a, sunder_i_surd_mul(a, roots, turn, turn), 2 * p->gap_bits);
         order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, mul(p, limit, square))));
-        *reach = SUNDER_I_GAP_NEAREST_SIDE;
+        *flat = true;
     }
     sunder_i_arena_release(a, mark);
     return order;
 }
 
-int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_surd_point *at)
+int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_surd_point *at,
+                     uint32_t *k, bool *flat)
 {
     bool inside = true;
     int least = 1;
-    for (uint32_t k = 0; k < s->sides && least >= 0; k++) {
-        bool inward;
-        sunder_i_gap_nearest reach;
-        const int order = sunder_i_gap_cmp_side(p, s, k, at, &inward, &reach);
-        if (order < least) least = order;
+    for (uint32_t i = 0; i < s->sides && least >= 0; i++) {
+        bool inward, is_flat;
+        const int order = sunder_i_gap_cmp_side(p, s, i, at, &inward, &is_flat);
         inside = inside && inward;
+        if (order >= least) continue;
+        least = order;
+        *k = i;
+        *flat = is_flat;
     }
     return inside ? -1 : least;
 }

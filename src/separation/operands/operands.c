@@ -222,6 +222,13 @@ sunder_status sunder_i_operands_init(sunder_i_operands *g, const sunder_shape *p
 
 void sunder_i_operands_free(sunder_i_operands *operands) { sunder_i_placed_free(&operands->placed); }
 
+sunder_status sunder_i_operands_end(sunder_i_operands *g, sunder_error *err)
+{
+    const bool failed = g->placed.lattice.arena.failed;
+    sunder_i_operands_free(g);
+    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+}
+
 double sunder_i_operands_way_out(const sunder_i_operands *g)
 {
     double d = INFINITY;

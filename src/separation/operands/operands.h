@@ -59,6 +59,8 @@ typedef struct sunder_i_operands_options {
 sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_shape *p, const sunder_shape *q,
                                      const sunder_i_operands_options *options, sunder_error *err);
 void sunder_i_operands_free(sunder_i_operands *operands);
+/* Frees them, when the question is answered. Fails with SUNDER_ENOMEM if memory ran out on the way: then it is not. */
+sunder_status sunder_i_operands_end(sunder_i_operands *operands, sunder_error *err);
 
 /* Numbers up to that magnitude, in units, are to be as good as coordinates: raises the bounds. */
 void sunder_i_operands_admit(sunder_i_operands *operands, double magnitude);
