@@ -337,6 +337,6 @@ void sunder_i_free_space_free(sunder_i_free_space *space)
     sunder_i_free(space->piece_obstacle);
     sunder_i_free(space->stretch);
     sunder_i_free(space->tree.part);
-    sunder_i_free(space->tree.box);
+    sunder_i_free(space->tree.boxes.box);
     memset(space, 0, sizeof *space);
 }

@@ -10,16 +10,16 @@
 #include "convex/pieces.h"
 #include "motion/filtered_point.h"
 #include "outline/coverage.h"
+#include "spatial/box_tree.h"
 
 /* Parts in a leaf of their tree. More make it smaller and have more parts asked; to ask a part takes longer than to
  * look at a node (visibility.c), so they are fewer. */
 #define SUNDER_I_LEAF_PARTS 4
 
-/* Boxes of parts, in a binary tree without pointers: leaves of SUNDER_I_LEAF_PARTS along a space-filling curve. */
+/* Boxes of parts, widened by the filter's error, along a space-filling curve. */
 typedef struct sunder_i_part_tree {
-    uint32_t *part;       /* [parts] in tree order */
-    size_t parts, leaves; /* leaves is a power of two */
-    double (*box)[4];     /* heap order, 1 .. 2 * leaves - 1; widened by the filter's error */
+    uint32_t *part; /* [parts] in tree order */
+    sunder_i_box_tree boxes;
 } sunder_i_part_tree;
 
 typedef struct sunder_i_free_space {

@@ -13,59 +13,33 @@
 static void part_box(const sunder_i_free_space *s, uint32_t part, double box[4])
 {
     const sunder_i_convex_pieces *c = &s->part;
-    box[0] = box[1] = INFINITY;
-    box[2] = box[3] = -INFINITY;
-    for (uint32_t k = sunder_i_convex_pieces_first(c, part); k < c->end[part]; k++) {
-        const double x = s->corner[k][0], y = s->corner[k][1];
-        box[0] = fmin(box[0], x), box[1] = fmin(box[1], y);
-        box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
-    }
+    sunder_i_box_clear(box);
+    for (uint32_t k = sunder_i_convex_pieces_first(c, part); k < c->end[part]; k++)
+        sunder_i_box_include(box, s->corner[k]);
     for (int k = 0; k < 2; k++) {
         box[k] -= s->filter.error;
         box[k + 2] += s->filter.error;
     }
 }
 
-static void join_box(double all[4], const double box[4])
+static void add_part(const void *of, size_t i, double box[4])
 {
-    for (int k = 0; k < 2; k++) {
-        all[k] = fmin(all[k], box[k]);
-        all[k + 2] = fmax(all[k + 2], box[k + 2]);
-    }
-}
-
-static void fill_boxes(const sunder_i_free_space *s, sunder_i_part_tree *t)
-{
-    for (size_t i = 2 * t->leaves - 1; i >= 1; i--) {
-        double *box = t->box[i];
-        box[0] = box[1] = INFINITY;
-        box[2] = box[3] = -INFINITY;
-        if (i < t->leaves) {
-            join_box(box, t->box[2 * i]);
-            join_box(box, t->box[2 * i + 1]);
-            continue;
-        }
-        for (size_t k = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
-             k < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && k < t->parts; k++) {
-            double one[4];
-            part_box(s, t->part[k], one);
-            join_box(box, one);
-        }
-    }
+    const sunder_i_free_space *s = of;
+    double one[4];
+    part_box(s, s->tree.part[i], one);
+    sunder_i_box_join(box, one);
 }
 
 bool sunder_i_part_tree_build(sunder_i_free_space *s)
 {
     sunder_i_part_tree *t = &s->tree;
     const size_t n = s->part.n;
-    t->parts = n;
-    t->leaves = 1;
-    while (t->leaves * SUNDER_I_LEAF_PARTS < n) t->leaves *= 2;
+    t->boxes = sunder_i_box_tree_of(n, SUNDER_I_LEAF_PARTS);
     t->part = sunder_i_alloc(n, sizeof *t->part);
-    t->box = sunder_i_alloc(2 * t->leaves, sizeof *t->box);
+    t->boxes.box = sunder_i_alloc(2 * t->boxes.leaves, sizeof *t->boxes.box);
     double *middle = sunder_i_alloc(2 * n, sizeof *middle);
     uint32_t *self = sunder_i_alloc(n, sizeof *self);
-    bool ok = t->part && t->box && middle && self;
+    bool ok = t->part && t->boxes.box && middle && self;
     for (uint32_t i = 0; ok && i < n; i++) {
         double box[4];
         part_box(s, i, box);
@@ -79,7 +53,7 @@ bool sunder_i_part_tree_build(sunder_i_free_space *s)
         ok = !arena.failed;
         sunder_i_arena_free(&arena);
     }
-    if (ok) fill_boxes(s, t);
+    if (ok) sunder_i_box_tree_fill(&t->boxes, add_part, s);
     sunder_i_free(middle);
     sunder_i_free(self);
     return ok;
@@ -143,23 +117,22 @@ static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p
 bool sunder_i_leg_is_free(const sunder_i_free_space *s, const sunder_i_filtered_point *p,
                           const sunder_i_filtered_point *q, bool least, uint32_t *part)
 {
-    const sunder_i_part_tree *t = &s->tree;
+    const sunder_i_box_tree *t = &s->tree.boxes;
+    const uint32_t *in = s->tree.part;
     const ray r = ray_of(s, p, q);
-    size_t stack[64], n = 0; /* depth below 64, one waiting child a level */
     uint32_t found = UINT32_MAX;
-    if (t->parts) stack[n++] = 1;
-    while (n) {
-        const size_t i = stack[--n];
+    sunder_i_box_walk walk;
+    sunder_i_box_walk_start(&walk, t);
+    for (size_t i; sunder_i_box_walk_next(&walk, &i);) {
         if (!box_near(t->box[i], &r)) continue;
         if (i < t->leaves) {
-            stack[n++] = 2 * i;
-            stack[n++] = 2 * i + 1;
+            sunder_i_box_walk_open(&walk, 2 * i + 1, 2 * i);
             continue;
         }
-        for (size_t k = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
-             k < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && k < t->parts; k++) {
-            if (t->part[k] > found || !meets(s, t->part[k], p, q)) continue;
-            found = t->part[k];
+        const size_t end = sunder_i_box_tree_end(t, i);
+        for (size_t k = sunder_i_box_tree_first(t, i); k < end; k++) {
+            if (in[k] > found || !meets(s, in[k], p, q)) continue;
+            found = in[k];
             if (!least) {
                 if (part) *part = found;
                 return false;

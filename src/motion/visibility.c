@@ -68,40 +68,20 @@ static void take_corners(sunder_i_visibility *view, const sunder_i_big origin[2]
 
 /* ---- The tree of nodes ---- */
 
-static void box_add(double box[4], const double low[2], const double high[2])
+static void add_node(const void *of, size_t i, double box[4])
 {
-    for (int k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], low[k]);
-        box[k + 2] = fmax(box[k + 2], high[k]);
-    }
-}
-
-static void fill_boxes(sunder_i_visibility *view)
-{
-    for (size_t i = 2 * view->leaves - 1; i >= 1; i--) {
-        double *box = view->box[i];
-        box[0] = box[1] = INFINITY;
-        box[2] = box[3] = -INFINITY;
-        if (i < view->leaves) {
-            for (size_t k = 2 * i; k <= 2 * i + 1; k++) box_add(box, view->box[k], view->box[k] + 2);
-            continue;
-        }
-        const size_t first = (i - view->leaves) * LEAF_NODES;
-        for (size_t k = first; k < first + LEAF_NODES && k < view->nodes; k++) {
-            const double *at = view->at[view->corners->node[view->tree[k]]];
-            box_add(box, at, at);
-        }
-    }
+    const sunder_i_visibility *view = of;
+    sunder_i_box_include(box, view->at[view->corners->node[view->order[i]]]);
 }
 
 static bool build_tree(sunder_i_visibility *view)
 {
     sunder_i_arena arena = {0};
-    for (uint32_t i = 0; i < view->nodes; i++) view->tree[i] = i;
-    sunder_i_curve_sort(view->at[0], view->corners->node, view->tree, view->nodes, &arena);
+    for (uint32_t i = 0; i < view->nodes; i++) view->order[i] = i;
+    sunder_i_curve_sort(view->at[0], view->corners->node, view->order, view->nodes, &arena);
     const bool ok = !arena.failed;
     sunder_i_arena_free(&arena);
-    if (ok) fill_boxes(view);
+    if (ok) sunder_i_box_tree_fill(&view->tree, add_node, view);
     return ok;
 }
 
@@ -112,14 +92,13 @@ bool sunder_i_visibility_init(sunder_i_visibility *view, const sunder_i_free_spa
     view->space = space;
     view->corners = corners;
     view->nodes = corners->nodes;
-    view->leaves = 1;
-    while (view->leaves * LEAF_NODES < view->nodes) view->leaves *= 2;
+    view->tree = sunder_i_box_tree_of(view->nodes, LEAF_NODES);
     view->at = sunder_i_alloc((size_t)corners->vertices + 2, sizeof *view->at);
     view->corner = sunder_i_alloc(space->part.corners, sizeof *view->corner);
-    view->tree = sunder_i_alloc(view->nodes, sizeof *view->tree);
+    view->order = sunder_i_alloc(view->nodes, sizeof *view->order);
     view->seen = sunder_i_alloc(view->nodes, sizeof *view->seen);
-    view->box = sunder_i_alloc(2 * view->leaves, sizeof *view->box);
-    if (!view->at || !view->corner || !view->tree || !view->seen || !view->box) return false;
+    view->tree.box = sunder_i_alloc(2 * view->tree.leaves, sizeof *view->tree.box);
+    if (!view->at || !view->corner || !view->order || !view->seen || !view->tree.box) return false;
     sunder_i_lattice *l = space->filter.lattice;
     sunder_i_arena *m = &l->arena;
     const sunder_i_filtered_point *start = &corners->place[corners->vertices];
@@ -137,9 +116,9 @@ void sunder_i_visibility_free(sunder_i_visibility *view)
 {
     sunder_i_free(view->at);
     sunder_i_free(view->corner);
-    sunder_i_free(view->tree);
+    sunder_i_free(view->order);
     sunder_i_free(view->seen);
-    sunder_i_free(view->box);
+    sunder_i_free(view->tree.box);
     memset(view, 0, sizeof *view);
 }
 
@@ -261,8 +240,8 @@ static void part_box(const look *k, size_t i, double out[4])
     const sunder_i_free_space *s = k->view->space;
     for (int axis = 0; axis < 2; axis++) {
         const double from = k->view->from[axis], off = 4 * s->filter.error;
-        out[axis] = s->tree.box[i][axis] - from - off;
-        out[axis + 2] = s->tree.box[i][axis + 2] - from + off;
+        out[axis] = s->tree.boxes.box[i][axis] - from - off;
+        out[axis + 2] = s->tree.boxes.box[i][axis + 2] - from + off;
     }
 }
 
@@ -278,23 +257,21 @@ static double part_gap(const look *k, size_t i)
 /* Parts, near ones first as far as the tree tells: by the time that far ones are looked at, most are hidden. */
 static void cast_shadows(look *k)
 {
-    const sunder_i_part_tree *t = &k->view->space->tree;
-    size_t stack[64], n = 0; /* depth below 64, one waiting child a level */
-    if (t->parts) stack[n++] = 1;
-    while (n) {
-        const size_t i = stack[--n];
+    const sunder_i_part_tree *parts = &k->view->space->tree;
+    const sunder_i_box_tree *t = &parts->boxes;
+    sunder_i_box_walk walk;
+    sunder_i_box_walk_start(&walk, t);
+    for (size_t i; sunder_i_box_walk_next(&walk, &i);) {
         double box[4];
         part_box(k, i, box);
         if (is_out(k, box, true)) continue;
         if (i < t->leaves) {
             const bool left_first = part_gap(k, 2 * i) <= part_gap(k, 2 * i + 1);
-            stack[n++] = left_first ? 2 * i + 1 : 2 * i;
-            stack[n++] = left_first ? 2 * i : 2 * i + 1;
+            sunder_i_box_walk_open(&walk, 2 * i + !left_first, 2 * i + left_first);
             continue;
         }
-        for (size_t p = (i - t->leaves) * SUNDER_I_LEAF_PARTS;
-             p < (i - t->leaves + 1) * SUNDER_I_LEAF_PARTS && p < t->parts; p++)
-            cast_part(k, t->part[p]);
+        const size_t end = sunder_i_box_tree_end(t, i);
+        for (size_t p = sunder_i_box_tree_first(t, i); p < end; p++) cast_part(k, parts->part[p]);
     }
 }
 
@@ -315,19 +292,17 @@ static void see_node(look *k, uint32_t v, uint32_t w)
 static void see_nodes(look *k, uint32_t v)
 {
     const sunder_i_visibility *view = k->view;
-    size_t stack[64], n = 0;
-    stack[n++] = 1;
-    while (n) {
-        const size_t i = stack[--n];
-        if (is_out(k, view->box[i], false)) continue;
-        if (i < view->leaves) {
-            stack[n++] = 2 * i + 1;
-            stack[n++] = 2 * i;
+    const sunder_i_box_tree *t = &view->tree;
+    sunder_i_box_walk walk;
+    sunder_i_box_walk_start(&walk, t);
+    for (size_t i; sunder_i_box_walk_next(&walk, &i);) {
+        if (is_out(k, t->box[i], false)) continue;
+        if (i < t->leaves) {
+            sunder_i_box_walk_open(&walk, 2 * i, 2 * i + 1);
             continue;
         }
-        for (size_t p = (i - view->leaves) * LEAF_NODES; p < (i - view->leaves + 1) * LEAF_NODES && p < view->nodes;
-             p++)
-            see_node(k, v, view->tree[p]);
+        const size_t end = sunder_i_box_tree_end(t, i);
+        for (size_t p = sunder_i_box_tree_first(t, i); p < end; p++) see_node(k, v, view->order[p]);
     }
 }
 

@@ -16,9 +16,9 @@ typedef struct sunder_i_visibility {
     double (*at)[2];      /* [vertices + 2] places, from the start; each coordinate is within 2^-51 of itself */
     double (*corner)[2];  /* [corners of parts] likewise */
     double from[2];       /* where that start is in the boxes of the parts' tree */
-    uint32_t *tree;       /* [nodes] in the order of a space-filling curve */
-    size_t nodes, leaves; /* of the tree of nodes; leaves is a power of two */
-    double (*box)[4];     /* heap order, 1 .. 2 * leaves - 1 */
+    uint32_t *order;      /* [nodes] along a space-filling curve */
+    size_t nodes;
+    sunder_i_box_tree tree; /* over the nodes in that order */
     sunder_i_shadow shadow;
     uint32_t *seen; /* [nodes] what the last look found */
     size_t seen_n;

@@ -177,10 +177,10 @@ static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunde
 
 static bool find(finder *f, sunder_i_arena *arena, sunder_i_arcs *out)
 {
-    sunder_i_box_tree tree;
-    sunder_i_box_tree_build(&tree, f->r, 0, f->r->rings, arena);
+    sunder_i_edge_tree tree;
+    sunder_i_edge_tree_build(&tree, f->r, 0, f->r->rings, arena);
     if (arena->failed) return false;
-    sunder_i_box_tree_pairs(&tree, f->r, visit, f);
+    sunder_i_edge_tree_pairs(&tree, f->r, visit, f);
     if (f->failed) return false;
     uint32_t *number = sunder_i_arena_alloc(arena, f->r->vertices + f->made_n, sizeof *number);
     if (!number || !number_nodes(f, arena, number, out)) return false;

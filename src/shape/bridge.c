@@ -103,16 +103,16 @@ static void see_corner(void *user, uint32_t v)
     w->reach[0] = x;
 }
 
-static void look(view *w, sunder_i_edge_visitor see, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi)
+static void look(view *w, sunder_i_edge_visitor see, const sunder_i_edge_tree *tree, uint32_t lo, uint32_t hi)
 {
     if (tree)
-        sunder_i_box_tree_query(tree, w->reach, see, w);
+        sunder_i_edge_tree_query(tree, w->reach, see, w);
     else
         for (uint32_t e = lo; e < hi; e++) see(w, e);
 }
 
 /* The corner to join h to, among the vertices lo .. hi of the polygon. NONE only where memory is out. */
-static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_box_tree *tree, uint32_t lo, uint32_t hi,
+static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_edge_tree *tree, uint32_t lo, uint32_t hi,
                              uint32_t h)
 {
     const double x = r->xy[2 * (size_t)h];
@@ -171,9 +171,9 @@ void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
                            sunder_i_arena *arena)
 {
     const uint32_t lo = ring_begin(r, ring_lo), hi = r->ring_end[ring_hi - 1];
-    sunder_i_box_tree tree;
-    sunder_i_box_tree *const use = hi - lo >= SUNDER_I_TREE_FROM ? &tree : NULL;
-    if (use) sunder_i_box_tree_build(use, r, ring_lo, ring_hi, arena);
+    sunder_i_edge_tree tree;
+    sunder_i_edge_tree *const use = hi - lo >= SUNDER_I_TREE_FROM ? &tree : NULL;
+    if (use) sunder_i_edge_tree_build(use, r, ring_lo, ring_hi, arena);
     for (uint32_t ring = ring_lo + 1; ring < ring_hi && !arena->failed; ring++) {
         const uint32_t h = smallest_corner(r, ring), u = visible_left(r, use, lo, hi, h);
         uint32_t from = SUNDER_I_NONE, to = SUNDER_I_NONE;

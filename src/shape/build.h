@@ -1,7 +1,7 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
  * clean.c      one raw ring -> its corners
- * box_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
+ * edge_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
  * contact.c    where rings cross (an error) or touch
  * simple.c     that nothing meets, by a sweep, where boxes do not tell edges apart
  * nesting.c    orientation; holes inside outer rings, and not inside each other
@@ -13,6 +13,7 @@
 
 #include "predicate/predicate.h"
 #include "shape/shape.h"
+#include "spatial/box_tree.h"
 
 #define SUNDER_I_NONE UINT32_MAX
 
@@ -91,33 +92,30 @@ typedef struct sunder_i_problem {
 uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
                              uint32_t hi, uint32_t *keep, sunder_i_problem *problem);
 
-/* ---- box_tree.c ---- */
+/* ---- edge_tree.c ---- */
 
-/* A binary tree of boxes over edges in the order of the rings (rings that are many are first put in order along a
- * space-filling curve). Edges near each other along a ring are near each other in the plane, so nothing is sorted. */
-typedef struct sunder_i_box_tree {
-    uint32_t edges, leaves; /* leaves is a power of two */
-    uint32_t *edge;         /* tails, in tree order; NULL: the edge first + i itself */
+/* A tree of boxes over edges in the order of the rings; rings that are many are first put in order along a
+ * space-filling curve. Edges near each other along a ring are near each other in the plane, so nothing is sorted. */
+typedef struct sunder_i_edge_tree {
+    sunder_i_box_tree boxes;
+    uint32_t *edge; /* tails, in tree order; NULL: the edge first + i itself */
     uint32_t first;
-    double (*box)[4];       /* heap order, 1 .. 2 * leaves - 1 */
-} sunder_i_box_tree;
-
-#define SUNDER_I_LEAF_EDGES 8
+} sunder_i_edge_tree;
 
 /* Of the rings ring_lo .. ring_hi; memory in the arena, which says if that failed. */
-void sunder_i_box_tree_build(sunder_i_box_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
-                             sunder_i_arena *arena);
+void sunder_i_edge_tree_build(sunder_i_edge_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
+                              sunder_i_arena *arena);
 
 /* Calls visit for each pair of edges whose boxes meet, until it returns false. Each pair once. */
 typedef bool (*sunder_i_pair_visitor)(void *user, uint32_t e, uint32_t f);
-bool sunder_i_box_tree_pairs(const sunder_i_box_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
-                             void *user);
+bool sunder_i_edge_tree_pairs(const sunder_i_edge_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
+                              void *user);
 
 /* Calls visit for the edges whose boxes may meet a closed box (x0 y0 x1 y1), and some others. The visitor may shrink
  * the box on the way: what no longer meets it is left out. */
 typedef void (*sunder_i_edge_visitor)(void *user, uint32_t e);
-void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4], sunder_i_edge_visitor visit,
-                             void *user);
+void sunder_i_edge_tree_query(const sunder_i_edge_tree *tree, const double box[4], sunder_i_edge_visitor visit,
+                              void *user);
 
 /* Fewer edges than this are looked at one by one; from here on a tree pays. */
 #define SUNDER_I_TREE_FROM 40
@@ -126,7 +124,7 @@ void sunder_i_box_tree_query(const sunder_i_box_tree *tree, const double box[4],
 
 /* Do the rings ring_lo .. ring_hi (one polygon) cross or share a piece of edge? *touches: some meet in points, and so
  * may need the arrangement to be told apart. tree may be NULL for few edges. */
-void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                            sunder_i_arena *arena, sunder_i_problem *problem, bool *touches);
 /* Is it certain that they meet nowhere but in the corners of consecutive edges? (On cleaned rings: exactly if so.) The
  * arena is for scratch; false too if it failed. */
@@ -135,7 +133,7 @@ bool sunder_i_rings_simple(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
 /* Turns the outer ring counter-clockwise and holes clockwise. */
 void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi);
 /* Checks that the holes lie in the outer ring and not in each other. The rings neither cross nor overlap. */
-void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                             sunder_i_problem *problem);
 
 /* ---- pieces.c, bridge.c, merge.c ---- */

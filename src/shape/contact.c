@@ -97,17 +97,17 @@ static bool pair(void *user, uint32_t e, uint32_t f)
 #define PAIRS_EACH 24
 
 /* By the tree; where that has too many pairs, only if something does meet. */
-static void find_by_tree(contact *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+static void find_by_tree(contact *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                          sunder_i_arena *arena)
 {
-    c->left = PAIRS_EACH * (size_t)tree->edges;
-    if (sunder_i_box_tree_pairs(tree, c->r, pair, c) || c->problem->fault) return;
+    c->left = PAIRS_EACH * tree->boxes.n;
+    if (sunder_i_edge_tree_pairs(tree, c->r, pair, c) || c->problem->fault) return;
     if (!c->touches && (sunder_i_rings_simple(c->r, ring_lo, ring_hi, arena) || arena->failed)) return;
     c->left = SIZE_MAX;
-    sunder_i_box_tree_pairs(tree, c->r, pair, c);
+    sunder_i_edge_tree_pairs(tree, c->r, pair, c);
 }
 
-void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                            sunder_i_arena *arena, sunder_i_problem *problem, bool *touches)
 {
     contact c = {r, problem, false, SIZE_MAX};

@@ -44,8 +44,7 @@ typedef struct cutter {
     uint32_t turn_n, round;
     uint32_t *list;          /* the nodes that are or were blunt, in order */
     uint32_t listed, live;   /* in the list; of these still blunt */
-    uint32_t leaves;         /* of the tree, a power of two; 0: no tree */
-    double (*box)[4];        /* heap order, 1 .. 2 * leaves - 1 */
+    sunder_i_box_tree tree;  /* over the list; without boxes: no tree */
 } cutter;
 
 static const double *place(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }
@@ -55,12 +54,10 @@ static int turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
     return sunder_i_rings_orient(c->r, c->walk->vertex[a], c->walk->vertex[b], c->walk->vertex[d]);
 }
 
-static void include(double box[4], const double *p)
+static void add_node(const void *of, size_t i, double box[4])
 {
-    for (int k = 0; k < 2; k++) {
-        box[k] = fmin(box[k], p[k]);
-        box[k + 2] = fmax(box[k + 2], p[k]);
-    }
+    const cutter *c = of;
+    sunder_i_box_include(box, place(c, c->list[i]));
 }
 
 /* Drops the nodes that are no longer blunt and puts the rest into a tree, LEAF to a leaf. */
@@ -70,18 +67,10 @@ static void build_tree(cutter *c)
     for (uint32_t i = 0; i < c->listed; i++)
         if (c->state[c->list[i]] == BLUNT) c->list[n++] = c->list[i];
     c->live = c->listed = n;
-    for (c->leaves = 1; c->leaves * LEAF < n;) c->leaves *= 2;
-    for (uint32_t b = 0; b < c->leaves; b++) {
-        double *box = c->box[c->leaves + b];
-        box[0] = box[1] = INFINITY;
-        box[2] = box[3] = -INFINITY;
-        for (uint32_t i = b * LEAF; i < n && i < (b + 1) * LEAF; i++) include(box, place(c, c->list[i]));
-    }
-    for (uint32_t b = c->leaves - 1; b > 0; b--)
-        for (int k = 0; k < 2; k++) {
-            c->box[b][k] = fmin(c->box[2 * b][k], c->box[2 * b + 1][k]);
-            c->box[b][k + 2] = fmax(c->box[2 * b][k + 2], c->box[2 * b + 1][k + 2]);
-        }
+    double(*box)[4] = c->tree.box;
+    c->tree = sunder_i_box_tree_of(n, LEAF);
+    c->tree.box = box;
+    sunder_i_box_tree_fill(&c->tree, add_node, c);
 }
 
 /* A side of a triangle, and which coordinates of a box are of its corner that is farthest to the left of it. */
@@ -115,8 +104,7 @@ static inline bool is_beside(const cutter *c, const triangle *t, const double bo
 
 static bool misses(const cutter *c, const triangle *t, const double box[4])
 {
-    if (box[0] > t->box[2] || box[2] < t->box[0] || box[1] > t->box[3] || box[3] < t->box[1]) return true;
-    return is_beside(c, t, box);
+    return !sunder_i_box_meet(box, t->box) || is_beside(c, t, box);
 }
 
 /* Does this blunt node forbid the cut? */
@@ -132,19 +120,16 @@ static bool blocks(const cutter *c, const triangle *t, uint32_t node)
 
 static bool is_free(const cutter *c, const triangle *t)
 {
-    uint32_t stack[64];
-    int n = 0;
-    stack[n++] = 1;
-    while (n) {
-        const uint32_t b = stack[--n];
-        if (misses(c, t, c->box[b])) continue;
-        if (b < c->leaves) {
-            stack[n++] = 2 * b;
-            stack[n++] = 2 * b + 1;
+    sunder_i_box_walk walk;
+    sunder_i_box_walk_start(&walk, &c->tree);
+    for (size_t b; sunder_i_box_walk_next(&walk, &b);) {
+        if (misses(c, t, c->tree.box[b])) continue;
+        if (b < c->tree.leaves) {
+            sunder_i_box_walk_open(&walk, 2 * b + 1, 2 * b);
             continue;
         }
-        const uint32_t lo = (b - c->leaves) * LEAF;
-        for (uint32_t i = lo; i < c->listed && i < lo + LEAF; i++)
+        const size_t end = sunder_i_box_tree_end(&c->tree, b);
+        for (size_t i = sunder_i_box_tree_first(&c->tree, b); i < end; i++)
             if (blocks(c, t, c->list[i])) return false;
     }
     return true;
@@ -162,7 +147,7 @@ static bool is_ear(const cutter *c, uint32_t b)
         const double *p = corner[k], *q = corner[(k + 1) % 3], dx = q[0] - p[0], dy = q[1] - p[1];
         t.side[k] = (side){p[0], p[1], dx, dy, dy > 0 ? 0 : 2, dx > 0 ? 3 : 1};
     }
-    if (c->leaves) return is_free(c, &t);
+    if (c->tree.box) return is_free(c, &t);
     for (uint32_t i = 0; i < c->listed; i++)
         if (blocks(c, &t, c->list[i])) return false;
     return true;
@@ -227,7 +212,7 @@ static void cut(cutter *c, uint32_t b)
 static void cut_all(cutter *c)
 {
     uint32_t left = c->walk->nodes, last = 0;
-    if (c->leaves) build_tree(c);
+    if (c->tree.box) build_tree(c);
     while (left > 3) {
         const uint32_t n = c->turn_n, before = left;
         uint32_t *const now = c->turn[1];
@@ -251,7 +236,7 @@ static void cut_all(cutter *c)
         }
         /* A round without an ear: memory has run out, and the predicates answer nothing. */
         if (left == before) return;
-        if (c->leaves && c->live < c->listed / 2) build_tree(c);
+        if (c->tree.box && c->live < c->listed / 2) build_tree(c);
     }
     /* The last triangle has three sides that are all known. */
     const uint32_t b = c->walk->next[last], h = add_triangle(c, b);
@@ -263,15 +248,16 @@ static void cut_all(cutter *c)
  * that fills the plane, which are as wide as cells of a grid of as many? */
 static bool strays(const cutter *c)
 {
-    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, sum = 0;
+    double all[4], sum = 0;
+    sunder_i_box_clear(all);
     for (uint32_t lo = 0; lo < c->listed; lo += LEAF) {
-        double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-        for (uint32_t i = lo; i < c->listed && i < lo + LEAF; i++) include(box, place(c, c->list[i]));
-        include(all, box);
-        include(all, box + 2);
+        double box[4];
+        sunder_i_box_clear(box);
+        for (uint32_t i = lo; i < c->listed && i < lo + LEAF; i++) add_node(c, i, box);
+        sunder_i_box_join(all, box);
         sum += box[2] - box[0] + (box[3] - box[1]);
     }
-    return sum > 2 * sqrt(c->leaves) * (all[2] - all[0] + (all[3] - all[1]));
+    return sum > 2 * sqrt((double)c->tree.leaves) * (all[2] - all[0] + (all[3] - all[1]));
 }
 
 void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *bridge_half, uint32_t bridges,
@@ -296,9 +282,9 @@ void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *b
     }
     c.live = c.listed;
     if (c.listed >= TREE_FROM) {
-        for (c.leaves = 1; c.leaves * LEAF < c.listed;) c.leaves *= 2;
-        c.box = sunder_i_arena_alloc(arena, 2 * (size_t)c.leaves, sizeof *c.box);
-        if (!c.box) return;
+        c.tree = sunder_i_box_tree_of(c.listed, LEAF);
+        c.tree.box = sunder_i_arena_alloc(arena, 2 * c.tree.leaves, sizeof *c.tree.box);
+        if (!c.tree.box) return;
         if (bridges > 8 || strays(&c)) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
         if (arena->failed) return;
     }

@@ -63,12 +63,12 @@ static void count_edge(void *user, uint32_t e)
     if (side > 0) p->winding += e_below ? 1 : -1;
 }
 
-static int winding(probe *p, uint32_t lo, uint32_t hi, const sunder_i_box_tree *tree)
+static int winding(probe *p, uint32_t lo, uint32_t hi, const sunder_i_edge_tree *tree)
 {
     p->winding = 0;
     if (tree) {
         const double *at = p->r->xy + 2 * (size_t)p->v, ray[4] = {at[0], at[1], INFINITY, at[1]};
-        sunder_i_box_tree_query(tree, ray, count_edge, p);
+        sunder_i_edge_tree_query(tree, ray, count_edge, p);
     } else
         for (uint32_t e = lo; e < hi; e++) count_edge(p, e);
     return p->winding;
@@ -121,7 +121,7 @@ static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
     }
 }
 
-void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_box_tree *tree,
+void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                             sunder_i_problem *problem)
 {
     for (uint32_t ring = ring_lo; ring < ring_hi && ring_hi - ring_lo > 1; ring++) {

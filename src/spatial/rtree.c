@@ -43,20 +43,6 @@ static int by_place(const void *a, const void *b)
     return p->item < q->item ? -1 : p->item > q->item;
 }
 
-static void box_empty(double box[4])
-{
-    box[0] = box[1] = INFINITY;
-    box[2] = box[3] = -INFINITY;
-}
-
-static void box_add(double box[4], const double *other)
-{
-    box[0] = fmin(box[0], other[0]);
-    box[1] = fmin(box[1], other[1]);
-    box[2] = fmax(box[2], other[2]);
-    box[3] = fmax(box[3], other[3]);
-}
-
 /* Which of 65536 columns the middle of [low, high] is in; halves keep it finite. */
 static uint32_t cell(double low, double high, double all_low, double all_high)
 {
@@ -71,9 +57,9 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     place *places = sunder_i_alloc(n, sizeof *places);
     if (!places) return SUNDER_ENOMEM;
     double all[4];
-    box_empty(all);
+    sunder_i_box_clear(all);
     for (size_t i = 0; i < n; i++)
-        if (!present || present[i]) box_add(all, box + 4 * i);
+        if (!present || present[i]) sunder_i_box_join(all, box + 4 * i);
     size_t k = 0;
     for (size_t i = 0; i < n; i++) {
         if (present && !present[i]) continue;
@@ -98,8 +84,8 @@ static size_t children(const sunder_i_index *tree, unsigned level, size_t node, 
 static void hull_of_children(const sunder_i_index *tree, unsigned level, size_t node, double box[4])
 {
     size_t end;
-    box_empty(box);
-    for (size_t c = children(tree, level, node, &end); c < end; c++) box_add(box, tree->box + 4 * c);
+    sunder_i_box_clear(box);
+    for (size_t c = children(tree, level, node, &end); c < end; c++) sunder_i_box_join(box, tree->box + 4 * c);
 }
 
 static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
@@ -197,13 +183,4 @@ bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunde
         }
     }
     return true;
-}
-
-void sunder_i_box_grow(const double box[4], double reach, double out[4])
-{
-    /* One step outward covers the rounding of the sum. */
-    out[0] = nextafter(box[0] - reach, -INFINITY);
-    out[1] = nextafter(box[1] - reach, -INFINITY);
-    out[2] = nextafter(box[2] + reach, INFINITY);
-    out[3] = nextafter(box[3] + reach, INFINITY);
 }

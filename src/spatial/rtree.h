@@ -4,6 +4,7 @@
 
 #include "base/list.h"
 #include "base/memory.h"
+#include "spatial/box.h"
 
 /* A packed R-tree over boxes; it serves as well when some of them move. */
 typedef struct sunder_i_index {
@@ -27,11 +28,5 @@ bool sunder_i_index_is_worn(const sunder_i_index *tree);
 
 /* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
 bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
-/* The box grown by reach, rounded outward. */
-void sunder_i_box_grow(const double box[4], double reach, double out[4]);
-static inline bool sunder_i_box_meet(const double *a, const double *b)
-{
-    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
-}
 
 #endif

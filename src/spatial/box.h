@@ -1,0 +1,46 @@
+/* Boxes: closed, with sides parallel to the axes, as four doubles xmin, ymin, xmax, ymax. */
+#ifndef SUNDER_I_BOX_H
+#define SUNDER_I_BOX_H
+
+#include <math.h>
+#include <stdbool.h>
+
+/* The box of nothing: it meets no other, and what is joined to it is all there is. */
+static inline void sunder_i_box_clear(double box[4])
+{
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
+}
+
+/* The least box that holds this one and a point, and this one and another. */
+static inline void sunder_i_box_include(double box[4], const double at[2])
+{
+    if (at[0] < box[0]) box[0] = at[0];
+    if (at[1] < box[1]) box[1] = at[1];
+    if (at[0] > box[2]) box[2] = at[0];
+    if (at[1] > box[3]) box[3] = at[1];
+}
+
+static inline void sunder_i_box_join(double box[4], const double other[4])
+{
+    if (other[0] < box[0]) box[0] = other[0];
+    if (other[1] < box[1]) box[1] = other[1];
+    if (other[2] > box[2]) box[2] = other[2];
+    if (other[3] > box[3]) box[3] = other[3];
+}
+
+static inline bool sunder_i_box_meet(const double a[4], const double b[4])
+{
+    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+}
+
+/* The box grown by reach; one step outward covers the rounding of the sum. */
+static inline void sunder_i_box_grow(const double box[4], double reach, double out[4])
+{
+    out[0] = nextafter(box[0] - reach, -INFINITY);
+    out[1] = nextafter(box[1] - reach, -INFINITY);
+    out[2] = nextafter(box[2] + reach, INFINITY);
+    out[3] = nextafter(box[3] + reach, INFINITY);
+}
+
+#endif

@@ -1,0 +1,97 @@
+/* A packed tree of boxes over items in a good order.
+ *
+ * The perfect binary tree over blocks of consecutive items, in heap order and without pointers: node 1 is the root, the
+ * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of what lies below.
+ * Nothing is sorted here: who builds a tree knows an order in which neighbours are near each other (along a ring, along a
+ * space-filling curve), and keeps it. On the order speed depends and nothing else.
+ *
+ * Walks are written out where they are made, since they differ in what they pass by and in whom they look at first:
+ *
+ *     sunder_i_box_walk_start(&walk, tree);
+ *     for (size_t node; sunder_i_box_walk_next(&walk, &node);) {
+ *         if (nothing of tree->box[node] is of interest) continue;
+ *         if (node < tree->leaves) {
+ *             sunder_i_box_walk_open(&walk, 2 * node + 1, 2 * node);
+ *             continue;
+ *         }
+ *         for (size_t i = sunder_i_box_tree_first(tree, node); i < sunder_i_box_tree_end(tree, node); i++) ...
+ *     } */
+#ifndef SUNDER_I_BOX_TREE_H
+#define SUNDER_I_BOX_TREE_H
+
+#include "base/invariant.h"
+#include "spatial/box.h"
+
+#include <stddef.h>
+#include <string.h>
+
+typedef struct sunder_i_box_tree {
+    size_t n;         /* items */
+    size_t block;     /* of so many each */
+    size_t leaves;    /* a power of two, so many that blocks * leaves >= n */
+    double (*box)[4]; /* [2 * leaves] the first is none */
+} sunder_i_box_tree;
+
+/* A tree over n items, its boxes still to come: room for 2 * leaves of them. */
+static inline sunder_i_box_tree sunder_i_box_tree_of(size_t n, size_t block)
+{
+    sunder_i_box_tree tree = {n, block, 1, NULL};
+    while (tree.leaves * block < n) tree.leaves *= 2;
+    return tree;
+}
+
+/* The items of a leaf. */
+static inline size_t sunder_i_box_tree_first(const sunder_i_box_tree *tree, size_t leaf)
+{
+    return (leaf - tree->leaves) * tree->block;
+}
+
+static inline size_t sunder_i_box_tree_end(const sunder_i_box_tree *tree, size_t leaf)
+{
+    const size_t end = sunder_i_box_tree_first(tree, leaf) + tree->block;
+    return end < tree->n ? end : tree->n;
+}
+
+/* Makes all boxes. add(of, i, box): makes the box hold item i, too. */
+static inline __attribute__((always_inline)) void
+sunder_i_box_tree_fill(sunder_i_box_tree *tree, void (*add)(const void *of, size_t i, double box[4]), const void *of)
+{
+    for (size_t leaf = tree->leaves; leaf < 2 * tree->leaves; leaf++) {
+        sunder_i_box_clear(tree->box[leaf]);
+        const size_t end = sunder_i_box_tree_end(tree, leaf);
+        for (size_t i = sunder_i_box_tree_first(tree, leaf); i < end; i++) add(of, i, tree->box[leaf]);
+    }
+    for (size_t node = tree->leaves - 1; node > 0; node--) {
+        memcpy(tree->box[node], tree->box[2 * node], sizeof tree->box[node]);
+        sunder_i_box_join(tree->box[node], tree->box[2 * node + 1]);
+    }
+}
+
+/* The nodes that wait: one on each level, and the tree is less than 64 levels deep. */
+typedef struct sunder_i_box_walk {
+    size_t node[64];
+    unsigned n;
+} sunder_i_box_walk;
+
+static inline void sunder_i_box_walk_start(sunder_i_box_walk *walk, const sunder_i_box_tree *tree)
+{
+    walk->n = 0;
+    if (tree->n) walk->node[walk->n++] = 1;
+}
+
+static inline bool sunder_i_box_walk_next(sunder_i_box_walk *walk, size_t *node)
+{
+    if (walk->n == 0) return false;
+    *node = walk->node[--walk->n];
+    return true;
+}
+
+/* Both children of a node wait; `first` comes next. */
+static inline void sunder_i_box_walk_open(sunder_i_box_walk *walk, size_t first, size_t second)
+{
+    SUNDER_I_ASSERT(walk->n + 2 <= sizeof walk->node / sizeof *walk->node);
+    walk->node[walk->n++] = second;
+    walk->node[walk->n++] = first;
+}
+
+#endif
