@@ -105,12 +105,15 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *l, const sunder_shape
                                          const sunder_i_decomposition *d)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
+    const sunder_counts counts = l->counts; /* what is checked is no part of the work */
     const char *wrong = d->corners < s->vertices ? "vertices are missing" : NULL;
     for (uint32_t i = 0; i < d->corners && !wrong; i++) wrong = check_corner(l, s, at, d, i);
     for (uint32_t i = 0; i < d->pieces && !wrong; i++) wrong = check_piece(l, d, i);
     uint32_t i = 0;
     for (uint32_t polygon = 0; polygon < s->polygons && !wrong; polygon++) wrong = check_area(l, s, at, d, polygon, &i);
     if (!wrong && i != d->pieces) wrong = "pieces do not stand in the order of their members";
-    if (!l->arena.failed) sunder_i_arena_release(&l->arena, mark);
+    l->counts = counts;
+    if (l->arena.failed) return NULL; /* nothing can be told */
+    sunder_i_arena_release(&l->arena, mark);
     return wrong;
 }

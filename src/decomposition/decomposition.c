@@ -1,4 +1,5 @@
 /* The six ways to decompose: member by member, or, for the mixed one, both operands together. */
+#include "base/invariant.h"
 #include "decomposition/maker.h"
 
 #include <string.h>
@@ -71,6 +72,7 @@ sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *
     ok = ok && sunder_i_maker_finish(&m, &made);
     if (ok) {
         sign(&m, kind, &before, &made);
+        SUNDER_I_CHECK(sunder_i_decomposition_check(lattice, shape, at, &made), made.corners);
         *out = made;
     }
     sunder_i_maker_free(&m);
@@ -97,6 +99,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
     for (int i = 0; i < 2 && ok; i++) {
         sunder_counts now = lattice->counts;
         sign(&m[i], SUNDER_DECOMPOSITION_MIXED, i ? &now : &before, &made[i]);
+        SUNDER_I_CHECK(sunder_i_decomposition_check(lattice, shape[i], at[i], &made[i]), made[i].corners);
         *out[i] = made[i];
     }
     sunder_i_maker_free(&m[0]);

@@ -69,7 +69,7 @@ static inline uint32_t sunder_i_piece_first(const sunder_i_decomposition *d, uin
 
 /* Checks, exactly and slowly, that pieces are counter-clockwise, strictly convex and said as above, that `along`
  * agrees with the corners, and that the areas of the pieces of each member add up to the member's. NULL if all
- * holds, else a sentence. */
+ * holds, or memory is out; else a sentence. */
 const char *sunder_i_decomposition_check(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
                                          const sunder_i_decomposition *decomposition);
 

@@ -2,7 +2,7 @@
  *
  * figure.c      a shape or a sum as rings, segments and points with rational corners
  * grow.c        one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
- * stages.c      what all stages of one operation share: the lattice, and B as a probe
+ * seat.c        what all stages of one operation share: the lattice, and B as a probe
  * islands.c     polygon by polygon, on several threads
  * gather.c      results of that in one
  * union.c       members that overlap
@@ -59,7 +59,7 @@ sunder_status sunder_i_grow(const sunder_i_figure *figure, const sunder_i_probe 
 sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_probe *probe,
                               const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
 
-/* ---- stages.c: P and B on one lattice ---- */
+/* ---- seat.c: P and B on one lattice ---- */
 
 /* Units and origins as sunder_minkowski_sum() has them; never narrow: corners of later stages have denominators. */
 typedef struct sunder_i_seat {

@@ -7,7 +7,7 @@
  * order.c        in what order the subsums go in
  * feed.c         subsums made one at a time and put into a map
  * arrangement.c, incremental.c, divide.c    the three unions
- * and sum/from_map.c, map_view.c             from a marked map to the canonical sum; the map, for users */
+ * and sum/from_map.c, sum/map_view.c         from a marked map to the canonical sum; the map, for users */
 #ifndef SUNDER_I_UNIONS_H
 #define SUNDER_I_UNIONS_H
 

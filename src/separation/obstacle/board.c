@@ -1,4 +1,4 @@
-/* The board is halved again and again, as in minkowski/cells.c: a part that one subsum holds is closed whole, and only
+/* The board is halved again and again, as in outline/culling.c: a part that one subsum holds is closed whole, and only
  * subsums that come near a part are passed on to its halves. Squares that are never held keep their lists.
  *
  * All in doubles and one-sided: `held` is certain, with room for the error of a point that is looked up; the lists are
