@@ -1,9 +1,8 @@
 /* Exact places on a lattice of sums: the corners of free space, and whatever start, goal or rounded vertex a user
  * names, with numerators and denominators of any size.
  *
- * A place is a point on the lattice, its big integers in an arena; ax, ay are close to its coordinates in the
- * units of sunder_i_approx(). Questions are answered in doubles where the error bound allows it, else in big integers.
- */
+ * A place is a point on the lattice, its big integers in an arena; ax, ay are close to its coordinates in the units of
+ * sunder_i_approx(). Questions are answered in doubles where the error bound allows it, else in big integers. */
 #ifndef SUNDER_I_FILTERED_POINT_H
 #define SUNDER_I_FILTERED_POINT_H
 

@@ -153,8 +153,8 @@ static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t
     return sum;
 }
 
-/* So that a length that is about `length` has LENGTH_BITS bits, and at least that many behind the point if it is short.
- */
+/* So that a length that is about `length` has LENGTH_BITS bits, or, if it is short, at least that many behind the
+ * point. */
 static unsigned long bits_for(const sunder_i_lattice *l, double length)
 {
     int e = 0;

@@ -204,8 +204,7 @@ static void near_box(const look *k, const double box[4], double out[4])
     }
 }
 
-/* Is nothing of the box (from the start) of interest? For those who cast shadows, besides: that is too narrow for one.
- */
+/* Is nothing of the box (from the start) of interest? For those who cast shadows, besides: is it too narrow for one? */
 static bool is_out(const look *k, const double box[4], bool casts)
 {
     if (!(box[0] <= box[2])) return true; /* nothing in it */

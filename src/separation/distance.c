@@ -206,8 +206,7 @@ static void link_ends(sunder_i_operands *g, const link *k, double on_p[2], doubl
     on_q[1] = b.y;
 }
 
-/* A point of both pieces i and j: P's is clipped by the sides of Q's, in doubles, and the middle of what is left taken.
- */
+/* A point of both pieces i and j: the middle of what is left of P's, clipped by the sides of Q's in doubles. */
 static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector *buffer)
 {
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);

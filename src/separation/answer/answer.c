@@ -64,8 +64,7 @@ static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *
     return true;
 }
 
-/* The same of any size: floor of the root to 70 bits or more, with a sticky bit beneath, rounds like the root itself.
- */
+/* The same of any size: the floor of the root to 70 bits or more, with a sticky bit beneath, rounds like the root. */
 static void slow_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long exponent, double *nearest, double *down)
 {
     if (sunder_i_big_sign(n) == 0) {

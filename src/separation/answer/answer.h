@@ -1,5 +1,5 @@
-/* What is asked of a least translation, and from an exact vector on the lattice to what the caller gets: nearest
- * doubles, texts, and whether the doubles would do. */
+/* What is asked of a least translation; and from an exact vector on the lattice to what the caller gets: nearest
+ * doubles and texts. */
 #ifndef SUNDER_I_ANSWER_H
 #define SUNDER_I_ANSWER_H
 

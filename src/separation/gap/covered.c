@@ -70,8 +70,7 @@ bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, doub
 
 /* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error
  * of a height. (To ask for the sign alone would not do: outside a sharp corner a point is far away, and over either
- * side by next to nothing.) Whoever is inside and so near to a side's line is as near to a side's foot, which is found.
- */
+ * side by next to nothing.) Whoever is inside and so near to a side's line is as near to a side's foot, and found. */
 double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y)
 {
     double least = -1;

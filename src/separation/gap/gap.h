@@ -1,6 +1,6 @@
 /* Least separating translations that keep a gap g: the obstacle is the union of the subsums, each grown by an open disc
- * of radius g. Its boundary consists of sides moved outward by g and of arcs round corners, so the optimum may be
- * irrational; it is known exactly all the same. */
+ * of radius g (an offset of the obstacle of the search without a gap). Its boundary consists of sides moved outward by
+ * g and of arcs round corners, so the optimum may be irrational; it is known exactly all the same. */
 #ifndef SUNDER_I_GAP_H
 #define SUNDER_I_GAP_H
 
@@ -8,8 +8,7 @@
 #include "separation/answer/answer.h"
 #include "separation/obstacle/reduced_convolution.h"
 
-/* A stretch of boundary: the line a + t d moved by the gap to its right (outward), or the circle of radius g about a.
- */
+/* A stretch of boundary: the line a + t d moved by the gap to its right, outward; or the circle of radius g about a. */
 typedef struct sunder_i_gap_curve {
     bool arc;
     sunder_i_point a, d;

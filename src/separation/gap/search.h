@@ -124,8 +124,7 @@ bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y);
 /* ---- Along moved sides and round arcs (segments.c, arcs.c) ---- */
 
 void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment);
-/* On from a point of a segment's line that grown subsum k covers exactly, or for certain, to where the line leaves it.
- */
+/* From a point of a segment's line that grown subsum k covers, exactly or for certain, to where the line leaves it. */
 void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, size_t k, bool forwards);
 void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t arc);
 

@@ -1,4 +1,5 @@
-/* Points on a line, and how far convex subsums cover it: all in exact fractions of the line's own parameter. */
+/* The line that carries a segment of the reduced convolution: points on it, and how far convex subsums cover it, all in
+ * exact fractions of its own parameter. */
 #ifndef SUNDER_I_CARRIER_H
 #define SUNDER_I_CARRIER_H
 

@@ -1,6 +1,6 @@
 /* The reduced convolution: segments that carry the whole boundary of the obstacle, degenerate holes included. */
-#ifndef SUNDER_I_CANDIDATES_H
-#define SUNDER_I_CANDIDATES_H
+#ifndef SUNDER_I_REDUCED_CONVOLUTION_H
+#define SUNDER_I_REDUCED_CONVOLUTION_H
 
 #include "separation/obstacle/carrier.h"
 

@@ -1,4 +1,4 @@
-/* Two operands on one lattice, with what the searches of this folder ask of them again and again: coordinates as
+/* Two operands on one lattice, with what the rooms of separation/ ask of them again and again: coordinates as
  * doubles with a bound on their error, boxes of the convex pieces, and the convex subsums R_ij = P_i + (-Q_j), made
  * when wanted.
  *

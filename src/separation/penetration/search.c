@@ -259,8 +259,7 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *g, double limit, bo
 #define SQUARES_FROM 16384
 /* Where squares are not the way, most of the pairs may still be far off, as of neighbouring countries, and would fill
  * the memory: so the search begins in a small disc then, and in one so many times as wide where that holds no free
- * point, and so on, so many times. Countries that overlap by a sliver are parted within the first, 8^-4 of the way out.
- */
+ * point, and so on, so many times. Countries that overlap by a sliver are parted in the first, 8^-4 of the way out. */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 

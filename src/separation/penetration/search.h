@@ -26,8 +26,7 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double li
 /* How the placement touches: for a point that the search found. */
 sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest);
 
-/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones must reach that far.
- */
+/* Is the translation by the doubles (dx, dy) covered by no listed subsum? Exact. The listed ones reach that far. */
 bool sunder_i_doubles_free(sunder_i_operands *operands, double dx, double dy);
 
 /* The pieces of P and of Q + x, x the point found, have disjoint interiors: asked again of every pair of pieces by

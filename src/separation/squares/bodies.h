@@ -26,8 +26,9 @@ typedef struct sunder_i_bodies {
     uint32_t n;    /* pieces first, in their order */
     uint32_t *end; /* [n] past the last block of each */
     sunder_i_body_block *block;
-    float *vague; /* [n] what heights over its sides may be off by because one of them is short; it
-                     is taken off their supports, so that nothing is held that is not */
+    /* [n] what heights over its sides may be off by because one of them is short; it is taken off their supports, so
+     * that nothing is held that is not */
+    float *vague;
     uint32_t boxes;
     double *box;                   /* [4 * boxes] the bodies that are boxes, which are the last */
     sunder_i_dop_tree pieces, all; /* the tree of the pieces only, and that of all bodies */

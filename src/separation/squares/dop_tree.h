@@ -1,6 +1,6 @@
-/* The convex pieces of an operand, by place: a tree with their extents in eight directions, so that long thin pieces
- * that lie aslant are told apart too. Of two such trees, one of P and one of -Q, it is asked which subsums come near a
- * square of the plane, and which may hold it.
+/* The convex pieces of an operand, by place: a tree with their extents in eight directions (discrete oriented polytopes
+ * of sixteen sides [KHMSZ98]), so that long thin pieces that lie aslant are told apart too. Of two such trees, one of P
+ * and one of -Q, it is asked which subsums come near a square of the plane, and which may hold it.
  *
  * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that
  * (sunder_i_dop_query()). */

@@ -1,6 +1,5 @@
 /* Which pairs of pieces come near a square: both trees are descended together, as long as the extents of two nodes do
- * not keep them off. A pair that is not listed stays off by more than the error; one that holds the square closes it.
- */
+ * not keep them off. A pair that is not listed stays off by more than the error; one that holds the square ends it. */
 #include "separation/squares/squares_inner.h"
 
 #include "base/watch.h"

@@ -24,8 +24,7 @@
 #define HOLD_MOST 18
 /* And to hold the origin, which is asked once and ends the search for two sets that are apart. */
 #define ORIGIN_TRIES 1024
-/* By then a square holds nothing but rounding, which is about 2^-45 of the plane; and the tries can still be numbered.
- */
+/* By then a square is far smaller than what floats tell apart (bodies.h); and the tries can still be numbered. */
 #define DEEPEST_SQUARE 28
 /* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
  * microseconds, and what else could be done takes all pairs of pieces. */
