@@ -1,6 +1,7 @@
 /* error.c: sentences on the way up, and GDAL's own reports caught instead of printed. */
 #include "base/error.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 
 #include <cpl_conv.h>
@@ -65,13 +66,7 @@ static bool list_add_text(gis_list *list, const char *text)
 {
     for (size_t i = 0; i < list->n; i++)
         if (strcmp(list->items[i], text) == 0) return true;
-    if (list->n == list->capacity) {
-        size_t capacity = list->capacity ? 2 * list->capacity : 8;
-        char **items = realloc(list->items, capacity * sizeof *items);
-        if (!items) return false;
-        list->items = items;
-        list->capacity = capacity;
-    }
+    if (!gis_array_reserve(&list->items, &list->capacity, list->n + 1, sizeof *list->items)) return false;
     char *copy = strdup(text);
     if (!copy) return false;
     list->items[list->n++] = copy;

@@ -3,9 +3,9 @@
  * makes many of them ends there. */
 #include "base/polygons.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 
 void gis_polygons_clear(gis_polygons *set)
@@ -18,15 +18,7 @@ void gis_polygons_clear(gis_polygons *set)
 
 static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, gis_error *error)
 {
-    if (needed <= *capacity) return true;
-    size_t larger = *capacity * 2 + 16;
-    if (larger < needed) larger = needed;
-    void **memory = array;
-    void *grown = larger > SIZE_MAX / size ? NULL : realloc(*memory, larger * size);
-    if (!grown) return gis_no_memory(error);
-    *memory = grown;
-    *capacity = larger;
-    return true;
+    return gis_array_reserve(array, capacity, needed, size) || gis_no_memory(error);
 }
 
 bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error)

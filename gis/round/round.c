@@ -5,6 +5,7 @@
  * united there (apart.c). The core's exact validation says what is well, before and after. */
 #include "round/steps.h"
 
+#include "base/array.h"
 #include "base/core.h"
 
 #include <float.h>
@@ -82,13 +83,8 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
 
 bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error)
 {
-    if (suspects->n == suspects->capacity) {
-        size_t larger = suspects->capacity ? 2 * suspects->capacity : 16;
-        size_t *grown = realloc(suspects->polygon, larger * sizeof *grown);
-        if (!grown) return gis_no_memory(error);
-        suspects->polygon = grown;
-        suspects->capacity = larger;
-    }
+    if (!gis_array_reserve(&suspects->polygon, &suspects->capacity, suspects->n + 1, sizeof *suspects->polygon))
+        return gis_no_memory(error);
     suspects->polygon[suspects->n++] = polygon;
     return true;
 }

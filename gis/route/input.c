@@ -2,6 +2,7 @@
  * has: polygons as a shape, lines and points as chains. */
 #include "route/input.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "read/ruler.h"
@@ -25,28 +26,13 @@ void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text,
 
 /* ---- Lines and points -------------------------------------------------------------------------------------------- */
 
-static bool grow(void **array, size_t *capacity, size_t need, size_t size, gis_error *error)
-{
-    if (need <= *capacity) return true;
-    size_t larger = *capacity < 8 ? 16 : 2 * *capacity;
-    while (larger < need) larger *= 2;
-    void *grown = realloc(*array, larger * size);
-    if (!grown) return gis_no_memory(error);
-    *array = grown;
-    *capacity = larger;
-    return true;
-}
-
 static bool append_line(OGRGeometryH line, gis_lines *out, gis_error *error)
 {
     int n = OGR_G_GetPointCount(line);
     if (n <= 0) return true;
-    void *xy = out->xy, *end = out->end;
-    bool ok = grow(&xy, &out->xy_capacity, 2 * (out->points + (size_t)n), sizeof *out->xy, error);
-    out->xy = xy;
-    ok = ok && grow(&end, &out->end_capacity, out->lines + 1, sizeof *out->end, error);
-    out->end = end;
-    if (!ok) return false;
+    if (!gis_array_reserve(&out->xy, &out->xy_capacity, 2 * (out->points + (size_t)n), sizeof *out->xy) ||
+        !gis_array_reserve(&out->end, &out->end_capacity, out->lines + 1, sizeof *out->end))
+        return gis_no_memory(error);
     double *to = out->xy + 2 * out->points;
     OGR_G_GetPoints(line, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
     out->points += (size_t)n;

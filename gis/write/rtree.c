@@ -7,6 +7,7 @@
  * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
 #include "write/rtree.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 #include "write/sql.h"
 
@@ -134,13 +135,7 @@ bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
     if (!boxes->trigger || !geometry || OGR_G_IsEmpty(geometry)) return true;
-    if (boxes->n == boxes->capacity) {
-        size_t capacity = boxes->capacity ? 2 * boxes->capacity : 256;
-        struct gis_box *larger = realloc(boxes->at, capacity * sizeof *larger);
-        if (!larger) return gis_no_memory(error);
-        boxes->at = larger;
-        boxes->capacity = capacity;
-    }
+    if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at)) return gis_no_memory(error);
     OGREnvelope box;
     OGR_G_GetEnvelope(geometry, &box);
     boxes->at[boxes->n++] = (struct gis_box){

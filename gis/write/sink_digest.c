@@ -7,6 +7,7 @@
  * as 2^-64 for each pair. */
 #include "write/sink_internal.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 
 #include <cpl_conv.h>
@@ -156,13 +157,7 @@ static void find_fields(gis_digests *all, OGRLayerH as_written)
 
 static bool append(gis_digest **at, size_t *n, size_t *capacity, gis_digest one)
 {
-    if (*n == *capacity) {
-        size_t larger = *capacity ? 2 * *capacity : 256;
-        gis_digest *moved = realloc(*at, larger * sizeof *moved);
-        if (!moved) return false;
-        *at = moved;
-        *capacity = larger;
-    }
+    if (!gis_array_reserve(at, capacity, *n + 1, sizeof **at)) return false;
     (*at)[(*n)++] = one;
     return true;
 }

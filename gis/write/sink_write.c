@@ -2,6 +2,7 @@
  * the format keeps every value, else as it is. */
 #include "write/sink_internal.h"
 
+#include "base/array.h"
 #include "base/interrupt.h"
 
 #include <cpl_conv.h>
@@ -10,15 +11,9 @@
 
 static bool remember(gis_sink_layer *layer, gis_sent sent, gis_error *error)
 {
-    if (layer->n_sent == layer->capacity) {
-        size_t capacity = layer->capacity ? 2 * layer->capacity : 256;
-        gis_sent *larger = realloc(layer->sent, capacity * sizeof *larger);
-        if (!larger) {
-            OGR_G_DestroyGeometry(sent.made);
-            return gis_no_memory(error);
-        }
-        layer->sent = larger;
-        layer->capacity = capacity;
+    if (!gis_array_reserve(&layer->sent, &layer->capacity, layer->n_sent + 1, sizeof *layer->sent)) {
+        OGR_G_DestroyGeometry(sent.made);
+        return gis_no_memory(error);
     }
     layer->sent[layer->n_sent++] = sent;
     return true;
