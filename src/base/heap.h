@@ -1,10 +1,10 @@
 /* A binary heap in an array: what comes before all others stands first, and an item never comes before the one at half
  * its place.
  *
- * Which of equal items comes out first is part of the contract, since what a search happens upon may depend on it: a new
- * item climbs past those that it comes before, and past no equals; one that sinks goes below the right child where that
- * comes before the left one, else the left, and stops above its equals. An order in which no two items are equal leaves
- * nothing to that.
+ * Which of equal items comes out first is part of the contract, since what a search happens upon may depend on it: a
+ * new item climbs past those that it comes before, and past no equals; one that sinks goes below the right child where
+ * that comes before the left one, else the left, and stops above its equals. An order in which no two items are equal
+ * leaves nothing to that.
  *
  * Items have any size; the functions are inlined where size and order are known, so that they cost what a heap written
  * by hand would. */

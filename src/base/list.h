@@ -2,14 +2,21 @@
 #ifndef SUNDER_I_LIST_H
 #define SUNDER_I_LIST_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "base/memory.h"
 
 typedef struct sunder_i_list {
     uint32_t *item;
     size_t n, capacity;
 } sunder_i_list;
+
+/* False if memory is out. */
+static inline bool sunder_i_list_push(sunder_i_list *list, uint32_t item)
+{
+    if (list->n == list->capacity && !sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof item))
+        return false;
+    list->item[list->n++] = item;
+    return true;
+}
 
 /* For qsort() and bsearch(). */
 int sunder_i_by_number(const void *a, const void *b);

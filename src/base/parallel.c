@@ -53,7 +53,12 @@ sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder
 {
     enum { MOST = 256 };
     if (n == 0) return SUNDER_OK;
-    job j = {.work = work, .context = context, .watch = sunder_i_watch_here(), .n = n, .grain = grain ? grain : 1, .failed_at = SIZE_MAX};
+    job j = {.work = work,
+             .context = context,
+             .watch = sunder_i_watch_here(),
+             .n = n,
+             .grain = grain ? grain : 1,
+             .failed_at = SIZE_MAX};
     atomic_init(&j.next, 0);
     atomic_init(&j.failed, false);
     pthread_mutex_init(&j.lock, NULL);

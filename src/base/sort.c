@@ -1,3 +1,5 @@
+/* Merge sort: runs by insertion, merged pairwise between two arrays. Radix sort: from the lowest digit up, leaving out
+ * digits in which all keys agree. */
 #include "base/sort.h"
 
 #include "base/watch.h"

@@ -1,3 +1,4 @@
+/* Asking whether the work may go on: from the innermost watch outwards, each asked by one thread at a time. */
 #include "base/watch.h"
 
 _Thread_local sunder_i_thread sunder_i_this_thread;

@@ -1,10 +1,10 @@
 /* Watching: may the work go on?
  *
  * Work is counted in steps: an allocation, a node of a search, a side against a side; none takes more than some
- * microseconds. Every SUNDER_I_STEPS of them the thread looks up and asks what watches it: the progress functions of the
- * public calls that it is in, and its own (sunder_watch). Once one of these says stop, no memory is handed out to the
- * thread any more, so that all work unwinds along the ways that it has for memory running out, and sunder_i_no_memory()
- * tells the one from the other. What loops without allocating counts its steps and leaves:
+ * microseconds. Every SUNDER_I_STEPS of them the thread looks up and asks what watches it: the progress functions of
+ * the public calls that it is in, and its own (sunder_watch). Once one of these says stop, no memory is handed out to
+ * the thread any more, so that all work unwinds along the ways that it has for memory running out, and
+ * sunder_i_no_memory() tells the one from the other. What loops without allocating counts its steps and leaves:
  *
  *     if (!sunder_i_step()) return sunder_i_no_memory(err);
  *
@@ -17,8 +17,6 @@
 #define SUNDER_I_WATCH_H
 
 #include "sunder.h"
-
-#include "base/watch.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -51,7 +49,8 @@ typedef struct sunder_i_thread {
     sunder_i_watch own;    /* of sunder_watch(), the outermost */
 } sunder_i_thread;
 
-extern _Thread_local sunder_i_thread sunder_i_this_thread __attribute__((tls_model("initial-exec"), visibility("hidden")));
+extern _Thread_local sunder_i_thread sunder_i_this_thread
+    __attribute__((tls_model("initial-exec"), visibility("hidden")));
 
 /* Asks; false if the work is to stop. */
 bool sunder_i_look(void);

@@ -1,3 +1,5 @@
+/* Big integers on arenas: what GMP does with limbs, with signs and memory added; and their ratios as doubles, each
+ * rounded once. */
 #include "number/big.h"
 
 #include "number/huge.h"

@@ -3,7 +3,8 @@
  * Values are immutable and passed by value; results live in the arena given, so nothing is freed one by one, and a
  * failed allocation sets arena->failed and yields zero instead of ending the process (as mpz_ would, and mpn_ on large
  * operands: those never get there, see huge.h).
- * Canonical form: `size` is 0 for zero; otherwise |size| limbs, the top one not zero, sign of size = sign of the value. */
+ * Canonical form: `size` is 0 for zero; otherwise |size| limbs, the top one not zero, and the sign of size is the
+ * value's. */
 #ifndef SUNDER_I_BIG_H
 #define SUNDER_I_BIG_H
 

@@ -1,3 +1,5 @@
+/* Karatsuba, Burnikel and Ziegler, Lehmer, and digits by powers of ten: each cuts its operands until GMP can take them
+ * on the stack. */
 #include "number/huge.h"
 
 #include "base/watch.h"
@@ -115,8 +117,8 @@ static sunder_i_big divide_2_by_1(sunder_i_arena *arena, sunder_i_big a, sunder_
     return join(arena, high, k, low);
 }
 
-/* Digit by digit, where a digit is as long as b: shifted so that b's top bit is set and its length halves evenly down to
- * what GMP divides. */
+/* Digit by digit, where a digit is as long as b: shifted so that b's top bit is set and its length halves evenly down
+ * to what GMP divides. */
 sunder_i_big sunder_i_huge_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
 {
     mp_size_t n = b.size, halvings = 0;
@@ -284,7 +286,8 @@ static size_t plain_digits(sunder_i_arena *arena, sunder_i_big a, char *text, si
     while (n > 0) {
         mp_limb_t word = mpn_divrem_1(v, 0, v, n, UINT64_C(10000000000000000000));
         while (n > 0 && v[n - 1] == 0) n--;
-        for (int k = 0; k < WORD_DIGITS && (n > 0 || word > 0); k++, word /= 10) reversed[at++] = (char)('0' + word % 10);
+        for (int k = 0; k < WORD_DIGITS && (n > 0 || word > 0); k++, word /= 10)
+            reversed[at++] = (char)('0' + word % 10);
     }
     while (at < width) reversed[at++] = '0';
     for (size_t i = 0; i < at; i++) text[i] = reversed[at - 1 - i];

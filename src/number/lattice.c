@@ -1,3 +1,4 @@
+/* Choosing a lattice for what is to stand on it, and reading doubles, integers and ratios as its numbers. */
 #include "number/lattice.h"
 
 #include <limits.h>

@@ -1,3 +1,4 @@
+/* Sums of two products of 64 by 128 bits, and the order of products of 128 by 128 and of 256 by 128 bits. */
 #include "number/wide.h"
 
 #include <math.h>

@@ -77,12 +77,9 @@ bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, 
 
 bool sunder_i_map_push(sunder_i_planar_map *map, sunder_i_list *list, uint32_t item)
 {
-    if (list->n == list->capacity && !sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof *list->item)) {
-        map->failed = true;
-        return false;
-    }
-    list->item[list->n++] = item;
-    return true;
+    const bool pushed = sunder_i_list_push(list, item);
+    if (!pushed) map->failed = true;
+    return pushed;
 }
 
 /* Of a number in an arena. */

@@ -31,6 +31,7 @@
 #ifndef SUNDER_I_MAP_H
 #define SUNDER_I_MAP_H
 
+#include "base/list.h"
 #include "planar_map/planar_map.h"
 
 #include <assert.h>
@@ -86,11 +87,6 @@ typedef struct sunder_i_history_node {
     uint32_t kind : 2, of : 30;
     uint32_t a, b;
 } sunder_i_history_node;
-
-typedef struct sunder_i_list {
-    uint32_t *item;
-    size_t n, capacity;
-} sunder_i_list;
 
 struct sunder_i_planar_map {
     sunder_i_lattice *lattice;

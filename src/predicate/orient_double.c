@@ -1,7 +1,7 @@
 /* The side of a point to a line, on doubles as they come: the ladder in one place, rung by rung. */
 #include "predicate/orient_double.h"
 
-#include "number/total.h"
+#include "number/accumulator.h"
 
 #include <math.h>
 
@@ -22,14 +22,14 @@ int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const s
 /* (a - c) x (b - c) multiplied out: the two products c.x c.y cancel. */
 int sunder_i_orient_exact(const sunder_point *a, const sunder_point *b, const sunder_point *c)
 {
-    sunder_i_total det = {{0}};
-    sunder_i_total_add(&det, a->x, b->y);
-    sunder_i_total_sub(&det, a->y, b->x);
-    sunder_i_total_add(&det, b->x, c->y);
-    sunder_i_total_sub(&det, b->y, c->x);
-    sunder_i_total_add(&det, c->x, a->y);
-    sunder_i_total_sub(&det, c->y, a->x);
-    return sunder_i_total_sign(&det);
+    sunder_i_accumulator det = {{0}};
+    sunder_i_accumulator_add(&det, a->x, b->y);
+    sunder_i_accumulator_sub(&det, a->y, b->x);
+    sunder_i_accumulator_add(&det, b->x, c->y);
+    sunder_i_accumulator_sub(&det, b->y, c->x);
+    sunder_i_accumulator_add(&det, c->x, a->y);
+    sunder_i_accumulator_sub(&det, c->y, a->x);
+    return sunder_i_accumulator_sign(&det);
 }
 
 int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c)

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* The direction of (dx, dy), not both 0, in [0, 4), a whole turn being 4; it grows with the angle, no faster than it. In
- * doubles, within a few 2^-52. */
+/* The direction of (dx, dy), not both 0, in [0, 4), a whole turn being 4; it grows with the angle, no faster than it.
+ * In doubles, within a few 2^-52. */
 static inline double sunder_i_turn(double dx, double dy)
 {
     const double t = dy / (fabs(dx) + fabs(dy));

@@ -1,10 +1,10 @@
 /* Candidate pairs of edges by a tree of boxes over the edges in ring order.
  *
- * The tree of boxes (spatial/box_tree.h) is joined with itself from the top. Consecutive edges are near each other, so on coasts,
- * outlines and combs the boxes of distant nodes rarely meet, and nothing needs sorting; many small rings come in any
- * order, so they are first sorted along a space-filling curve. That order, like all of this, decides what is looked at
- * first and nothing else: boxes are closed and their coordinates monotone images of the exact ones, so edges that meet
- * are always candidates. */
+ * The tree of boxes (spatial/box_tree.h) is joined with itself from the top. Consecutive edges are near each other, so
+ * on coasts, outlines and combs the boxes of distant nodes rarely meet, and nothing needs sorting; many small rings
+ * come in any order, so they are first sorted along a space-filling curve. That order, like all of this, decides what
+ * is looked at first and nothing else: boxes are closed and their coordinates monotone images of the exact ones, so
+ * edges that meet are always candidates. */
 #include "shape/build.h"
 
 #include "spatial/curve.h"

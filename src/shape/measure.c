@@ -1,12 +1,12 @@
 /* What a shape says of itself: counts, box, area, anchor.
  *
- * Area and anchor have no way to fail, so nothing is allocated for them: where coordinates are doubles the area is a sum
- * of products of doubles in fixed memory, and the anchor is worked out on the stack, in numbers whose size the range of
- * doubles bounds. Those of a rational shape, whose numbers nothing bounds, are worked out when it is made
+ * Area and anchor have no way to fail, so nothing is allocated for them: where coordinates are doubles the area is a
+ * sum of products of doubles in fixed memory, and the anchor is worked out on the stack, in numbers whose size the
+ * range of doubles bounds. Those of a rational shape, whose numbers nothing bounds, are worked out when it is made
  * (measure_rational.c). */
 #include "shape/shape.h"
 
-#include "number/total.h"
+#include "number/accumulator.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,13 +23,13 @@ void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, sh
 double sunder_shape_area(const sunder_shape *shape)
 {
     if (shape->rational) return shape->area;
-    sunder_i_total twice = {{0}};
+    sunder_i_accumulator twice = {{0}};
     for (uint32_t i = 0; i < shape->vertices; i++) {
         const double *a = shape->xy + 2 * (size_t)i, *b = shape->xy + 2 * (size_t)shape->next[i];
-        sunder_i_total_add(&twice, a[0], b[1]);
-        sunder_i_total_sub(&twice, a[1], b[0]);
+        sunder_i_accumulator_add(&twice, a[0], b[1]);
+        sunder_i_accumulator_sub(&twice, a[1], b[0]);
     }
-    return sunder_i_total_double(&twice, -1);
+    return sunder_i_accumulator_double(&twice, -1);
 }
 
 /* Area of a convex piece in doubles, from its first corner, so that far origins cost no digits. */

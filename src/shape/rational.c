@@ -1,3 +1,4 @@
+/* Corners that are no doubles: made, reduced, rounded; the box and the extent of a shape that has some. */
 #include "shape/rational.h"
 
 #include <limits.h>

@@ -1,9 +1,9 @@
 /* A packed tree of boxes over items in a good order.
  *
  * The perfect binary tree over blocks of consecutive items, in heap order and without pointers: node 1 is the root, the
- * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of what lies below.
- * Nothing is sorted here: who builds a tree knows an order in which neighbours are near each other (along a ring, along a
- * space-filling curve), and keeps it. On the order speed depends and nothing else.
+ * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of what lies
+ * below. Nothing is sorted here: who builds a tree knows an order in which neighbours are near each other (along a
+ * ring, along a space-filling curve), and keeps it. On the order speed depends and nothing else.
  *
  * Walks are written out where they are made, since they differ in what they pass by and in whom they look at first:
  *

@@ -171,8 +171,7 @@ bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunde
         const unsigned l = stack[depth].level;
         if (!sunder_i_box_meet(tree->box + 4 * node, box)) continue;
         if (l == 0) {
-            if (!sunder_i_reserve(&hits->item, &hits->capacity, hits->n + 1, sizeof *hits->item)) return false;
-            hits->item[hits->n++] = tree->item[node];
+            if (!sunder_i_list_push(hits, tree->item[node])) return false;
             continue;
         }
         size_t end;

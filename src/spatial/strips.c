@@ -1,3 +1,4 @@
+/* Strips: a counting sort of spans by the strips that they reach into. */
 #include "spatial/strips.h"
 
 #include "base/memory.h"

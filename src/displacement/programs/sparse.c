@@ -57,13 +57,6 @@ static void enlist(graph *g, uint32_t v)
     *head = v;
 }
 
-static bool append(sunder_i_list *list, uint32_t v)
-{
-    if (!sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof *list->item)) return false;
-    list->item[list->n++] = v;
-    return true;
-}
-
 static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *couple, size_t couples)
 {
     memset(g, 0, sizeof *g);
@@ -74,7 +67,7 @@ static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *couple, size_
     g->prev = sunder_i_alloc(n, sizeof *g->prev);
     if (!g->near || !g->head || !g->next || !g->prev) return false;
     for (size_t k = 0; k < couples; k++)
-        if (!append(&g->near[couple[k].a], couple[k].b) || !append(&g->near[couple[k].b], couple[k].a)) return false;
+        if (!sunder_i_list_push(&g->near[couple[k].a], couple[k].b) || !sunder_i_list_push(&g->near[couple[k].b], couple[k].a)) return false;
     for (size_t v = 0; v < n; v++) {
         sunder_i_list *near = &g->near[v];
         near->n = sunder_i_set_make(near->item, near->n);

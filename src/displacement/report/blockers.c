@@ -7,13 +7,6 @@
 
 #include <math.h>
 
-static bool append(sunder_i_list *list, uint32_t item)
-{
-    if (!sunder_i_reserve(&list->item, &list->capacity, list->n + 1, sizeof *list->item)) return false;
-    list->item[list->n++] = item;
-    return true;
-}
-
 /* Features of other blocks within the gap, and a hair, of feature f. */
 static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict *c, uint32_t f, sunder_i_list *near,
                                  sunder_i_list *blockers, sunder_error *err)
@@ -35,7 +28,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
             sunder_i_apart(placement->translate[f].shape, placement->translate[f].t, placement->translate[g].shape,
                            placement->translate[g].t, reach, &apart, err);
         if (status) return status;
-        if (!apart && !append(blockers, g)) return sunder_i_no_memory(err);
+        if (!apart && !sunder_i_list_push(blockers, g)) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;
 }
@@ -63,7 +56,7 @@ static bool take_from_proof(const sunder_conflict *c, const sunder_proof *proof,
         const sunder_proof_node *node = &proof->node[k];
         const size_t pair[2] = {node->a, node->b};
         for (int e = 0; e < 2 && node->ways; e++)
-            if (pair[e] != c->a && pair[e] != c->b && !append(blockers, (uint32_t)pair[e])) return false;
+            if (pair[e] != c->a && pair[e] != c->b && !sunder_i_list_push(blockers, (uint32_t)pair[e])) return false;
     }
     return true;
 }

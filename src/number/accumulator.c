@@ -1,4 +1,6 @@
-#include "number/total.h"
+/* A product is three words at a place that its exponents say; what is carried beyond runs on while it has to. The value
+ * is the top 53 bits of the magnitude, a bit beneath them and whether anything follows that, rounded once. */
+#include "number/accumulator.h"
 
 #include "number/wide.h"
 
@@ -17,7 +19,7 @@ static uint64_t take_apart(double v, int *e)
     return field ? fraction | (uint64_t)1 << 52 : fraction;
 }
 
-static void accumulate(sunder_i_total *t, double a, double b, bool minus)
+static void accumulate(sunder_i_accumulator *t, double a, double b, bool minus)
 {
     int ea, eb;
     const uint64_t ma = take_apart(a, &ea), mb = take_apart(b, &eb);
@@ -29,7 +31,7 @@ static void accumulate(sunder_i_total *t, double a, double b, bool minus)
     const sunder_i_u128 low = m << shift;
     const uint64_t word[3] = {(uint64_t)low, (uint64_t)(low >> 64), shift ? (uint64_t)(m >> 64) >> (64 - shift) : 0};
     uint64_t carry = 0;
-    for (int i = at; i < SUNDER_I_TOTAL_LIMBS; i++) {
+    for (int i = at; i < SUNDER_I_ACCUMULATOR_LIMBS; i++) {
         const uint64_t w = i - at < 3 ? word[i - at] : 0;
         if (i - at >= 3 && carry == 0) break;
         const uint64_t old = t->limb[i];
@@ -45,27 +47,27 @@ static void accumulate(sunder_i_total *t, double a, double b, bool minus)
     }
 }
 
-void sunder_i_total_add(sunder_i_total *t, double a, double b) { accumulate(t, a, b, false); }
-void sunder_i_total_sub(sunder_i_total *t, double a, double b) { accumulate(t, a, b, true); }
+void sunder_i_accumulator_add(sunder_i_accumulator *t, double a, double b) { accumulate(t, a, b, false); }
+void sunder_i_accumulator_sub(sunder_i_accumulator *t, double a, double b) { accumulate(t, a, b, true); }
 
-int sunder_i_total_sign(const sunder_i_total *t)
+int sunder_i_accumulator_sign(const sunder_i_accumulator *t)
 {
-    if (t->limb[SUNDER_I_TOTAL_LIMBS - 1] >> 63) return -1;
-    for (int i = 0; i < SUNDER_I_TOTAL_LIMBS; i++)
+    if (t->limb[SUNDER_I_ACCUMULATOR_LIMBS - 1] >> 63) return -1;
+    for (int i = 0; i < SUNDER_I_ACCUMULATOR_LIMBS; i++)
         if (t->limb[i]) return 1;
     return 0;
 }
 
 /* Bits [low, low + 64) of a magnitude; low may be negative. */
-static uint64_t bits_from(const sunder_i_total *t, long low)
+static uint64_t bits_from(const sunder_i_accumulator *t, long low)
 {
     if (low < 0) return low <= -64 ? 0 : t->limb[0] << -low;
     const long at = low / 64, shift = low % 64;
-    const uint64_t above = at + 1 < SUNDER_I_TOTAL_LIMBS ? t->limb[at + 1] : 0;
+    const uint64_t above = at + 1 < SUNDER_I_ACCUMULATOR_LIMBS ? t->limb[at + 1] : 0;
     return shift ? t->limb[at] >> shift | above << (64 - shift) : t->limb[at];
 }
 
-static bool any_below(const sunder_i_total *t, long end)
+static bool any_below(const sunder_i_accumulator *t, long end)
 {
     for (long i = 0; 64 * i < end; i++) {
         const long rest = end - 64 * i;
@@ -74,24 +76,24 @@ static bool any_below(const sunder_i_total *t, long end)
     return false;
 }
 
-double sunder_i_total_double(const sunder_i_total *t, int exponent)
+double sunder_i_accumulator_double(const sunder_i_accumulator *t, int exponent)
 {
-    const int sign = sunder_i_total_sign(t);
+    const int sign = sunder_i_accumulator_sign(t);
     if (sign == 0) return 0;
-    sunder_i_total m = *t;
+    sunder_i_accumulator m = *t;
     if (sign < 0) { /* ~m + 1 */
         uint64_t carry = 1;
-        for (int i = 0; i < SUNDER_I_TOTAL_LIMBS; i++) {
+        for (int i = 0; i < SUNDER_I_ACCUMULATOR_LIMBS; i++) {
             m.limb[i] = ~m.limb[i] + carry;
             carry = carry && m.limb[i] == 0;
         }
     }
-    long top = SUNDER_I_TOTAL_LIMBS - 1;
+    long top = SUNDER_I_ACCUMULATOR_LIMBS - 1;
     while (m.limb[top] == 0) top--;
     const long bits = 64 * (top + 1) - __builtin_clzll(m.limb[top]);
     /* The lowest bit that is kept: 53 bits, fewer in the subnormal range. Below it one bit for rounding, and whether
      * anything follows that. */
-    const long unit = SUNDER_I_TOTAL_UNIT + exponent;
+    const long unit = SUNDER_I_ACCUMULATOR_UNIT + exponent;
     long drop = bits - 53;
     if (unit + drop < -1074) drop = -1074 - unit;
     if (drop > bits) return sign < 0 ? -0.0 : 0.0;

@@ -1,5 +1,5 @@
-/* number/total: sums of products of doubles of every size against GMP's rationals. */
-#include "number/total.h"
+/* number/accumulator: sums of products of doubles of every size against GMP's rationals. */
+#include "number/accumulator.h"
 #include "random.h"
 
 #include <float.h>
@@ -47,7 +47,7 @@ static void test_random_sums(void **state)
     mpq_t sum, a, b;
     mpq_inits(sum, a, b, NULL);
     for (int i = 0; i < 3000; i++) {
-        sunder_i_total t = {{0}};
+        sunder_i_accumulator t = {{0}};
         mpq_set_ui(sum, 0, 1);
         double x = 0, y = 0;
         const int n = (int)rng_int(&g, 1, 12);
@@ -58,20 +58,20 @@ static void test_random_sums(void **state)
             mpq_set_d(b, y);
             mpq_mul(a, a, b);
             if (again) {
-                sunder_i_total_sub(&t, x, y);
+                sunder_i_accumulator_sub(&t, x, y);
                 mpq_sub(sum, sum, a);
             } else {
-                sunder_i_total_add(&t, x, y);
+                sunder_i_accumulator_add(&t, x, y);
                 mpq_add(sum, sum, a);
             }
         }
-        assert_int_equal(sunder_i_total_sign(&t), mpq_sgn(sum));
+        assert_int_equal(sunder_i_accumulator_sign(&t), mpq_sgn(sum));
         const int e = (int)rng_int(&g, -3, 3);
         if (e >= 0)
             mpq_mul_2exp(sum, sum, (mp_bitcnt_t)e);
         else
             mpq_div_2exp(sum, sum, (mp_bitcnt_t)-e);
-        const double d = sunder_i_total_double(&t, e);
+        const double d = sunder_i_accumulator_double(&t, e);
         if (isinf(d)) { /* from DBL_MAX and half a unit on */
             mpq_set_d(a, DBL_MAX);
             mpq_set_d(b, 0x1p970);
@@ -88,20 +88,20 @@ static void test_random_sums(void **state)
 static void test_ends(void **state)
 {
     (void)state;
-    sunder_i_total t = {{0}};
-    assert_true(sunder_i_total_sign(&t) == 0 && sunder_i_total_double(&t, 0) == 0);
-    sunder_i_total_sub(&t, 0x1p-1074, 0x1p-1074);
-    assert_true(sunder_i_total_sign(&t) < 0 && sunder_i_total_double(&t, 0) == 0);
-    assert_true(sunder_i_total_double(&t, 1074) == -0x1p-1074);
-    assert_true(sunder_i_total_double(&t, 1073) == 0); /* half of the least: a tie, to even */
-    for (int k = 0; k < 1000; k++) sunder_i_total_add(&t, DBL_MAX, DBL_MAX);
-    assert_true(sunder_i_total_sign(&t) > 0 && isinf(sunder_i_total_double(&t, 0)));
-    for (int k = 0; k < 1000; k++) sunder_i_total_sub(&t, DBL_MAX, DBL_MAX);
-    assert_true(sunder_i_total_double(&t, 1074) == -0x1p-1074);
+    sunder_i_accumulator t = {{0}};
+    assert_true(sunder_i_accumulator_sign(&t) == 0 && sunder_i_accumulator_double(&t, 0) == 0);
+    sunder_i_accumulator_sub(&t, 0x1p-1074, 0x1p-1074);
+    assert_true(sunder_i_accumulator_sign(&t) < 0 && sunder_i_accumulator_double(&t, 0) == 0);
+    assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
+    assert_true(sunder_i_accumulator_double(&t, 1073) == 0); /* half of the least: a tie, to even */
+    for (int k = 0; k < 1000; k++) sunder_i_accumulator_add(&t, DBL_MAX, DBL_MAX);
+    assert_true(sunder_i_accumulator_sign(&t) > 0 && isinf(sunder_i_accumulator_double(&t, 0)));
+    for (int k = 0; k < 1000; k++) sunder_i_accumulator_sub(&t, DBL_MAX, DBL_MAX);
+    assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_sums), cmocka_unit_test(test_ends)};
-    return cmocka_run_group_tests_name("number/total", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("number/accumulator", tests, NULL, NULL);
 }
