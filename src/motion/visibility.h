@@ -13,10 +13,10 @@
 typedef struct sunder_i_visibility {
     const sunder_i_free_space *space;
     const sunder_i_corners *corners;
-    double (*at)[2];      /* [vertices + 2] places, from the start; each coordinate is within 2^-51 of itself */
-    double (*corner)[2];  /* [corners of parts] likewise */
-    double from[2];       /* where that start is in the boxes of the parts' tree */
-    uint32_t *order;      /* [nodes] along a space-filling curve */
+    double (*at)[2];     /* [vertices + 2] places, from the start; each coordinate is within 2^-51 of itself */
+    double (*corner)[2]; /* [corners of parts] likewise */
+    double from[2];      /* where that start is in the boxes of the parts' tree */
+    uint32_t *order;     /* [nodes] along a space-filling curve */
     size_t nodes;
     sunder_i_box_tree tree; /* over the nodes in that order */
     sunder_i_shadow shadow;

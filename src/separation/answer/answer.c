@@ -12,10 +12,10 @@
 
 static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
 
-sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *g, const sunder_i_hpoint *p)
+sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *g, const sunder_i_hpoint *p)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    sunder_i_vector_exact v;
+    sunder_i_exact_translation v;
     memset(&v, 0, sizeof v);
     if (p->w != 0 && fits(&p->x) && fits(&p->y) && p->w >> 63 == 0) {
         v.small = true;
@@ -28,7 +28,7 @@ sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *g, const sunder_i_hp
     return v;
 }
 
-sunder_i_rational_point sunder_i_vector_point(sunder_i_operands *g, const sunder_i_vector_exact *v)
+sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *g, const sunder_i_exact_translation *v)
 {
     sunder_i_arena *a = &g->placed.lattice.arena;
     if (!v->small) return v->big;
@@ -84,7 +84,7 @@ static void slow_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long ex
     *down = sunder_i_big_ratio_down(a, twice, one, exponent - k - 1);
 }
 
-void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out)
+void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const long e = l->exponent;
@@ -92,7 +92,7 @@ void sunder_i_answer_numbers(sunder_i_operands *g, const sunder_i_vector_exact *
         const sunder_i_u128 n = (sunder_i_u128)(v->x * v->x) + (sunder_i_u128)(v->y * v->y);
         if (quick_root(n, v->w, e, &out->distance, &out->lower_bound)) return;
     }
-    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     sunder_i_rational_doubles(&l->arena, big, e, &out->dx, &out->dy);
     slow_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
 }
@@ -112,7 +112,7 @@ static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
     return m;
 }
 
-sunder_i_rational_point sunder_i_vector_doubles(sunder_i_operands *g, double dx, double dy)
+sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *g, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     unsigned long bx, by;
@@ -123,7 +123,7 @@ sunder_i_rational_point sunder_i_vector_doubles(sunder_i_operands *g, double dx,
                                      sunder_i_big_shl(&l->arena, sunder_i_big_i64(&l->arena, 1), bits)};
 }
 
-bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_vector_exact *v, double dx, double dy)
+bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_exact_translation *v, double dx, double dy)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (!isfinite(dx) || !isfinite(dy)) return false;
@@ -135,7 +135,7 @@ bool sunder_i_answer_exact(sunder_i_operands *g, const sunder_i_vector_exact *v,
             return fma(ldexp(dx, (int)-l->exponent), w, -(double)(int64_t)v->x) == 0 &&
                    fma(ldexp(dy, (int)-l->exponent), w, -(double)(int64_t)v->y) == 0;
     }
-    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     const double d[2] = {dx, dy};
     for (int k = 0; k < 2; k++) {
         unsigned long bits;

@@ -19,27 +19,28 @@ void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
 
 /* (x / w, y / w) lattice units, w > 0: as 128-bit integers where they fit (`small`: |x|, |y|, w < 2^63), else as big
  * ones. */
-typedef struct sunder_i_vector_exact {
+typedef struct sunder_i_exact_translation {
     bool small;
     sunder_i_i128 x, y, w;
     sunder_i_rational_point big;
-} sunder_i_vector_exact;
+} sunder_i_exact_translation;
 
-sunder_i_vector_exact sunder_i_vector_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
+sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
 /* As big integers. */
-sunder_i_rational_point sunder_i_vector_point(sunder_i_operands *operands, const sunder_i_vector_exact *v);
+sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *operands,
+                                                         const sunder_i_exact_translation *v);
 
 /* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
-void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out);
+void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_exact_translation *v, sunder_separation *out);
 
 /* The three texts; on failure none is left. */
-sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_vector_exact *v, sunder_separation *out,
-                                    sunder_error *err);
+sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_exact_translation *v,
+                                    sunder_separation *out, sunder_error *err);
 
 /* (dx, dy) in lattice units, exactly. */
-sunder_i_rational_point sunder_i_vector_doubles(sunder_i_operands *operands, double dx, double dy);
+sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *operands, double dx, double dy);
 
 /* Are out->dx and out->dy exactly the vector? */
-bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_vector_exact *v, double dx, double dy);
+bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_exact_translation *v, double dx, double dy);
 
 #endif

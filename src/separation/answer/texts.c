@@ -96,7 +96,7 @@ static char *quick_text(bool negative, sunder_i_u128 num, sunder_i_u128 den, lon
     return copy;
 }
 
-static char *coordinate_text(sunder_i_operands *g, const sunder_i_vector_exact *v, int k)
+static char *coordinate_text(sunder_i_operands *g, const sunder_i_exact_translation *v, int k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (v->small) {
@@ -105,11 +105,11 @@ static char *coordinate_text(sunder_i_operands *g, const sunder_i_vector_exact *
         char *text = quick_text(c < 0, sunder_i_i128_abs(c), (sunder_i_u128)v->w, l->exponent, &fit);
         if (fit) return text;
     }
-    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_axis(&big, k), big.w, l->exponent);
 }
 
-static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
+static char *norm_text(sunder_i_operands *g, const sunder_i_exact_translation *v)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (v->small) {
@@ -118,12 +118,12 @@ static char *norm_text(sunder_i_operands *g, const sunder_i_vector_exact *v)
         char *text = quick_text(false, n, (sunder_i_u128)(v->w * v->w), 2 * l->exponent, &fit);
         if (fit) return text;
     }
-    const sunder_i_rational_point big = sunder_i_vector_point(g, v);
+    const sunder_i_rational_point big = sunder_i_exact_translation_point(g, v);
     return sunder_i_big_ratio_text(&l->arena, sunder_i_rational_dot(&l->arena, big, big),
                                    sunder_i_big_mul(&l->arena, big.w, big.w), 2 * l->exponent);
 }
 
-sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_vector_exact *v, sunder_separation *out,
+sunder_status sunder_i_answer_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out,
                                     sunder_error *err)
 {
     out->dx_text = coordinate_text(g, v, 0);

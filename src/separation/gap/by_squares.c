@@ -22,20 +22,19 @@
 typedef struct gathering {
     sunder_i_gap_problem *p;
     sunder_i_squares *q;
-    sunder_i_gap_places *to;
-    size_t places_capacity;
+    sunder_i_gap_quadtree *to;
+    size_t nodes_capacity;
     uint64_t *pair; /* of all lists, one after the other: bodies of P and of -Q */
     size_t pairs, pairs_capacity;
     sunder_i_candidate *segment;
     size_t segments, segments_capacity;
 } gathering;
 
-static bool make_places(gathering *c)
+static bool make_nodes(gathering *c)
 {
-    const size_t need = 1 + 4 * (size_t)c->q->cuts, before = c->places_capacity;
-    if (!sunder_i_reserve(&c->to->place, &c->places_capacity, need, sizeof *c->to->place)) return false;
-    if (c->places_capacity > before)
-        memset(c->to->place + before, 0, (c->places_capacity - before) * sizeof *c->to->place);
+    const size_t need = 1 + 4 * (size_t)c->q->cuts, before = c->nodes_capacity;
+    if (!sunder_i_reserve(&c->to->node, &c->nodes_capacity, need, sizeof *c->to->node)) return false;
+    if (c->nodes_capacity > before) memset(c->to->node + before, 0, (c->nodes_capacity - before) * sizeof *c->to->node);
     return true;
 }
 
@@ -69,7 +68,7 @@ static bool middle_is_free(const gathering *c, const sunder_i_square *s)
     const double x = s->box[0] / 2 + s->box[2] / 2, y = s->box[1] / 2 + s->box[3] / 2;
     const sunder_i_operands *g = c->p->operands;
     const sunder_i_bodies *b = c->q->bodies;
-    const sunder_i_query query = sunder_i_bodies_query(g, (double[4]){x, y, x, y});
+    const sunder_i_square_query query = sunder_i_bodies_query(g, (double[4]){x, y, x, y});
     const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (1 + 0x1p-20f) + 2 * SUNDER_I_BODIES_ERROR;
     for (size_t k = 0; k < c->q->pairs; k++) {
         const uint32_t i = c->q->pair[k][0], j = c->q->pair[k][1];
@@ -87,10 +86,10 @@ static void lower_limit(gathering *c, double x, double y)
 static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state what)
 {
     sunder_i_squares *q = c->q;
-    sunder_i_gap_square *at = c->to->place + s->place;
+    sunder_i_gap_node *at = c->to->node + s->place;
     if (what == SUNDER_I_SQUARE_IN_PARTS) {
         at->child = 1 + 4 * q->cuts;
-        return sunder_i_squares_cut(q, s) && make_places(c);
+        return sunder_i_squares_cut(q, s) && make_nodes(c);
     }
     at->from = (uint32_t)c->pairs;
     bool ok = !q->held || keep_pair(c, q->holder[0], q->holder[1]);
@@ -109,7 +108,7 @@ static bool look_at_all(gathering *c, bool *done)
 {
     sunder_i_squares *q = c->q;
     *done = false;
-    if (!make_places(c)) return false;
+    if (!make_nodes(c)) return false;
     while (q->n && q->heap[0].distance <= c->p->limit * (1 + 0x1p-20) + 64 * q->g->error) {
         const sunder_i_square s = sunder_i_squares_first(q);
         if (sunder_i_squares_too_many(q, &s)) return true;
@@ -213,40 +212,40 @@ static bool take_all(gathering *c)
            take_segments(c);
 }
 
-bool sunder_i_gap_take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places, bool *done)
+bool sunder_i_gap_by_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtree, bool *done)
 {
     const double limit = p->limit, reach = p->limit;
-    *places = (sunder_i_gap_places){.reach = reach + 64 * p->operands->error};
+    *quadtree = (sunder_i_gap_quadtree){.reach = reach + 64 * p->operands->error};
     *done = false;
-    gathering c = {.p = p, .q = sunder_i_squares_new(p->operands, reach, p->gap_units), .to = places};
+    gathering c = {.p = p, .q = sunder_i_squares_new(p->operands, reach, p->gap_units), .to = quadtree};
     const bool ok = c.q && look_at_all(&c, done) && (!*done || take_all(&c));
     sunder_i_squares_free(c.q);
     sunder_i_free(c.pair);
     sunder_i_free(c.segment);
     if (ok && *done)
-        p->places = places;
+        p->quadtree = quadtree;
     else
         p->limit = limit;
     return ok && !p->operands->placed.lattice.arena.failed;
 }
 
-void sunder_i_gap_places_free(sunder_i_gap_places *places)
+void sunder_i_gap_quadtree_free(sunder_i_gap_quadtree *quadtree)
 {
-    sunder_i_free(places->place);
-    *places = (sunder_i_gap_places){.place = NULL};
+    sunder_i_free(quadtree->node);
+    *quadtree = (sunder_i_gap_quadtree){.node = NULL};
 }
 
-const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *q, double x, double y, size_t *n)
+const uint32_t *sunder_i_gap_quadtree_near(const sunder_i_gap_quadtree *q, double x, double y, size_t *n)
 {
     double box[4] = {-q->reach, -q->reach, q->reach, q->reach};
-    const sunder_i_gap_square *at = q->place;
+    const sunder_i_gap_node *at = q->node;
     while (at->child) {
         const double mx = box[0] / 2 + box[2] / 2, my = box[1] / 2 + box[3] / 2;
         const int k = (x > mx) + 2 * (y > my);
         double part[4];
         sunder_i_quadtree_quarter(box, k, part);
         memcpy(box, part, sizeof box);
-        at = q->place + at->child + k;
+        at = q->node + at->child + k;
     }
     SUNDER_I_ASSERT(at->from <= at->to);
     *n = at->to - at->from;

@@ -37,9 +37,9 @@ void sunder_i_gap_doubles(sunder_i_gap_state *s, const sunder_i_surd_point *exac
 
 /* ---- Subsums ---- */
 
-const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
+const sunder_i_gap_subsum *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
 {
-    sunder_i_gap_piece *r = s->pieces + k;
+    sunder_i_gap_subsum *r = s->pieces + k;
     if (r->n) return r;
     sunder_i_subsum *m = s->g->subsum + k;
     if (!m->sides && !sunder_i_subsum_make(s->g, m)) {
@@ -52,7 +52,7 @@ const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
         s->failed = true;
         return NULL;
     }
-    *r = (sunder_i_gap_piece){m->sides, false, m->cx, m->cy, m->sx, m->sy, block, block + n};
+    *r = (sunder_i_gap_subsum){m->sides, false, m->cx, m->cy, m->sx, m->sy, block, block + n};
     for (size_t i = 0; i < n; i++) {
         r->length[i] = sunder_i_gap_length(r->sx[i], r->sy[i]);
         r->inverse[i] = 1 / r->length[i];
@@ -71,7 +71,7 @@ bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, doub
 /* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error
  * of a height. (To ask for the sign alone would not do: outside a sharp corner a point is far away, and over either
  * side by next to nothing.) Whoever is inside and so near to a side's line is as near to a side's foot, and found. */
-double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y)
+double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y)
 {
     double least = -1;
     for (uint32_t i = 0; i < r->n; i++) {
@@ -96,14 +96,14 @@ double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_pie
 }
 
 /* How far the point stands out over side i. */
-static double height_over(const sunder_i_gap_piece *r, uint32_t i, double x, double y)
+static double height_over(const sunder_i_gap_subsum *r, uint32_t i, double x, double y)
 {
     return (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
 }
 
 /* How far the point stands out over the side that it is farthest outside of, good to `error`: nothing is nearer than
  * that, and if it is negative the point is inside. */
-static double out_by(const sunder_i_gap_piece *r, double x, double y)
+static double out_by(const sunder_i_gap_subsum *r, double x, double y)
 {
     double most = -INFINITY;
     for (uint32_t i = 0; i < r->n; i++) {
@@ -118,7 +118,7 @@ static double out_by(const sunder_i_gap_piece *r, double x, double y)
 /* How far the point is at least on the left (turn 1) or the right (-1) of the diagonal from the lowest corner to corner
  * i, but for the error of a height. A diagonal is a difference of rounded corners, off by 2 * 8 u M a coordinate, 23 u
  * M in all, and that turns the height by as much times |v| / |d|: `error` has 128 u S. */
-static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, uint32_t i, double x, double y,
+static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, uint32_t i, double x, double y,
                               int turn)
 {
     const double dx = r->cx[i] - r->cx[0], dy = r->cy[i] - r->cy[0], vx = x - r->cx[0], vy = y - r->cy[0];
@@ -127,7 +127,7 @@ static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_pi
 
 /* By one triangle of the fan: whoever is deep in it is as deep in the piece, and whoever stands far out over one side
  * is as far from it. */
-static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y,
+static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y,
                                        double deep, double far, uint32_t *side)
 {
     const sunder_i_fan fan = sunder_i_fan_at(r->n, r->cx, r->cy, x, y);
@@ -138,7 +138,7 @@ static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder
 }
 
 /* Is side i nearer than that for certain, its ends included? Then so is the piece. */
-static bool side_is_near(const sunder_i_gap_piece *r, uint32_t i, double x, double y, double least)
+static bool side_is_near(const sunder_i_gap_subsum *r, uint32_t i, double x, double y, double least)
 {
     const double vx = x - r->cx[i], vy = y - r->cy[i], along = (r->sx[i] * vx + r->sy[i] * vy) * r->inverse[i];
     const double height = height_over(r, i, x, y), past = fmax(0, fmax(-along, along - r->length[i]));
@@ -148,7 +148,7 @@ static bool side_is_near(const sunder_i_gap_piece *r, uint32_t i, double x, doub
 bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack)
 {
     if (!sunder_i_gap_near_box(s, k, x, y, s->gap)) return false;
-    const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+    const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
     if (!r || r->vague) return false;
     const double doubt = s->margin + slack;
     if (r->n >= SUNDER_I_SIDES_MANY) {
@@ -166,7 +166,7 @@ bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, do
 const uint32_t *sunder_i_gap_near(const sunder_i_gap_state *s, double x, double y, size_t *n)
 {
     *n = s->g->subsums;
-    return s->p->places ? sunder_i_gap_places_near(s->p->places, x, y, n) : NULL;
+    return s->p->quadtree ? sunder_i_gap_quadtree_near(s->p->quadtree, x, y, n) : NULL;
 }
 
 long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long but)
@@ -198,7 +198,7 @@ long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack)
     return -1;
 }
 
-static bool is_deep(const sunder_i_gap_state *s, const sunder_i_gap_piece *r, double x, double y, double deep)
+static bool is_deep(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y, double deep)
 {
     uint32_t side;
     const sunder_i_fan_answer where =
@@ -214,7 +214,7 @@ bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y)
     for (size_t i = 0; i < n; i++) {
         const size_t k = sunder_i_gap_nth(s, near, i);
         if (!sunder_i_gap_near_box(s, k, x, y, 0)) continue;
-        const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+        const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
         if (!r) return false;
         if (r->vague || !is_deep(s, r, x, y, s->margin)) continue;
         s->hint = k;

@@ -22,16 +22,16 @@ typedef struct sunder_i_surd_point {
 } sunder_i_surd_point;
 
 /* Which of the subsums listed matter where: a quartering of the square of translations up to `reach`. */
-typedef struct sunder_i_gap_square {
+typedef struct sunder_i_gap_node {
     uint32_t child;    /* its quarters are from here on; 0: it has none */
     uint32_t from, to; /* its subsums in the list */
-} sunder_i_gap_square;
+} sunder_i_gap_node;
 
-typedef struct sunder_i_gap_places {
+typedef struct sunder_i_gap_quadtree {
     double reach;
-    sunder_i_gap_square *place; /* the first is all */
-    uint32_t *list;             /* numbers of subsums */
-} sunder_i_gap_places;
+    sunder_i_gap_node *node; /* the first is the root */
+    uint32_t *list;          /* numbers of subsums */
+} sunder_i_gap_quadtree;
 
 typedef struct sunder_i_gap_problem {
     sunder_i_operands *operands;
@@ -43,16 +43,16 @@ typedef struct sunder_i_gap_problem {
     size_t segments;
     const sunder_i_point *center; /* corners that arcs may go round */
     size_t centers;
-    const sunder_i_gap_places *places; /* NULL: all subsums matter everywhere */
+    const sunder_i_gap_quadtree *quadtree; /* NULL: all subsums matter everywhere */
 } sunder_i_gap_problem;
 
 /* Many pairs of pieces: the operands' subsums become those that matter within the limit, which comes down, the segments
- * those near boundary, and the places say which subsums are near which; not *done: this is not the way to search these.
- * False if memory is out. The places are to be freed in any case. */
-bool sunder_i_gap_take_squares(sunder_i_gap_problem *problem, sunder_i_gap_places *places, bool *done);
-void sunder_i_gap_places_free(sunder_i_gap_places *places);
+ * those near boundary, and the quadtree says which subsums are near where; not *done: this is not the way to search
+ * these. False if memory is out. The quadtree is to be freed in any case. */
+bool sunder_i_gap_by_squares(sunder_i_gap_problem *problem, sunder_i_gap_quadtree *quadtree, bool *done);
+void sunder_i_gap_quadtree_free(sunder_i_gap_quadtree *quadtree);
 /* The numbers of all subsums that, grown, come near a point, or of one that covers it for certain. */
-const uint32_t *sunder_i_gap_places_near(const sunder_i_gap_places *places, double x, double y, size_t *n);
+const uint32_t *sunder_i_gap_quadtree_near(const sunder_i_gap_quadtree *quadtree, double x, double y, size_t *n);
 
 typedef struct sunder_i_gap_answer {
     bool found;             /* a free point within the limit */

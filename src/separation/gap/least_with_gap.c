@@ -78,7 +78,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
 static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
 {
     sunder_i_candidates heap;
-    if (!p->places) {
+    if (!p->quadtree) {
         if (!sunder_i_candidates_find(p->operands, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
         p->segment = heap.item;
         p->segments = heap.n;
@@ -99,7 +99,7 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
                           sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
-    const sunder_i_vector_exact v = {.big = sunder_i_surd_point_of(&a->at)};
+    const sunder_i_exact_translation v = {.big = sunder_i_surd_point_of(&a->at)};
     sunder_i_answer_numbers(g, &v, out);
     const double bound = a->bound * g->unit * (1 - 0x1p-50);
     if (bound < out->lower_bound) out->lower_bound = bound;
@@ -118,12 +118,12 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
 #define SQUARES_FROM 4096
 
 /* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
-static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_places *places)
+static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtree)
 {
     sunder_i_operands *g = p->operands;
     const sunder_i_operands whole = *g;
     bool done;
-    if (!sunder_i_operands_cut(g) || !sunder_i_gap_take_squares(p, places, &done)) return false;
+    if (!sunder_i_operands_cut(g) || !sunder_i_gap_by_squares(p, quadtree, &done)) return false;
     if (!done) sunder_i_operands_uncut(g, &whole);
     return true;
 }
@@ -135,15 +135,15 @@ static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options
     return o->force_squares || sunder_i_squares_worth(g, SQUARES_FROM);
 }
 
-static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_places *places,
+static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_quadtree *quadtree,
                            sunder_separation *out, bool *beyond, sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
-    if (are_many(p, o) && !take_squares(p, places)) return sunder_i_no_memory(err);
-    if (!p->places && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    if (are_many(p, o) && !take_squares(p, quadtree)) return sunder_i_no_memory(err);
+    if (!p->quadtree && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
     bool memory = true;
     if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
     if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
@@ -173,7 +173,7 @@ static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem,
     if (status) return status;
     sunder_i_lattice *l = &g->placed.lattice;
     *problem = (sunder_i_gap_problem){.operands = g, .over = sunder_i_big_i64(&l->arena, 1)};
-    const sunder_i_rational_point gap = sunder_i_vector_doubles(g, o->gap, 0);
+    const sunder_i_rational_point gap = sunder_i_doubles_point(g, o->gap, 0);
     problem->gap = gap.x;
     problem->gap_bits = sunder_i_big_bits(gap.w) - (l->arena.failed ? 0 : 1);
     problem->gap_units = sunder_i_big_ratio(&l->arena, gap.x, gap.w, -l->approx_shift);
@@ -193,9 +193,9 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
         if (status) return status;
     }
     sunder_i_operands_admit(&g, problem.gap_units);
-    sunder_i_gap_places places = {.place = NULL};
-    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &places, out, beyond, err);
-    sunder_i_gap_places_free(&places);
+    sunder_i_gap_quadtree quadtree = {.node = NULL};
+    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, o, &quadtree, out, beyond, err);
+    sunder_i_gap_quadtree_free(&quadtree);
     out->counts = g.placed.lattice.counts;
     sunder_i_operands_free(&g);
     return status;

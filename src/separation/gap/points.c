@@ -60,7 +60,7 @@ static bool is_curve(sunder_i_gap_state *s, const sunder_i_gap_curve *c, const s
 
 /* sunder_i_gap_cmp_side() for a point that is outside for certain. Doubles know whether the corner or the side is
  * nearest, if neither is by less than the doubt, and then a curve that the point is on need not be asked. */
-static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const sunder_i_gap_piece *r, uint32_t k,
+static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const sunder_i_gap_subsum *r, uint32_t k,
                         const question *q, bool *flat)
 {
     const double vx = q->x - r->cx[k], vy = q->y - r->cy[k], along = (r->sx[k] * vx + r->sy[k] * vy) / r->length[k];
@@ -86,7 +86,7 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
 static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t *k, bool *flat)
 {
     const sunder_i_subsum *m = s->g->subsum + of;
-    const sunder_i_gap_piece *r = sunder_i_gap_load(s, of);
+    const sunder_i_gap_subsum *r = sunder_i_gap_load(s, of);
     if (!r) return -1;
     if (r->vague) return sunder_i_gap_cmp(s->p, m, q->at, k, flat);
     const double reach = s->gap + q->doubt, distance = sunder_i_gap_distance(s, r, q->x, q->y);
@@ -122,7 +122,7 @@ static long too_near(sunder_i_gap_state *s, const question *q, sunder_i_gap_cont
         if (s->failed) break;
         if (order < 0) return (long)of;
         if (order > 0 || !contact) continue;
-        const sunder_i_gap_piece *r = s->pieces + of;
+        const sunder_i_gap_subsum *r = s->pieces + of;
         const double nx = flat ? r->sy[k] : q->x - r->cx[k], ny = flat ? -r->sx[k] : q->y - r->cy[k];
         const double f = sunder_i_gap_length(nx, ny);
         contact[(*contacts)++] = (sunder_i_gap_contact){nx / f, ny / f, flat, k, of};

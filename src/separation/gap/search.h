@@ -27,12 +27,12 @@
 #define SUNDER_I_GAP_TINY 0x1p-480
 
 /* A subsum as the search wants it. */
-typedef struct sunder_i_gap_piece {
+typedef struct sunder_i_gap_subsum {
     uint32_t n; /* 0: not loaded */
     bool vague; /* a side is lost below the range of doubles: nothing is concluded */
     const double *cx, *cy, *sx, *sy;
     double *length, *inverse; /* 1 / length */
-} sunder_i_gap_piece;
+} sunder_i_gap_subsum;
 
 typedef struct sunder_i_gap_item {
     double key;
@@ -75,7 +75,7 @@ typedef struct sunder_i_gap_state {
     sunder_i_operands *g;
     double gap, error, margin;
     double best; /* nothing farther counts: the limit, or the length of the best answer and its error */
-    sunder_i_gap_piece *pieces;
+    sunder_i_gap_subsum *pieces;
     sunder_i_gap_item *heap;
     size_t heap_n, heap_capacity;
     sunder_i_gap_point *points;
@@ -107,11 +107,11 @@ static inline size_t sunder_i_gap_nth(const sunder_i_gap_state *s, const uint32_
 }
 
 /* NULL if memory is out. */
-const sunder_i_gap_piece *sunder_i_gap_load(sunder_i_gap_state *s, size_t k);
+const sunder_i_gap_subsum *sunder_i_gap_load(sunder_i_gap_state *s, size_t k);
 /* May the point be within `reach` of subsum k at all? */
 bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, double y, double reach);
 /* Distance from a piece, 0 inside, within 200 u S. */
-double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_piece *piece, double x, double y);
+double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *piece, double x, double y);
 /* Does grown subsum k cover all that is within `slack` of the computed point, for certain? */
 bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack);
 /* A grown subsum that covers the point for certain; -1 if none is known to. */

@@ -39,7 +39,7 @@ typedef struct way_out {
 } way_out;
 
 /* Over the disc about corner i, which has its middle at t: half the chord from the distance of the line. */
-static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, uint32_t i,
+static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i,
                          double middle, bool forwards, way_out *w)
 {
     const double vx = m->ax - r->cx[i], vy = m->ay - r->cy[i];
@@ -52,7 +52,7 @@ static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sund
 }
 
 /* Over moved side i: n (x - corner) = gap with n = (sy, -sx) / length. */
-static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, uint32_t i,
+static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i,
                        bool forwards, way_out *w)
 {
     const double slope = r->sy[i] * m->dx - r->sx[i] * m->dy;
@@ -67,7 +67,7 @@ static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder
 }
 
 /* Where the disc about corner i leans on side k, an end of it: how far to the left of the line, times |d|. */
-static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, uint32_t i, uint32_t k)
+static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i, uint32_t k)
 {
     const double x = r->cx[i] + s->gap * r->sy[k] * r->inverse[k], y = r->cy[i] - s->gap * r->sx[k] * r->inverse[k];
     return m->dx * (y - m->ay) - m->dy * (x - m->ax);
@@ -76,7 +76,7 @@ static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_g
 /* Counter-clockwise round what is grown the boundary is on the line's right, then on its left, and that is where it
  * leaves: between the corners farthest to either side the moved side is sought that ends on the left first. It is left
  * over that one, or over the disc before it. Backwards it is the other way round. */
-static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sunder_i_gap_piece *r, size_t k,
+static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, size_t k,
                                 bool forwards)
 {
     const sunder_i_subsum *sum = s->g->subsum + k;
@@ -106,7 +106,7 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
 static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
 {
     way_out w = {.any = false};
-    const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+    const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
     if (!r) return w;
     if (r->n >= SUNDER_I_SIDES_MANY && !r->vague) w = leave_by_halving(s, m, r, k, forwards);
     if (w.any) return w;
@@ -159,7 +159,7 @@ static bool leaves_over(sunder_i_gap_state *s, sunder_i_gap_point *p, size_t k)
 void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, size_t k, bool forwards)
 {
     const moved m = moved_side(s, from->segment);
-    const sunder_i_gap_piece *r = sunder_i_gap_load(s, k);
+    const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
     if (!r) return;
     const way_out guess = leave(s, &m, k, forwards);
     sunder_i_gap_point p = {.crossing = false};

@@ -261,7 +261,7 @@ sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *g, sunder_i_
 
 sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *g, double dx, double dy)
 {
-    return sunder_i_surd_point_rational(g, sunder_i_vector_doubles(g, dx, dy));
+    return sunder_i_surd_point_rational(g, sunder_i_doubles_point(g, dx, dy));
 }
 
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *s) { return s->roots.n == 0; }

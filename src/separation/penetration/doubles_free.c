@@ -52,7 +52,7 @@ static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
             return d;
         }
     }
-    d.big = sunder_i_vector_doubles(g, dx, dy);
+    d.big = sunder_i_doubles_point(g, dx, dy);
     sunder_i_rational_doubles(&l->arena, d.big, -l->approx_shift, &d.ax, &d.ay);
     return d;
 }

@@ -11,7 +11,7 @@ static sunder_status answer_without_gap(sunder_i_operands *g, const sunder_i_fre
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_hpoint point = sunder_i_hpoint_at(l, f->line.a, f->line.b, &f->t);
-    const sunder_i_vector_exact v = sunder_i_vector_of(g, &point);
+    const sunder_i_exact_translation v = sunder_i_exact_translation_of(g, &point);
     out->overlap = out->attained = true;
     out->contact = sunder_i_free_point_contact(g, f);
     sunder_i_answer_numbers(g, &v, out);

@@ -205,16 +205,16 @@ void sunder_i_bodies_free(sunder_i_bodies *b)
 
 /* ---- Depths ---- */
 
-sunder_i_query sunder_i_bodies_query(const sunder_i_operands *g, const double at[4])
+sunder_i_square_query sunder_i_bodies_query(const sunder_i_operands *g, const double at[4])
 {
     const double scale = sunder_i_float_scale(g);
-    return (sunder_i_query){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
-                            (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
+    return (sunder_i_square_query){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
+                                   (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
 }
 
 /* The sides of one body, each at the corner of the other that is farthest out. Four at a time, without branches. */
 static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunder_i_bodies *o, uint32_t j,
-                               const sunder_i_query *query, sunder_i_floats *in, sunder_i_floats *touch)
+                               const sunder_i_square_query *query, sunder_i_floats *in, sunder_i_floats *touch)
 {
     const sunder_i_body_block *from = o->block + (j ? o->end[j - 1] : 0), *to = o->block + o->end[j];
     for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++) {
@@ -244,7 +244,7 @@ static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
 }
 
 sunder_i_square_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j,
-                                            const sunder_i_query *query)
+                                            const sunder_i_square_query *query)
 {
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
     below_sides(b, i, b + 1, j, query, &in, &touch);

@@ -42,11 +42,11 @@ void sunder_i_bodies_free(sunder_i_bodies *bodies);
 
 /* A square as bodies see it: its middle, and half its widths; these may be negative, and then it is asked how deep the
  * middle is in a sum that is widened by a square so large. */
-typedef struct sunder_i_query {
+typedef struct sunder_i_square_query {
     float x, y, hx, hy;
-} sunder_i_query;
+} sunder_i_square_query;
 
-sunder_i_query sunder_i_bodies_query(const sunder_i_operands *operands, const double square[4]);
+sunder_i_square_query sunder_i_bodies_query(const sunder_i_operands *operands, const double square[4]);
 
 /* How a square lies to the sum of body i of P and body j of -Q: its least height below one of the sum's sides, of its
  * farthest point (`in`: it is held if that is positive) and of its nearest (`touch`: they are apart if that is negative
@@ -61,6 +61,6 @@ typedef struct sunder_i_square_depth {
 #define SUNDER_I_BODIES_ERROR 0x1p-17f
 
 sunder_i_square_depth sunder_i_bodies_depth(const sunder_i_bodies bodies[2], uint32_t i, uint32_t j,
-                                            const sunder_i_query *query);
+                                            const sunder_i_square_query *query);
 
 #endif

@@ -34,7 +34,7 @@ struct sunder_i_squares {
     double gap; /* subsums are grown by a disc of this radius; 0: they are not */
     /* of the square at hand */
     sunder_i_dop dop;
-    sunder_i_query query;
+    sunder_i_square_query query;
     const double *at;    /* its box, less what any sum grows by */
     uint32_t holder[2];  /* the bodies whose sum holds it, if it is held by one */
     uint32_t (*pair)[2]; /* pieces of P and of Q whose subsums come near it */
