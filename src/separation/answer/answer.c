@@ -48,7 +48,8 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
 }
 
 /* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
- * most half an ulp of the format (2^-64 relative), four steps in all. */
+ * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
+ * all roots go the slow way. */
 static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *nearest, double *down)
 {
     if (LDBL_MANT_DIG < 64 || exponent < -400 || exponent > 400) return false;
