@@ -15,10 +15,11 @@
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
 
-#define SUNDER_I_OPTIMAL_MOST 500 /* vertices of a member that OPTIMAL and MIXED solve; else Hertel-Mehlhorn */
+/* Vertices of a member that OPTIMAL and MIXED solve, in time of order r n n; others fall back on Hertel and Mehlhorn. */
+#define SUNDER_I_OPTIMAL_MOST 500
 
-/* A point on the lattice that the shape was placed on, in lowest terms (w is 1 for vertices
- * of the shape that are no crossings, and for points that happen to be lattice points). */
+/* A point on the lattice that the shape was placed on, in lowest terms (w is 1 for vertices of the shape that are no
+ * crossings, and for points that happen to be lattice points). */
 typedef struct sunder_i_corner {
     sunder_i_rational_point at;
     uint32_t vertex; /* of the shape; UINT32_MAX: a Steiner point */

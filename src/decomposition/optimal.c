@@ -14,9 +14,9 @@
  * in the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is
  * kept of it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's
  * first link matters too, since the angle at i from there to j must not exceed pi: later first links are better, and
- * what is kept are the chains that no other beats in both (a front). Where each
- * diagonal weighs one, a chain to u that is not lighter than the link (i, u) itself is beaten by that, so fronts are
- * short. With other weights fronts are cut off at FRONT_MOST, and the result may not quite be the least.
+ * what is kept are the chains that no other beats in both (a front). Where each diagonal weighs one, a chain to u that
+ * is not lighter than the link (i, u) itself is beaten by that, so fronts are short. With other weights fronts are cut
+ * off at FRONT_MOST, and the result may not quite be the least.
  *
  * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
  *

@@ -240,9 +240,9 @@ static uint32_t find_holder(grid *g, sunder_i_point a, sunder_i_point b, uint32_
     return NONE;
 }
 
-/* Looks are saved where sides are dropped; where sides are held by several
- * parts together, not by one, that is noticed soon, and the rest is left to the cells. The smallest parts come
- * first: of features one within the other only the last, which nothing holds, is looked for in vain. */
+/* Looks are saved where sides are dropped; where sides are held by several parts together, not by one, that is noticed
+ * soon, and the rest is left to the cells. The smallest parts come first: of features one within the other only the
+ * last, which nothing holds, is looked for in vain. */
 static void drop(sunder_i_convex_pieces *s, grid *g)
 {
     g->allowed = SIDES_ON_TRUST * LOOKS + LOOKS_ON_TRUST * (size_t)s->n;
