@@ -3,7 +3,7 @@
 #define SUNDER_I_CONVOLUTION_INNER_H
 
 #include "minkowski/convolution.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 
 /* Closed polylines, one for each ring of P, that follow each other in corner[]. They are made of chains: moved sides,
  * arcs of v + Q at convex vertices, chords at reflex ones. */

@@ -8,7 +8,7 @@
 #include "base/sort.h"
 #include "base/watch.h"
 #include "outline/tuning.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 
 #include <math.h>
 

@@ -9,7 +9,7 @@
 #include "base/invariant.h"
 #include "base/sort.h"
 #include "base/watch.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "outline/lines.h"
 
 #include "base/watch.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
 #include <string.h>

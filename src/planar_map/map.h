@@ -1,6 +1,6 @@
 /* The inside of a planar map: what its files hand each other.
  *
- * numbers.c     sites, lines, and the three questions about them
+ * sites.c       sites, lines, and the three questions about them
  * map.c         making, freeing, growing, looking
  * history.c     from a point to its trapezoid
  * trapezoids.c  the vertical decomposition: walls put up at a vertex, a segment drawn in
@@ -119,7 +119,7 @@ struct sunder_i_planar_map {
     size_t *inner_end, *isolated_end; /* by face */
 };
 
-/* ---- numbers.c ---- */
+/* ---- sites.c ---- */
 
 int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q);
 /* Lexicographic order. Rounding to nearest is monotone, so unequal doubles decide; equal ones decide nothing. */

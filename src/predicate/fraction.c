@@ -1,7 +1,7 @@
 /* Crossings along a line. Numerator and denominator have degree 2 (below 2^124 on a narrow lattice, 2^126 of plain
  * points elsewhere); comparing two fractions has degree 4 (256 bits). A fraction with handles among the points that it
  * is made of is a ratio of the pool: den is 0 and num its handle. */
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 
 #include <math.h>
 

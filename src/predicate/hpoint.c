@@ -1,6 +1,6 @@
 /* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
  * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 
 #include <assert.h>
 #include <float.h>

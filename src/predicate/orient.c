@@ -4,7 +4,7 @@
  * 2^62, so products of two stay below 2^124 and their differences below 2^125. Where a handle is among them, doubles
  * are believed as far as the bounds derived below reach; then big integers decide, over the operands' own
  * denominators. */
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
 #include <math.h>

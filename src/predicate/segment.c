@@ -1,5 +1,5 @@
 /* Two segments: how they meet, and how far apart they are. */
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
 /* Is c, known to lie on the line ab (or a == b), on the closed segment ab? */

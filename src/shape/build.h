@@ -1,13 +1,13 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
- * clean.c      one raw ring -> its corners
- * edge_tree.c   candidate pairs of edges, and edges above a point, without looking at all of them
- * contact.c    where rings cross (an error) or touch
- * simple.c     that nothing meets, by a sweep, where boxes do not tell edges apart
- * nesting.c    orientation; holes inside outer rings, and not inside each other
- * repair.c     the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
- * pieces.c     holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge.c)
- * finish.c     everything into one block of memory */
+ * clean.c          one raw ring -> its corners
+ * edge_tree.c      candidate pairs of edges, and edges above a point, without looking at all of them
+ * intersections.c  where rings cross (an error) or touch
+ * simple.c         that nothing meets, by a sweep, where boxes do not tell edges apart
+ * nesting.c        orientation; holes inside outer rings, and not inside each other
+ * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
+ * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge.c)
+ * finish.c         everything into one block of memory */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
 
@@ -120,12 +120,13 @@ void sunder_i_edge_tree_query(const sunder_i_edge_tree *tree, const double box[4
 /* Fewer edges than this are looked at one by one; from here on a tree pays. */
 #define SUNDER_I_TREE_FROM 40
 
-/* ---- contact.c, simple.c, nesting.c ---- */
+/* ---- intersections.c, simple.c, nesting.c ---- */
 
 /* Do the rings ring_lo .. ring_hi (one polygon) cross or share a piece of edge? *touches: some meet in points, and so
  * may need the arrangement to be told apart. tree may be NULL for few edges. */
-void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
-                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches);
+void sunder_i_intersections_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
+                                 const sunder_i_edge_tree *tree, sunder_i_arena *arena, sunder_i_problem *problem,
+                                 bool *touches);
 /* Is it certain that they meet nowhere but in the corners of consecutive edges? (On cleaned rings: exactly if so.) The
  * arena is for scratch; false too if it failed. */
 bool sunder_i_rings_simple(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena);

@@ -141,7 +141,7 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
     sunder_i_edge_tree *const use = n >= SUNDER_I_TREE_FROM ? &tree : NULL;
     if (use) sunder_i_edge_tree_build(use, r, ring_lo, r->rings, arena);
     if (arena->failed) return;
-    sunder_i_contact_find(r, ring_lo, r->rings, use, arena, problem, touches);
+    sunder_i_intersections_find(r, ring_lo, r->rings, use, arena, problem, touches);
     if (!problem->fault) sunder_i_orient_rings(r, ring_lo, r->rings);
     if (!problem->fault && r->rings - ring_lo > 1) {
         if (use) sunder_i_edge_tree_build(use, r, ring_lo, r->rings, arena);

@@ -1,5 +1,5 @@
 /* Area and anchor of a shape with corners that are no doubles. */
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
 

@@ -74,14 +74,14 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
 }
 
 /* The first of a node's children on the level below, and the end of them. */
-static size_t children(const sunder_i_index *tree, unsigned level, size_t node, size_t *end)
+static size_t children(const sunder_i_rtree *tree, unsigned level, size_t node, size_t *end)
 {
     const size_t first = tree->level[level - 1] + (node - tree->level[level]) * FANOUT;
     *end = first + FANOUT < tree->level[level] ? first + FANOUT : tree->level[level];
     return first;
 }
 
-static void hull_of_children(const sunder_i_index *tree, unsigned level, size_t node, double box[4])
+static void hull_of_children(const sunder_i_rtree *tree, unsigned level, size_t node, double box[4])
 {
     size_t end;
     sunder_i_box_clear(box);
@@ -90,13 +90,13 @@ static void hull_of_children(const sunder_i_index *tree, unsigned level, size_t 
 
 static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
 
-sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
+sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_t n, sunder_i_rtree *out,
                                    sunder_error *err)
 {
     place *places = NULL;
     size_t leaves = 0;
     if (sort_places(box, present, n, &places, &leaves)) return sunder_i_no_memory(err);
-    sunder_i_index tree;
+    sunder_i_rtree tree;
     memset(&tree, 0, sizeof tree);
     tree.leaves = leaves;
     size_t nodes = leaves, width = leaves;
@@ -112,7 +112,7 @@ sunder_status sunder_i_index_build(const double *box, const bool *present, size_
     tree.leaf = sunder_i_alloc(n, sizeof *tree.leaf);
     if (!tree.box || !tree.item || !tree.leaf) {
         sunder_i_free(places);
-        sunder_i_index_free(&tree);
+        sunder_i_rtree_free(&tree);
         return sunder_i_no_memory(err);
     }
     for (size_t i = 0; i < leaves; i++) {
@@ -131,7 +131,7 @@ sunder_status sunder_i_index_build(const double *box, const bool *present, size_
     return SUNDER_OK;
 }
 
-void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4])
+void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4])
 {
     size_t node = tree->leaf[item];
     memcpy(tree->box + 4 * node, box, 4 * sizeof *box);
@@ -145,9 +145,9 @@ void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4
     }
 }
 
-bool sunder_i_index_is_worn(const sunder_i_index *tree) { return !(tree->sprawl <= 1.5 * tree->packed); }
+bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl <= 1.5 * tree->packed); }
 
-void sunder_i_index_free(sunder_i_index *tree)
+void sunder_i_rtree_free(sunder_i_rtree *tree)
 {
     sunder_i_free(tree->box);
     sunder_i_free(tree->item);
@@ -155,7 +155,7 @@ void sunder_i_index_free(sunder_i_index *tree)
     memset(tree, 0, sizeof *tree);
 }
 
-bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits)
+bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
     /* At most 15 siblings wait on each of at most 16 levels. */

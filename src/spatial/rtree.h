@@ -7,7 +7,7 @@
 #include "spatial/box.h"
 
 /* A packed R-tree over boxes; it serves as well when some of them move. */
-typedef struct sunder_i_index {
+typedef struct sunder_i_rtree {
     double *box;      /* [4 * nodes] xmin ymin xmax ymax; the leaves first, in Hilbert order, the root last */
     uint32_t *item;   /* [leaves] what each leaf holds */
     uint32_t *leaf;   /* [items] where each is; of no meaning for those that were not present */
@@ -15,18 +15,18 @@ typedef struct sunder_i_index {
     unsigned levels;
     size_t leaves;
     double sprawl, packed; /* sum of width and height of all nodes that are no leaves: now, and when it was built */
-} sunder_i_index;
+} sunder_i_rtree;
 
 /* Boxes of the items for which present[i] (NULL: all). */
-sunder_status sunder_i_index_build(const double *box, const bool *present, size_t n, sunder_i_index *out,
+sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_t n, sunder_i_rtree *out,
                                    sunder_error *err);
-void sunder_i_index_free(sunder_i_index *tree);
+void sunder_i_rtree_free(sunder_i_rtree *tree);
 /* A present item has another box from now on. */
-void sunder_i_index_move(sunder_i_index *tree, uint32_t item, const double box[4]);
+void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4]);
 /* Have so many moved so far that it should be built again? */
-bool sunder_i_index_is_worn(const sunder_i_index *tree);
+bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree);
 
 /* Appends every item whose box meets the closed query box, in the tree's order. False if memory is out. */
-bool sunder_i_index_query(const sunder_i_index *tree, const double box[4], sunder_i_list *hits);
+bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits);
 
 #endif

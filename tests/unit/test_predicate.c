@@ -2,7 +2,7 @@
  * and on the largest narrow coordinates, so that all signs, ties and coincidences come up. */
 #include "failing.h"
 #include "gmp_numbers.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "predicate/predicate.h"
 
 #include <math.h>

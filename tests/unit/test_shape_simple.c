@@ -84,7 +84,7 @@ static void test_against_all_pairs(void **state)
         if (!link_clean(&f)) continue;
         sunder_i_problem problem = {SUNDER_I_SOUND, 0, SUNDER_I_NONE};
         bool touches;
-        sunder_i_contact_find(&f.r, 0, f.r.rings, NULL, &f.arena, &problem, &touches);
+        sunder_i_intersections_find(&f.r, 0, f.r.rings, NULL, &f.arena, &problem, &touches);
         const bool expected = !problem.fault && !touches;
         if (sunder_i_rings_simple(&f.r, 0, f.r.rings, &f.arena) != expected) {
             print_message("case %zu: %s\n", i, expected ? "simple" : "not simple");

@@ -167,7 +167,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     if (p->fixed || p->pinned || p->pieces == 0) return true;
     sunder_i_body_box(p, t, reach, box);
     near->n = 0;
-    if (!sunder_i_index_query(model->standing, box, near)) return false;
+    if (!sunder_i_rtree_query(model->standing, box, near)) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t other = model->body_of[near->item[k]];
         if (!alone[other] || other == b) continue;

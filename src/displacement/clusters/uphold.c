@@ -217,7 +217,7 @@ static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error 
         if (!model->present[f]) continue;
         sunder_i_box_grow(t->solver->placement.box + 4 * (size_t)f, model->rules.gap, box);
         t->near.n = 0;
-        if (!sunder_i_index_query(&t->solver->placement.tree, box, &t->near)) return sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query(&t->solver->placement.tree, box, &t->near)) return sunder_i_no_memory(err);
         for (size_t k = 0; k < t->near.n; k++) {
             const uint32_t other = model->body_of[t->near.item[k]];
             if (t->taken[other] || !can_move(t->solver, other) || !is_alike(t, b, other, hair)) continue;

@@ -26,7 +26,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->given_up);
     sunder_i_free(model->move);
     sunder_i_free(model->inexact);
-    sunder_i_index_free(&model->tree);
+    sunder_i_rtree_free(&model->tree);
     memset(model, 0, sizeof *model);
 }
 
@@ -52,7 +52,7 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_rule
         model->present[f] = sunder_i_is_present(&layer->feature[f]);
         if (model->present[f]) sunder_shape_box(layer->feature[f].shape, model->box + 4 * f);
     }
-    return sunder_i_index_build(model->box, model->present, n, &model->tree, err);
+    return sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
 }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */

@@ -54,8 +54,8 @@ struct sunder_i_model {
         *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
     double *box;   /* [4 * features] as they stood at the start */
     bool *present; /* [features] */
-    sunder_i_index tree;            /* as they stood at the start */
-    const sunder_i_index *standing; /* as they stand now: the placement's; lent */
+    sunder_i_rtree tree;            /* as they stood at the start */
+    const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     size_t walls;
     sunder_i_inclusion *inclusion; /* pairs that may overlap, because one lies in the other; sorted */

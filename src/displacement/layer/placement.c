@@ -23,7 +23,7 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
         return sunder_i_no_memory(err);
     memcpy(placement->box, model->box, 4 * n * sizeof *placement->box);
     for (size_t f = 0; f < n; f++) placement->translate[f].shape = model->layer->feature[f].shape;
-    return sunder_i_index_build(placement->box, model->present, n, &placement->tree, err);
+    return sunder_i_rtree_build(placement->box, model->present, n, &placement->tree, err);
 }
 
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
@@ -33,7 +33,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     sunder_i_free(placement->was_rounded);
     sunder_i_free(placement->translate);
     sunder_i_free(placement->box);
-    sunder_i_index_free(&placement->tree);
+    sunder_i_rtree_free(&placement->tree);
     memset(placement, 0, sizeof *placement);
 }
 
@@ -73,11 +73,11 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
         if (!changed[f] || !model->present[f]) continue;
         const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_index_move(&placement->tree, (uint32_t)f, placement->box + 4 * f);
+        sunder_i_rtree_move(&placement->tree, (uint32_t)f, placement->box + 4 * f);
     }
-    if (!sunder_i_index_is_worn(&placement->tree)) return SUNDER_OK;
-    sunder_i_index_free(&placement->tree);
-    return sunder_i_index_build(placement->box, model->present, model->features, &placement->tree, err);
+    if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
+    sunder_i_rtree_free(&placement->tree);
+    return sunder_i_rtree_build(placement->box, model->present, model->features, &placement->tree, err);
 }
 
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
@@ -89,7 +89,7 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
         if (!model->present[f]) continue;
         const sunder_status status = stand_feature(model, placement, f, err);
         if (status) return status;
-        sunder_i_index_move(&placement->tree, f, placement->box + 4 * (size_t)f);
+        sunder_i_rtree_move(&placement->tree, f, placement->box + 4 * (size_t)f);
     }
     return SUNDER_OK;
 }
@@ -116,7 +116,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         else
             memcpy(box, s->placement->box + 4 * (size_t)f, sizeof box);
         sunder_i_list *list = &s->found[a];
-        if (!sunder_i_index_query(&s->placement->tree, box, list)) return sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query(&s->placement->tree, box, list)) return sunder_i_no_memory(err);
         size_t kept = 0;
         for (size_t k = 0; k < list->n; k++) {
             const uint32_t g = list->item[k];
@@ -175,7 +175,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
         if (!model->present[f]) continue;
         sunder_i_box_grow(placement->box + 4 * (size_t)f, reach, box);
         near->n = 0;
-        if (!sunder_i_index_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
         if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
         for (size_t k = 0; k < near->n && on && !status; k++) {
             const uint32_t g = near->item[k];

@@ -10,7 +10,7 @@ typedef struct sunder_i_placement {
     sunder_shape **rounded;        /* [features] owned shapes of those whose translate was rounded; else NULL */
     bool *was_rounded;             /* [features] at any time */
     double *box;                   /* [4 * features] */
-    sunder_i_index tree;
+    sunder_i_rtree tree;
 } sunder_i_placement;
 
 /* The placement at the start, and after bodies moved: every feature f with changed[f] is placed anew by model->move.

@@ -97,7 +97,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;
-        if (!sunder_i_index_query(&model->tree, grown, &c->near)) return false;
+        if (!sunder_i_rtree_query(&model->tree, grown, &c->near)) return false;
     }
     for (size_t k = 0; k < c->near.n; k++) c->near.item[k] = model->body_of[c->near.item[k]];
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);

@@ -18,7 +18,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     double box[4];
     sunder_i_box_grow(own, reach, box);
     near->n = 0;
-    if (!sunder_i_index_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
+    if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t g = near->item[k], other = model->body_of[g];
         if (other == model->body_of[c->a] || other == model->body_of[c->b] || sunder_i_is_included(model, f, g))

@@ -173,7 +173,7 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
     const sunder_i_model *model = s->model;
     double where[4];
     for (int c = 0; c < 4; c++) where[c] = box[c] + p->origin[c & 1];
-    if (!sunder_i_index_query(model->standing, where, hits)) return false;
+    if (!sunder_i_rtree_query(model->standing, where, hits)) return false;
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);
     size_t out = 0;
@@ -231,7 +231,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0};
-    const sunder_i_index *tree = s->model->standing;
+    const sunder_i_rtree *tree = s->model->standing;
     const double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {

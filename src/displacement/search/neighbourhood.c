@@ -32,7 +32,7 @@ bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *v, sunder_i_search *s)
         box_at(s, i, 0, box + 4 * i);
         present[i] = s->model->body[s->body[i]].pieces > 0;
     }
-    ok = ok && !sunder_i_index_build(box, present, s->n, &v->tree, NULL);
+    ok = ok && !sunder_i_rtree_build(box, present, s->n, &v->tree, NULL);
     sunder_i_free(box);
     sunder_i_free(present);
     return ok;
@@ -40,7 +40,7 @@ bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *v, sunder_i_search *s)
 
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *v)
 {
-    sunder_i_index_free(&v->tree);
+    sunder_i_rtree_free(&v->tree);
     sunder_i_free(v->place);
     sunder_i_free(v->moves);
     sunder_i_free(v->body);
@@ -55,7 +55,7 @@ static bool look_about(sunder_i_neighbourhood *v, uint32_t i, double reach)
     double box[4];
     box_at(v->all, i, reach, box);
     v->near.n = 0;
-    if (!sunder_i_index_query(&v->tree, box, &v->near)) return false;
+    if (!sunder_i_rtree_query(&v->tree, box, &v->near)) return false;
     v->near.n = sunder_i_set_make(v->near.item, v->near.n);
     return true;
 }
@@ -161,7 +161,7 @@ static void put(sunder_i_neighbourhood *v, const double *t)
         if (!v->moves[v->place[k]]) continue;
         memcpy(v->all->t + 2 * (size_t)v->place[k], t + 2 * k, 2 * sizeof *t);
         box_at(v->all, v->place[k], 0, box);
-        if (v->all->model->body[v->body[k]].pieces) sunder_i_index_move(&v->tree, v->place[k], box);
+        if (v->all->model->body[v->body[k]].pieces) sunder_i_rtree_move(&v->tree, v->place[k], box);
     }
 }
 

@@ -6,7 +6,7 @@
 
 typedef struct sunder_i_neighbourhood {
     sunder_i_search *all;
-    sunder_i_index tree; /* the boxes of all as they stand, from the first body's origin */
+    sunder_i_rtree tree; /* the boxes of all as they stand, from the first body's origin */
     uint32_t *place;     /* [n] who is in it, by places in `all`; `moving` of them move */
     size_t n, moving;
     bool *moves; /* [all->n] */

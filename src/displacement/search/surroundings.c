@@ -33,7 +33,7 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
         const double reach = model->rules.gap + cluster->margin + MOVES_ABOUT * fmax(farthest(own + 2 * k), mean);
         double box[4];
         sunder_i_body_box(b, none, reach, box);
-        if (!sunder_i_index_query(model->standing, box, hits)) return false;
+        if (!sunder_i_rtree_query(model->standing, box, hits)) return false;
     }
     for (size_t k = 0; k < hits->n; k++) hits->item[k] = model->body_of[hits->item[k]];
     hits->n = sunder_i_set_make(hits->item, hits->n);

@@ -8,7 +8,7 @@
 #define SUNDER_I_OPERANDS_H
 
 #include "base/watch.h"
-#include "predicate/kernel.h"
+#include "predicate/narrow.h"
 #include "shape/shape.h"
 
 /* R_ij, counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */

@@ -1,8 +1,8 @@
 /* Determinants on a narrow lattice, in native integers: the inner loops of the algorithms include this to avoid a call.
  * Coordinates are below 2^60 and differences below 2^61 in magnitude, so products of two stay below 2^122 and their
  * differences below 2^123. */
-#ifndef SUNDER_I_KERNEL_H
-#define SUNDER_I_KERNEL_H
+#ifndef SUNDER_I_NARROW_H
+#define SUNDER_I_NARROW_H
 
 #include "predicate/predicate.h"
 

@@ -1,4 +1,4 @@
-/* The tree of boxes, against looking at every box: as it was built, and as boxes move. */
+/* spatial/rtree.c, against looking at every box: as it was built, and as boxes move. */
 #include "random.h"
 
 #include "spatial/rtree.h"
@@ -30,12 +30,12 @@ static void random_box(rng *r, double box[4])
     }
 }
 
-static void check_query(rng *r, const boxes *b, const sunder_i_index *tree)
+static void check_query(rng *r, const boxes *b, const sunder_i_rtree *tree)
 {
     double box[4];
     sunder_i_list hits = {0};
     random_box(r, box);
-    assert_true(sunder_i_index_query(tree, box, &hits));
+    assert_true(sunder_i_rtree_query(tree, box, &hits));
     if (hits.n) qsort(hits.item, hits.n, sizeof *hits.item, sunder_i_by_number);
     size_t at = 0;
     for (uint32_t k = 0; k < b->n; k++) {
@@ -53,22 +53,22 @@ static void test_queries_as_boxes_move(void **state)
     for (size_t i = 0; i < test_count(60); i++) {
         rng r = rng_start(test_seed(), i);
         boxes b = {.n = (size_t)rng_int(&r, 0, MOST)};
-        sunder_i_index tree;
+        sunder_i_rtree tree;
         for (size_t k = 0; k < b.n; k++) {
             random_box(&r, b.box + 4 * k);
             b.present[k] = !rng_once_in(&r, 8);
         }
-        assert_int_equal(sunder_i_index_build(b.box, b.present, b.n, &tree, NULL), SUNDER_OK);
-        assert_false(sunder_i_index_is_worn(&tree));
+        assert_int_equal(sunder_i_rtree_build(b.box, b.present, b.n, &tree, NULL), SUNDER_OK);
+        assert_false(sunder_i_rtree_is_worn(&tree));
         for (int step = 0; step < 200; step++) {
             check_query(&r, &b, &tree);
             if (b.n == 0) continue;
             const uint32_t k = (uint32_t)rng_int(&r, 0, (int64_t)b.n - 1);
             if (!b.present[k]) continue;
             random_box(&r, b.box + 4 * (size_t)k);
-            sunder_i_index_move(&tree, k, b.box + 4 * (size_t)k);
+            sunder_i_rtree_move(&tree, k, b.box + 4 * (size_t)k);
         }
-        sunder_i_index_free(&tree);
+        sunder_i_rtree_free(&tree);
     }
 }
 
@@ -78,28 +78,28 @@ static void test_wears_by_many(void **state)
     (void)state;
     enum { N = 400 };
     static double box[4 * N];
-    sunder_i_index tree;
+    sunder_i_rtree tree;
     for (size_t k = 0; k < N; k++) {
         const double x = 100 * (double)(k % 20), y = 100 * (double)(k / 20);
         memcpy(box + 4 * k, (double[4]){x, y, x + 10, y + 10}, 4 * sizeof *box);
     }
-    assert_int_equal(sunder_i_index_build(box, NULL, N, &tree, NULL), SUNDER_OK);
+    assert_int_equal(sunder_i_rtree_build(box, NULL, N, &tree, NULL), SUNDER_OK);
     for (uint32_t k = 0; k < N; k++) {
         for (int c = 0; c < 4; c++) box[4 * k + (uint32_t)c] += k % 3 ? 2 : -2;
-        sunder_i_index_move(&tree, k, box + 4 * (size_t)k);
+        sunder_i_rtree_move(&tree, k, box + 4 * (size_t)k);
     }
-    assert_false(sunder_i_index_is_worn(&tree));
+    assert_false(sunder_i_rtree_is_worn(&tree));
     for (uint32_t k = 0; k < N; k++) {
-        sunder_i_index_move(&tree, k, box + 4 * (size_t)((k * 7u) % N));
-        if (k == 0) assert_false(sunder_i_index_is_worn(&tree));
+        sunder_i_rtree_move(&tree, k, box + 4 * (size_t)((k * 7u) % N));
+        if (k == 0) assert_false(sunder_i_rtree_is_worn(&tree));
     }
-    assert_true(sunder_i_index_is_worn(&tree));
-    sunder_i_index_free(&tree);
+    assert_true(sunder_i_rtree_is_worn(&tree));
+    sunder_i_rtree_free(&tree);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_queries_as_boxes_move),
                                        cmocka_unit_test(test_wears_by_many)};
-    return cmocka_run_group_tests_name("the tree of boxes", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("spatial/rtree", tests, NULL, NULL);
 }

@@ -20,14 +20,14 @@ bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t
     return sunder_i_dot_sign(r->lattice, to_u, sunder_i_point_sub(r->lattice, r->at[d], r->at[p])) < 0;
 }
 
-typedef struct contact {
+typedef struct finder {
     const sunder_i_rings *r;
     sunder_i_problem *problem;
     bool touches;
     size_t left; /* pairs that may still be looked at */
-} contact;
+} finder;
 
-static bool report(contact *c, sunder_i_fault fault, uint32_t e, uint32_t f)
+static bool report(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
 {
     /* The later edge is named first: "crosses segment 4" then speaks of one already seen. */
     c->problem->fault = fault;
@@ -45,7 +45,7 @@ static bool same_direction(const sunder_i_rings *r, uint32_t p, uint32_t u, uint
 }
 
 /* Two passages through the place of p, u1 -> p -> w1 and u2 -> p -> w2: does the second change sides of the first? */
-static bool touch(contact *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
+static bool touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
 {
     c->touches = true;
     if (sunder_i_in_wedge(c->r, p, u1, w1, u2) == sunder_i_in_wedge(c->r, p, u1, w1, w2)) return true;
@@ -55,7 +55,7 @@ static bool touch(contact *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, u
 }
 
 /* Edges on one line. */
-static bool collinear(contact *c, uint32_t e, uint32_t f)
+static bool collinear(finder *c, uint32_t e, uint32_t f)
 {
     const sunder_i_rings *r = c->r;
     uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
@@ -72,7 +72,7 @@ static bool collinear(contact *c, uint32_t e, uint32_t f)
 
 static bool pair(void *user, uint32_t e, uint32_t f)
 {
-    contact *c = user;
+    finder *c = user;
     const sunder_i_rings *r = c->r;
     const uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
     if (c->left-- == 0) return false;
@@ -97,7 +97,7 @@ static bool pair(void *user, uint32_t e, uint32_t f)
 #define PAIRS_EACH 24
 
 /* By the tree; where that has too many pairs, only if something does meet. */
-static void find_by_tree(contact *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
+static void find_by_tree(finder *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                          sunder_i_arena *arena)
 {
     c->left = PAIRS_EACH * tree->boxes.n;
@@ -107,10 +107,11 @@ static void find_by_tree(contact *c, uint32_t ring_lo, uint32_t ring_hi, const s
     sunder_i_edge_tree_pairs(tree, c->r, pair, c);
 }
 
-void sunder_i_contact_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
-                           sunder_i_arena *arena, sunder_i_problem *problem, bool *touches)
+void sunder_i_intersections_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
+                                 const sunder_i_edge_tree *tree, sunder_i_arena *arena, sunder_i_problem *problem,
+                                 bool *touches)
 {
-    contact c = {r, problem, false, SIZE_MAX};
+    finder c = {r, problem, false, SIZE_MAX};
     const uint32_t lo = ring_lo ? r->ring_end[ring_lo - 1] : 0, hi = r->ring_end[ring_hi - 1];
     if (tree) {
         find_by_tree(&c, ring_lo, ring_hi, tree, arena);

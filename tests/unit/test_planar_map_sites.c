@@ -1,4 +1,4 @@
-/* planar_map/numbers.c: order, sides, turns and crossings against GMP's rationals, with numbers of five to two thousand
+/* planar_map/sites.c: order, sides, turns and crossings against GMP's rationals, with numbers of five to two thousand
  * bits, positions that no double tells apart, and the exact rung both after the filter and in its place. */
 #include "gmp_numbers.h"
 #include "planar_map/map.h"
@@ -206,5 +206,5 @@ static void test_wide(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_narrow), cmocka_unit_test(test_wide)};
-    return cmocka_run_group_tests_name("planar_map numbers", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("planar_map sites", tests, NULL, NULL);
 }
