@@ -140,6 +140,30 @@ void gis_json_raw(gis_json *out, const char *text)
     out->need_comma = true;
 }
 
+void gis_json_put_string(gis_json *out, const char *key, const char *utf8)
+{
+    gis_json_key(out, key);
+    gis_json_string(out, utf8);
+}
+
+void gis_json_put_size(gis_json *out, const char *key, uint64_t value)
+{
+    gis_json_key(out, key);
+    gis_json_size(out, value);
+}
+
+void gis_json_put_double(gis_json *out, const char *key, double value)
+{
+    gis_json_key(out, key);
+    gis_json_double(out, value);
+}
+
+void gis_json_put_bool(gis_json *out, const char *key, bool value)
+{
+    gis_json_key(out, key);
+    gis_json_bool(out, value);
+}
+
 /* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no
  * shorter decimal than what it prints does. 17 always read back. Subnormals (all below 1e-300) have fewer digits: they
  * start at one. */

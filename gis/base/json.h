@@ -31,6 +31,12 @@ void gis_json_bool(gis_json *out, bool value);
 void gis_json_null(gis_json *out);
 void gis_json_raw(gis_json *out, const char *text); /* as it is, commas and all; counts as a value */
 
+/* A key and its value. */
+void gis_json_put_string(gis_json *out, const char *key, const char *utf8);
+void gis_json_put_size(gis_json *out, const char *key, uint64_t value);
+void gis_json_put_double(gis_json *out, const char *key, double value);
+void gis_json_put_bool(gis_json *out, const char *key, bool value);
+
 /* The shortest decimal that reads back as the same double, at most 32 bytes with its end; -0 is 0. */
 #define GIS_NUMBER_MAX 32
 void gis_number_text(double value, char text[GIS_NUMBER_MAX]);

@@ -46,20 +46,13 @@ static bool make_and_write(buffer_run *run, gis_error *error)
 static void json_buffer(gis_json *out, const gis_buffer *buffer)
 {
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "buffer");
-    gis_json_key(out, "features");
-    gis_json_size(out, buffer->input.n);
-    gis_json_key(out, "empty");
-    gis_json_size(out, buffer->empty);
-    gis_json_key(out, "vertices");
-    gis_json_size(out, buffer->vertices);
-    gis_json_key(out, "area");
-    gis_json_double(out, buffer->area);
-    gis_json_key(out, "max_deviation");
-    gis_json_double(out, buffer->deviation);
-    gis_json_key(out, "repaired");
-    gis_json_size(out, buffer->repaired);
+    gis_json_put_string(out, "command", "buffer");
+    gis_json_put_size(out, "features", buffer->input.n);
+    gis_json_put_size(out, "empty", buffer->empty);
+    gis_json_put_size(out, "vertices", buffer->vertices);
+    gis_json_put_double(out, "area", buffer->area);
+    gis_json_put_double(out, "max_deviation", buffer->deviation);
+    gis_json_put_size(out, "repaired", buffer->repaired);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }

@@ -113,12 +113,9 @@ static bool print(const void *checked, gis_error *error)
 static void json_check(gis_json *out, const check_run *run)
 {
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "check");
-    gis_json_key(out, "features");
-    gis_json_size(out, run->input.n);
-    gis_json_key(out, "pairs_tested");
-    gis_json_size(out, run->summary.pairs_tested);
+    gis_json_put_string(out, "command", "check");
+    gis_json_put_size(out, "features", run->input.n);
+    gis_json_put_size(out, "pairs_tested", run->summary.pairs_tested);
     gis_json_key(out, "conflicts");
     gis_json_conflict_counts(out, &run->summary.before);
     gis_json_close(out, '}');

@@ -10,24 +10,15 @@
 static void json_pair(gis_json *out, const sunder_separation *answer)
 {
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "pair");
-    gis_json_key(out, "overlap");
-    gis_json_bool(out, answer->overlap);
-    gis_json_key(out, "dx");
-    gis_json_string(out, answer->dx_text);
-    gis_json_key(out, "dy");
-    gis_json_string(out, answer->dy_text);
-    gis_json_key(out, "distance_squared");
-    gis_json_string(out, answer->distance_squared_text);
-    gis_json_key(out, "distance");
-    gis_json_double(out, answer->distance);
-    gis_json_key(out, "contact");
-    gis_json_string(out, sunder_contact_string(answer->contact));
-    gis_json_key(out, "attained");
-    gis_json_bool(out, answer->attained);
-    gis_json_key(out, "rounded_is_free");
-    gis_json_bool(out, answer->rounded_is_free);
+    gis_json_put_string(out, "command", "pair");
+    gis_json_put_bool(out, "overlap", answer->overlap);
+    gis_json_put_string(out, "dx", answer->dx_text);
+    gis_json_put_string(out, "dy", answer->dy_text);
+    gis_json_put_string(out, "distance_squared", answer->distance_squared_text);
+    gis_json_put_double(out, "distance", answer->distance);
+    gis_json_put_string(out, "contact", sunder_contact_string(answer->contact));
+    gis_json_put_bool(out, "attained", answer->attained);
+    gis_json_put_bool(out, "rounded_is_free", answer->rounded_is_free);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }

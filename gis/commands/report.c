@@ -5,24 +5,17 @@
 
 #include <math.h>
 
-static void count(gis_json *out, const char *key, uint64_t value)
-{
-    gis_json_key(out, key);
-    gis_json_size(out, value);
-}
-
 void gis_json_seconds(gis_json *out, const char *key, double seconds)
 {
-    gis_json_key(out, key);
-    gis_json_double(out, round(seconds * 1e9) / 1e9);
+    gis_json_put_double(out, key, round(seconds * 1e9) / 1e9);
 }
 
 void gis_json_operations(gis_json *out, const sunder_counts *counts)
 {
-    count(out, "comparisons", counts->comparisons);
-    count(out, "orientation_tests", counts->orientation_tests);
-    count(out, "segment_intersections", counts->segment_intersections);
-    count(out, "exact_fallbacks", counts->exact_fallbacks);
+    gis_json_put_size(out, "comparisons", counts->comparisons);
+    gis_json_put_size(out, "orientation_tests", counts->orientation_tests);
+    gis_json_put_size(out, "segment_intersections", counts->segment_intersections);
+    gis_json_put_size(out, "exact_fallbacks", counts->exact_fallbacks);
 }
 
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts)
@@ -37,8 +30,8 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
                  {SUNDER_CONFLICT_CONTAINED, counts->contained},
                  {SUNDER_CONFLICT_DUPLICATE, counts->duplicate}};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        count(out, sunder_conflict_kind_string(kinds[k].kind), kinds[k].n);
-    count(out, "inside_blocks", counts->inside_blocks);
+        gis_json_put_size(out, sunder_conflict_kind_string(kinds[k].kind), kinds[k].n);
+    gis_json_put_size(out, "inside_blocks", counts->inside_blocks);
     gis_json_close(out, '}');
 }
 

@@ -85,12 +85,9 @@ static bool json_route(gis_json *out, const route_run *run, gis_error *error)
 {
     const bool found = !run->reason[0];
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "route");
-    gis_json_key(out, "found");
-    gis_json_bool(out, found);
-    gis_json_key(out, "length");
-    gis_json_double(out, found ? sunder_route_length(run->route) : (double)NAN);
+    gis_json_put_string(out, "command", "route");
+    gis_json_put_bool(out, "found", found);
+    gis_json_put_double(out, "length", found ? sunder_route_length(run->route) : (double)NAN);
     gis_json_key(out, "path");
     if (!json_path(out, run, error)) return false;
     gis_json_key(out, "rounded_is_free");
@@ -98,10 +95,8 @@ static bool json_route(gis_json *out, const route_run *run, gis_error *error)
         gis_json_bool(out, sunder_route_rounded_is_free(run->route));
     else
         gis_json_null(out);
-    gis_json_key(out, "max_deviation");
-    gis_json_double(out, run->max_deviation);
-    gis_json_key(out, "reason");
-    gis_json_string(out, found ? NULL : run->reason);
+    gis_json_put_double(out, "max_deviation", run->max_deviation);
+    gis_json_put_string(out, "reason", found ? NULL : run->reason);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
     return true;

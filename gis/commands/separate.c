@@ -93,18 +93,6 @@ static bool solve_and_write(separate_run *run, gis_error *error)
     return true;
 }
 
-static void json_number(gis_json *out, const char *key, double value)
-{
-    gis_json_key(out, key);
-    gis_json_double(out, value);
-}
-
-static void json_count(gis_json *out, const char *key, size_t value)
-{
-    gis_json_key(out, key);
-    gis_json_size(out, value);
-}
-
 /* What part of the cost is not proved to be needed; of a cost beyond doubles all of it, as far as a double can tell. */
 static double optimality_gap(const sunder_layer_summary *summary)
 {
@@ -117,17 +105,17 @@ static void json_displacement(gis_json *out, const separate_run *run)
     const sunder_layer_summary *summary = &run->summary;
     gis_json_key(out, "displacement");
     gis_json_open(out, '{');
-    json_number(out, "total", summary->total);
-    json_number(out, "mean", summary->mean);
-    json_number(out, "max", summary->max);
+    gis_json_put_double(out, "total", summary->total);
+    gis_json_put_double(out, "mean", summary->mean);
+    gis_json_put_double(out, "max", summary->max);
     gis_json_key(out, "max_fid");
     if (summary->max_feature < run->input.n && gis_source_fid(run->input.source, summary->max_feature) != OGRNullFID)
         gis_json_signed(out, gis_source_fid(run->input.source, summary->max_feature));
     else
         gis_json_null(out);
-    json_number(out, "cost", summary->cost);
-    json_number(out, "lower_bound", summary->lower_bound);
-    json_number(out, "optimality_gap", optimality_gap(summary));
+    gis_json_put_double(out, "cost", summary->cost);
+    gis_json_put_double(out, "lower_bound", summary->lower_bound);
+    gis_json_put_double(out, "optimality_gap", optimality_gap(summary));
     gis_json_close(out, '}');
 }
 
@@ -154,16 +142,13 @@ static void json_separate(gis_json *out, const separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "separate");
-    gis_json_key(out, "layer");
-    gis_json_string(out, gis_source_name(run->input.source));
-    gis_json_key(out, "unit");
-    gis_json_string(out, unit_name(run));
-    json_count(out, "features", run->input.n);
-    json_count(out, "vertices", summary->vertices);
-    json_count(out, "blocks", summary->blocks);
-    json_count(out, "clusters", summary->clusters);
+    gis_json_put_string(out, "command", "separate");
+    gis_json_put_string(out, "layer", gis_source_name(run->input.source));
+    gis_json_put_string(out, "unit", unit_name(run));
+    gis_json_put_size(out, "features", run->input.n);
+    gis_json_put_size(out, "vertices", summary->vertices);
+    gis_json_put_size(out, "blocks", summary->blocks);
+    gis_json_put_size(out, "clusters", summary->clusters);
     gis_json_key(out, "clusters_optimal"); /* nothing proves optimality yet */
     gis_json_null(out);
     gis_json_line(out);
@@ -175,17 +160,16 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_conflict_counts(out, &summary->after);
     gis_json_close(out, '}');
     gis_json_line(out);
-    json_count(out, "moved", summary->moved);
-    json_count(out, "blocked", summary->blocked);
-    json_count(out, "skipped", summary->skipped);
-    json_count(out, "invalid", run->input.invalid);
-    json_count(out, "null", run->input.null);
-    json_count(out, "rounded", summary->rounded);
+    gis_json_put_size(out, "moved", summary->moved);
+    gis_json_put_size(out, "blocked", summary->blocked);
+    gis_json_put_size(out, "skipped", summary->skipped);
+    gis_json_put_size(out, "invalid", run->input.invalid);
+    gis_json_put_size(out, "null", run->input.null);
+    gis_json_put_size(out, "rounded", summary->rounded);
     gis_json_line(out);
     json_displacement(out, run);
     gis_json_line(out);
-    gis_json_key(out, "verified");
-    gis_json_bool(out, run->verified);
+    gis_json_put_bool(out, "verified", run->verified);
     gis_json_key(out, "losses");
     json_losses(out, gis_sink_losses(run->sink));
     gis_json_line(out);
@@ -197,7 +181,7 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_seconds(out, "write", run->write);
     gis_json_seconds(out, "total", gis_clock() - run->start);
     gis_json_close(out, '}');
-    json_count(out, "peak_rss_bytes", gis_peak_rss());
+    gis_json_put_size(out, "peak_rss_bytes", gis_peak_rss());
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }

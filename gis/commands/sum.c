@@ -134,10 +134,8 @@ static void json_operand(gis_json *out, const char *key, const sunder_shape *sha
 {
     gis_json_key(out, key);
     gis_json_open(out, '{');
-    gis_json_key(out, "polygons");
-    gis_json_size(out, sunder_shape_polygons(shape));
-    gis_json_key(out, "vertices");
-    gis_json_size(out, sunder_shape_vertices(shape));
+    gis_json_put_size(out, "polygons", sunder_shape_polygons(shape));
+    gis_json_put_size(out, "vertices", sunder_shape_vertices(shape));
     gis_json_close(out, '}');
 }
 
@@ -150,20 +148,13 @@ static bool json_result(gis_json *out, const sum_run *run, gis_error *error)
     if (sunder_sum_area_text(run->sum, &area, &why) != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     gis_json_key(out, "result");
     gis_json_open(out, '{');
-    gis_json_key(out, "polygons");
-    gis_json_size(out, size.polygons);
-    gis_json_key(out, "holes");
-    gis_json_size(out, size.holes);
-    gis_json_key(out, "vertices");
-    gis_json_size(out, size.vertices);
-    gis_json_key(out, "degenerate_segments");
-    gis_json_size(out, size.degenerate_segments);
-    gis_json_key(out, "degenerate_points");
-    gis_json_size(out, size.degenerate_points);
-    gis_json_key(out, "area");
-    gis_json_string(out, area);
-    gis_json_key(out, "max_deviation");
-    gis_json_double(out, run->max_deviation);
+    gis_json_put_size(out, "polygons", size.polygons);
+    gis_json_put_size(out, "holes", size.holes);
+    gis_json_put_size(out, "vertices", size.vertices);
+    gis_json_put_size(out, "degenerate_segments", size.degenerate_segments);
+    gis_json_put_size(out, "degenerate_points", size.degenerate_points);
+    gis_json_put_string(out, "area", area);
+    gis_json_put_double(out, "max_deviation", run->max_deviation);
     gis_json_close(out, '}');
     sunder_free(area);
     return true;
@@ -214,14 +205,10 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
     sunder_sum_get_method(run->sum, &method);
     bool united = method.decomposition != SUNDER_DECOMPOSITION_AUTO; /* the convolution's pieces are its own affair */
     gis_json_open(out, '{');
-    gis_json_key(out, "command");
-    gis_json_string(out, "sum");
-    gis_json_key(out, "algorithm");
-    gis_json_string(out, sunder_algorithm_string(method.algorithm));
-    gis_json_key(out, "decomposition");
-    gis_json_string(out, united ? sunder_decomposition_string(method.decomposition) : NULL);
-    gis_json_key(out, "order");
-    gis_json_string(out, united ? sunder_order_string(method.order) : NULL);
+    gis_json_put_string(out, "command", "sum");
+    gis_json_put_string(out, "algorithm", sunder_algorithm_string(method.algorithm));
+    gis_json_put_string(out, "decomposition", united ? sunder_decomposition_string(method.decomposition) : NULL);
+    gis_json_put_string(out, "order", united ? sunder_order_string(method.order) : NULL);
     json_operand(out, "p", run->operands.p);
     json_operand(out, "q", run->operands.q);
     gis_json_line(out);
@@ -230,8 +217,7 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
     json_operations(out, run);
     gis_json_line(out);
     json_seconds(out, run);
-    gis_json_key(out, "peak_rss_bytes");
-    gis_json_size(out, gis_peak_rss());
+    gis_json_put_size(out, "peak_rss_bytes", gis_peak_rss());
     if (geometry) gis_json_raw(out, geometry);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
