@@ -1,6 +1,7 @@
 /* Bodies in conflict make edges, edges make clusters. */
 #include "displacement/clusters/solver.h"
 
+#include "base/invariant.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -114,6 +115,24 @@ static double margin_of(const sunder_i_solver *s, const sunder_i_cluster_member 
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 
+#ifndef NDEBUG
+/* Clusters are disjoint but for fixed bodies, and their members ascend. */
+static const char *check(const sunder_i_solver *s)
+{
+    size_t members = 0;
+    for (size_t k = 0; k < s->clusters; members += s->cluster[k++].n) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        if (c->body != s->body + members || !(c->margin > 0)) return "a cluster without members of its own";
+        for (size_t m = 0; m < c->n; m++) {
+            const uint32_t b = c->body[m], root = s->member[members + m].root;
+            if (m && c->body[m - 1] >= b) return "members do not ascend";
+            if (!s->model.body[b].fixed && sunder_i_union_find(s->parent, b) != root) return "a member of two clusters";
+        }
+    }
+    return members == s->members ? NULL : "a member without a cluster";
+}
+#endif
+
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
 {
@@ -152,5 +171,6 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         c->n = end - first;
         c->margin = margin_of(s, s->member + first, c->n);
     }
+    SUNDER_I_CHECK(check(s), s->members);
     return SUNDER_OK;
 }

@@ -9,6 +9,7 @@
  * is never more than it had at the start. */
 #include "displacement/layer/model.h"
 
+#include "base/invariant.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -85,6 +86,7 @@ sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_
     if (!list) return sunder_i_no_memory(err);
     for (; at > 0 && sunder_i_by_id_pair(&list[at - 1], &pair) > 0; at--) list[at] = list[at - 1];
     list[at] = pair;
+    SUNDER_I_ASSERT(a < b && (at == 0 || sunder_i_by_id_pair(&list[at - 1], &pair) < 0));
     model->inclusion = list;
     model->inclusions++;
     return SUNDER_OK;

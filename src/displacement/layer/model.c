@@ -1,6 +1,7 @@
 /* The model: features with their boxes, the near pairs, and the bodies that the rules make of them. */
 #include "displacement/layer/model.h"
 
+#include "base/invariant.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -117,6 +118,24 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
     }
 }
 
+#ifndef NDEBUG
+/* Each feature is in one body; bodies are numbered by their first members, and members ascend. */
+static const char *check(const sunder_i_model *model)
+{
+    size_t members = 0;
+    for (size_t b = 0; b < model->bodies; b++) {
+        const sunder_i_body *body = &model->body[b];
+        const uint32_t *member = model->member + body->member;
+        if (body->member != members || body->members == 0) return "a body without members of its own";
+        if (b && member[0] <= model->member[body[-1].member]) return "bodies are not numbered by their first members";
+        for (uint32_t k = 0; k < body->members; k++)
+            if (model->body_of[member[k]] != b || (k && member[k - 1] >= member[k])) return "members do not ascend";
+        members += body->members;
+    }
+    return members == model->features ? NULL : "a feature without a body";
+}
+#endif
+
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err)
 {
     const size_t n = model->features;
@@ -131,6 +150,7 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
     const sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
                                                                       : sunder_i_no_memory(err);
     if (!status) number_bodies(model, parent);
+    SUNDER_I_CHECK(status ? NULL : check(model), model->features);
     sunder_i_free(parent);
     return status;
 }

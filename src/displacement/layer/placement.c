@@ -2,6 +2,7 @@
  * and is what the report stands on. */
 #include "displacement/layer/placement.h"
 
+#include "base/invariant.h"
 #include "base/parallel.h"
 #include "shape/shape.h"
 
@@ -228,6 +229,19 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
     return status;
 }
 
+#ifndef NDEBUG
+static const char *check(const sunder_i_relations *relations)
+{
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        if (r->a >= r->b || (k && sunder_i_by_id_pair(r - 1, r) >= 0)) return "relations are not sorted";
+        if (!r->near && !r->touch && !r->kept) return "a relation of two that have none";
+        if ((r->a_in_b || r->duplicate || r->kept) && !r->contained) return "a relation contradicts itself";
+    }
+    return NULL;
+}
+#endif
+
 /* Of the pairs looked at, those that matter; and those that nothing happened to. Both are sorted. */
 static sunder_status merge(const classification *c, size_t pairs, sunder_i_relations *relations, sunder_error *err)
 {
@@ -245,6 +259,7 @@ static sunder_status merge(const classification *c, size_t pairs, sunder_i_relat
     }
     if (out != c->pair) sunder_i_free(c->pair);
     *relations = (sunder_i_relations){out, n, pairs};
+    SUNDER_I_CHECK(check(relations), n);
     return SUNDER_OK;
 }
 

@@ -15,6 +15,7 @@
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
 
+#include "base/invariant.h"
 #include "separation/separation.h"
 
 #include <math.h>
@@ -64,6 +65,25 @@ static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxe
     between->n++;
 }
 
+#ifndef NDEBUG
+/* Pairs with the lesser first, sorted, and counted between their bodies, which are sorted, too. */
+static const char *check(const sunder_i_relaxations *list, const sunder_i_model *model)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < list->relaxed_n; n += list->relaxed[k++].n)
+        if (k && sunder_i_by_id_pair(&list->relaxed[k - 1], &list->relaxed[k]) >= 0)
+            return "relaxed bodies are not sorted, or listed twice";
+    for (size_t k = 0; k < list->n; k++) {
+        const sunder_i_relaxation *r = &list->item[k];
+        if (r->a >= r->b || !(r->gap >= 0) || !isfinite(r->shift[0] + r->shift[1])) return "no relaxation of a pair";
+        if (k && sunder_i_by_id_pair(r - 1, r) >= 0) return "relaxations are not sorted, or listed twice";
+        if (!sunder_i_relaxations_between(list, model->body_of[r->a], model->body_of[r->b]))
+            return "the bodies of a relaxation are not listed";
+    }
+    return n == list->n ? NULL : "relaxations are not all counted between their bodies";
+}
+#endif
+
 bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model)
 {
     relaxations->relaxed_n = 0;
@@ -83,6 +103,7 @@ bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_
         else
             relaxations->relaxed[relaxations->relaxed_n++] = relaxations->relaxed[k];
     }
+    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
     return true;
 }
 
@@ -106,6 +127,7 @@ bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder
     }
     memmove(relaxations->relaxed + of + 1, relaxations->relaxed + of, (relaxations->relaxed_n++ - of) * sizeof relaxed);
     relaxations->relaxed[of] = relaxed;
+    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
     return true;
 }
 
@@ -122,6 +144,7 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
     if (--relaxations->relaxed[of].n == 0)
         memmove(relaxations->relaxed + of, relaxations->relaxed + of + 1,
                 (--relaxations->relaxed_n - of) * sizeof relaxed);
+    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
 }
 
 /* ---- Those that were restored ------------------------------------------------------------------------------------ */

@@ -9,6 +9,7 @@
  * Coordinates are those given (raw), since these are written, repeated and collinear vertices too. */
 #include "displacement/layer/rounding.h"
 
+#include "base/invariant.h"
 #include "shape/shape.h"
 
 #include <float.h>
@@ -122,5 +123,6 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
             if (move[c] != 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
     }
     if (!sunder_i_within(out, body->limit)) out[0] = out[1] = 0;
+    SUNDER_I_ASSERT(isfinite(out[0] + out[1]) && hypot(out[0], out[1]) <= body->limit * (1 + 0x1p-40));
     return all_exact(model, body, out);
 }

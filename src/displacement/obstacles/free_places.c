@@ -10,6 +10,7 @@
 #include "displacement/obstacles/free_places.h"
 #include "displacement/obstacles/tuning.h"
 
+#include "base/invariant.h"
 #include "base/memory.h"
 #include "base/watch.h"
 
@@ -263,6 +264,15 @@ static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
         offer_crossings(h, sorted, k);
 }
 
+#ifndef NDEBUG
+static const char *check(const harvest *h)
+{
+    for (size_t k = 0; k < h->n; k++)
+        if (!(h->distance[k] <= h->limit) || (k && h->distance[k - 1] > h->distance[k])) return "places are not sorted";
+    return NULL;
+}
+#endif
+
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
@@ -290,6 +300,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2],
         }
         *failed = *failed || sunder_i_stopped();
     }
+    SUNDER_I_CHECK(check(&h), h.n);
     *steps += h.work + 2 * o->walls;
     sunder_i_free(order);
     sunder_i_free(sorted);

@@ -3,6 +3,7 @@
 #include "displacement/obstacles/obstacle_cache.h"
 #include "displacement/obstacles/tuning.h"
 
+#include "base/invariant.h"
 #include "base/memory.h"
 
 #include <string.h>
@@ -65,5 +66,6 @@ const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cach
     cache->slot[slot_of(cache, key)] = (cached_obstacle){key, (uint32_t)cache->edges, (uint32_t)*n};
     cache->edges += *n;
     cache->used++;
+    SUNDER_I_ASSERT(2 * cache->used <= cache->slots && cache->edges <= cache->capacity);
     return edge;
 }

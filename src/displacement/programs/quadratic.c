@@ -13,6 +13,8 @@
 #include "displacement/programs/methods.h"
 #include "displacement/programs/tuning.h"
 
+#include "base/invariant.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -73,6 +75,22 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
     return true;
 }
 
+#ifndef NDEBUG
+/* Ends are bodies or the ground, forces push, positions are numbers. */
+static const char *check(const sunder_i_quadratic *p)
+{
+    for (size_t k = 0; k < p->n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        if ((c->i != SUNDER_I_GROUND && c->i >= p->bodies) || (c->j != SUNDER_I_GROUND && c->j >= p->bodies))
+            return "a constraint of no body";
+        if (!(c->force >= 0) || !isfinite(c->force)) return "a force that pulls";
+    }
+    for (size_t k = 0; k < 2 * p->bodies; k++)
+        if (!isfinite(p->t[k])) return "a position that is no number";
+    return NULL;
+}
+#endif
+
 /* What is missed; where forces have outgrown all numbers nothing is moved, and everything is missed. */
 static double finish(sunder_i_quadratic *p)
 {
@@ -81,6 +99,7 @@ static double finish(sunder_i_quadratic *p)
         for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
         sunder_i_quadratic_place(p);
     }
+    SUNDER_I_CHECK(check(p), p->n);
     return fmax(0, missed);
 }
 

@@ -6,6 +6,7 @@
  * other; the lists of neighbours at that moment are the columns of the factor. */
 #include "displacement/programs/sparse.h"
 
+#include "base/invariant.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -152,6 +153,21 @@ static bool fill_columns(sunder_i_sparse *m, const graph *g)
     return true;
 }
 
+#ifndef NDEBUG
+/* Ranks are a permutation; rows ascend below the diagonal of each column. */
+static const char *check(const sunder_i_sparse *m)
+{
+    size_t sum = 0;
+    for (size_t v = 0; v < m->n; v++) {
+        if (m->rank[v] >= m->n) return "a rank beyond the last";
+        sum += m->rank[v];
+        for (size_t k = m->column[v]; k < m->column[v + 1]; k++)
+            if (m->row[k] <= (k > m->column[v] ? m->row[k - 1] : v) || m->row[k] >= m->n) return "rows do not ascend";
+    }
+    return m->n == 0 || sum == m->n * (m->n - 1) / 2 ? NULL : "ranks are no permutation";
+}
+#endif
+
 bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *couple, size_t couples)
 {
     memset(m, 0, sizeof *m);
@@ -167,6 +183,7 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *
     graph g;
     const bool ok = graph_init(&g, n, couple, couples) && eliminate(&g, m->rank) && fill_columns(m, &g);
     graph_free(&g);
+    SUNDER_I_CHECK(ok ? check(m) : NULL, n);
     return ok;
 }
 

@@ -8,6 +8,8 @@
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/invariant.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -142,6 +144,7 @@ static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, siz
     if (!sunder_i_reserve(&c->step, &c->step_capacity, c->steps + 1, sizeof *c->step)) return false;
     const sunder_i_way *w = &c->way[way];
     const double sign = behind ? -1 : 1;
+    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && j < c->bodies && i != j);
     c->step[c->steps++] = (sunder_i_claim){.i = i,
                                            .j = j,
                                            .n = {sign * w->n[0], sign * w->n[1]},

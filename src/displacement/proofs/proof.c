@@ -2,6 +2,7 @@
  * array. */
 #include "displacement/proofs/branching.h"
 
+#include "base/invariant.h"
 #include "shape/shape.h"
 
 #include <string.h>
@@ -99,6 +100,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
     proof->corner = g.corner;
     if (g.node && g.way && g.force && g.corner) {
         copy(&g, root, 0);
+        SUNDER_I_ASSERT(proof->nodes == size.nodes && proof->ways == size.ways && proof->forces == size.forces);
         return proof;
     }
     sunder_i_proof_free(proof);

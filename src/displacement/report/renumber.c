@@ -1,6 +1,8 @@
 /* The report on a layer in the order of work, told in the numbers that the caller gave its features. */
 #include "displacement/report/report.h"
 
+#include "base/invariant.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -65,6 +67,7 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
     }
     if (n) qsort(list, n, sizeof *list, by_pair);
     for (size_t k = 0; k < n; k++) {
+        SUNDER_I_ASSERT(list[k].conflict.a < list[k].conflict.b && (k == 0 || by_pair(&list[k - 1], &list[k]) < 0));
         report->conflict[k] = list[k].conflict;
         if (report->proof) report->proof[k] = list[k].proof;
     }

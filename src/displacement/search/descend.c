@@ -12,6 +12,7 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/invariant.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -302,6 +303,19 @@ static void stop_short(sunder_i_search *s)
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + JUST_BEFORE * share * (s->next[k] - s->t[k]);
 }
 
+#ifndef NDEBUG
+/* Does s->next miss no constraint by more than s->t, but for rounding? */
+static const char *check_next(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->program.n; k++) {
+        const sunder_i_constraint *c = &s->program.constraint[k];
+        const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
+        if (there < fmin(0, here) - s->tolerance) return "a way that was free up to there is not";
+    }
+    return NULL;
+}
+#endif
+
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
 bool sunder_i_search_descend(sunder_i_search *s)
@@ -322,7 +336,10 @@ bool sunder_i_search_descend(sunder_i_search *s)
             softness = fmax(softness / HARDENING, HARDEST);
         } else {
             v = solve_lazily(s, 0);
-            if (v > s->tolerance) stop_short(s);
+            if (v > s->tolerance) {
+                stop_short(s);
+                SUNDER_I_CHECK(check_next(s), s->n);
+            }
         }
         if (s->failed) break;
         const double left = sunder_i_search_look(s, s->next);

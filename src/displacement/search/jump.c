@@ -1,6 +1,8 @@
 /* Out of clashes: bodies that clash jump, one at a time, to the nearest place where they clash with nothing. */
 #include "displacement/search/stages.h"
 
+#include "base/invariant.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -52,5 +54,6 @@ bool sunder_i_search_jump(sunder_i_search *s)
     }
     sunder_i_free(stuck);
     if (s->failed) return false;
+    SUNDER_I_CHECK(sunder_i_search_check(s), s->n);
     return sunder_i_search_look(s, s->t) <= s->tolerance;
 }

@@ -37,6 +37,19 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     return true;
 }
 
+#ifndef NDEBUG
+const char *sunder_i_search_check(const sunder_i_search *s)
+{
+    for (size_t k = 0; k < s->n; k++) {
+        if (k && k != s->own && s->body[k - 1] >= s->body[k]) return "bodies do not ascend";
+        if (!(s->mass[k] >= 0) || !isfinite(s->t[2 * k] + s->t[2 * k + 1])) return "a body that stands nowhere";
+    }
+    for (size_t k = 1; k < s->restored_n; k++)
+        if (sunder_i_by_restored(&s->restored[k - 1], &s->restored[k]) >= 0) return "pairs restored are not sorted";
+    return NULL;
+}
+#endif
+
 void sunder_i_search_free(sunder_i_search *s)
 {
     sunder_i_free(s->listed);

@@ -52,6 +52,9 @@ typedef struct sunder_i_search {
 bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, const uint32_t *body, size_t n,
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
+/* NULL, or what is wrong with it: bodies ascend, as said above, positions are numbers, pairs restored are sorted. In
+ * builds that assert. */
+const char *sunder_i_search_check(const sunder_i_search *search);
 /* Work done so far, in constraints looked at. */
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* How far body i may be sent. */

@@ -4,10 +4,13 @@
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
 
+#include "base/invariant.h"
+
 #include <string.h>
 
 void sunder_i_search_round(const sunder_i_search *s, double *move)
 {
+    SUNDER_I_CHECK(sunder_i_search_check(s), s->n);
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) sunder_i_round_move(s->model, s->body[k], s->t + 2 * k, move + 2 * k, NULL);
 }
