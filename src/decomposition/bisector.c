@@ -115,11 +115,6 @@ static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w
     }
 }
 
-static bool apart(const double a[4], const double b[4])
-{
-    return a[0] > b[2] || b[0] > a[2] || a[1] > b[3] || b[1] > a[3];
-}
-
 /* Where the ray from v along d (through toward) crosses cut k, strictly inside that cut. */
 static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sunder_i_point d, uint32_t k,
                       sunder_i_fraction *t)
@@ -147,7 +142,7 @@ static bool is_hidden(const bisector *b, uint32_t v, uint32_t w)
     double box[4];
     hull(b, v, SUNDER_I_AT_VERTEX, w, box);
     for (uint32_t k = 0; k < b->cuts; k++)
-        if (!apart(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) &&
+        if (sunder_i_box_meet(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) &&
             sunder_i_fraction_cmp(l, &t, &one) < 0)
             return true;
     return false;
@@ -289,7 +284,7 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
     hull(b, cut->from, cut->end, cut->at, box);
     for (uint32_t k = 0; k < b->cuts; k++) {
         sunder_i_fraction t;
-        if (apart(box, b->box[k]) || !meets_cut(b, cut->from, cut->toward, cut->along, k, &t)) continue;
+        if (!sunder_i_box_meet(box, b->box[k]) || !meets_cut(b, cut->from, cut->toward, cut->along, k, &t)) continue;
         if (sunder_i_fraction_cmp(l, &t, &cut->length) >= 0) continue;
         cut->end = SUNDER_I_ON_CUT;
         cut->at = k;

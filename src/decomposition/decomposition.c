@@ -1,4 +1,5 @@
 /* The six ways to decompose: member by member, or, for the mixed one, both operands together. */
+#include "base/counts.h"
 #include "base/invariant.h"
 #include "decomposition/maker.h"
 
@@ -45,18 +46,11 @@ static void make(sunder_i_maker *m, sunder_decomposition kind)
     }
 }
 
-static sunder_counts difference(const sunder_counts *after, const sunder_counts *before)
-{
-    return (sunder_counts){
-        after->comparisons - before->comparisons, after->orientation_tests - before->orientation_tests,
-        after->segment_intersections - before->segment_intersections, after->exact_fallbacks - before->exact_fallbacks};
-}
-
 static void sign(const sunder_i_maker *m, sunder_decomposition kind, const sunder_counts *before,
                  sunder_i_decomposition *out)
 {
     out->used = m->fallbacks ? SUNDER_DECOMPOSITION_HERTEL_MEHLHORN : kind;
-    out->counts = difference(&m->lattice->counts, before);
+    out->counts = sunder_i_counts_since(&m->lattice->counts, before);
 }
 
 sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,

@@ -80,7 +80,7 @@ static bool start_afresh(sunder_i_planar_map *map)
 
 sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *err)
 {
-    assert(map->marked);
+    SUNDER_I_ASSERT(map->marked);
     sunder_i_map_drop_faces(map);
     bool ok = list_covered(map);
     if (ok) {
@@ -118,7 +118,7 @@ sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t
 
 sunder_status sunder_i_planar_map_remove_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err)
 {
-    assert(map->vertex[v].out == NOWHERE);
+    SUNDER_I_ASSERT(map->vertex[v].out == NOWHERE);
     sunder_i_map_drop_faces(map);
     sunder_i_edge_drop_vertex(map, v);
     return sunder_i_map_status(map, err);
@@ -126,7 +126,7 @@ sunder_status sunder_i_planar_map_remove_vertex(sunder_i_planar_map *map, uint32
 
 sunder_status sunder_i_planar_map_merge_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err)
 {
-    assert(sunder_i_planar_map_mergeable(map, v));
+    SUNDER_I_ASSERT(sunder_i_planar_map_mergeable(map, v));
     sunder_i_map_drop_faces(map);
     sunder_i_edge_merge(map, v);
     return sunder_i_map_status(map, err);

@@ -31,10 +31,10 @@
 #ifndef SUNDER_I_MAP_H
 #define SUNDER_I_MAP_H
 
+#include "base/invariant.h"
 #include "base/list.h"
 #include "planar_map/planar_map.h"
 
-#include <assert.h>
 #include <string.h>
 
 #define NOWHERE SUNDER_I_NOWHERE

@@ -73,7 +73,7 @@ static bool clean_ring(sunder_i_planar_map *map)
 sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
                                                 const sunder_i_point *along, size_t n, sunder_error *err)
 {
-    assert(map->marked);
+    SUNDER_I_ASSERT(map->marked);
     const sunder_status status = sunder_i_map_polygon(map, corner, along, n, true, err);
     if (status != SUNDER_OK || map->ring.n == 0) return status;
     if (!clean_ring(map) || !sunder_i_map_compact(map)) {

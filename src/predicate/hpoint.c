@@ -1,8 +1,8 @@
 /* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
  * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
+#include "base/invariant.h"
 #include "predicate/narrow.h"
 
-#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -93,7 +93,7 @@ static sunder_i_i256 big_i256(sunder_i_big a)
 {
     sunder_i_i256 r = {{0, 0, 0, 0}, (a.size > 0) - (a.size < 0)};
     const long n = a.size < 0 ? -a.size : a.size;
-    assert(n <= 4);
+    SUNDER_I_ASSERT(n <= 4);
     for (long i = 0; i < n && i < 4; i++) r.limb[i] = a.limb[i];
     return r;
 }

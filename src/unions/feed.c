@@ -3,14 +3,7 @@
 #include "unions/unions.h"
 
 #include "base/clock.h"
-
-static void book(sunder_counts *to, const sunder_counts *before, const sunder_counts *after)
-{
-    to->comparisons += after->comparisons - before->comparisons;
-    to->orientation_tests += after->orientation_tests - before->orientation_tests;
-    to->segment_intersections += after->segment_intersections - before->segment_intersections;
-    to->exact_fallbacks += after->exact_fallbacks - before->exact_fallbacks;
-}
+#include "base/counts.h"
 
 bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_sum *out)
 {
@@ -19,7 +12,7 @@ bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_
     const bool ok = sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces,
                                            &u->arena, out);
     u->seconds += sunder_i_now() - start;
-    book(&u->counts, &before, &u->lattice->counts);
+    sunder_i_counts_add(&u->counts, &u->lattice->counts, &before);
     return ok;
 }
 

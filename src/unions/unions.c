@@ -2,19 +2,13 @@
 #include "unions/unions.h"
 
 #include "base/clock.h"
+#include "base/counts.h"
 #include "sum/from_map.h"
 #include "sum/map_view.h"
 #include "sum/place.h"
 
 #include <inttypes.h>
 #include <string.h>
-
-static sunder_counts less(const sunder_counts *a, const sunder_counts *b)
-{
-    return (sunder_counts){a->comparisons - b->comparisons, a->orientation_tests - b->orientation_tests,
-                               a->segment_intersections - b->segment_intersections,
-                               a->exact_fallbacks - b->exact_fallbacks};
-}
 
 static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
                            sunder_error *err)
@@ -53,9 +47,9 @@ static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_e
     sunder_status status = unite(u, sum->method.algorithm, &map, err);
     if (status == SUNDER_OK) status = finish(sum, map, u->options->keep_map, err);
     if (status != SUNDER_OK) return status;
-    const sunder_counts all = less(&sum->lattice.counts, &before);
+    const sunder_counts all = sunder_i_counts_since(&sum->lattice.counts, &before);
     sum->phase[SUNDER_PHASE_SUBSUMS] = u->counts;
-    sum->phase[SUNDER_PHASE_UNION] = less(&all, &u->counts);
+    sum->phase[SUNDER_PHASE_UNION] = sunder_i_counts_since(&all, &u->counts);
     sum->seconds[SUNDER_PHASE_SUBSUMS] = u->seconds;
     sum->seconds[SUNDER_PHASE_UNION] = sunder_i_now() - start - u->seconds;
     return SUNDER_OK;
@@ -74,7 +68,7 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     status = sunder_i_decompose_pair(&sum->lattice, p, placed.p, q, placed.q, options->decomposition, &u.p, &u.q, err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) return status;
-    sum->phase[SUNDER_PHASE_DECOMPOSE] = less(&sum->lattice.counts, &before);
+    sum->phase[SUNDER_PHASE_DECOMPOSE] = sunder_i_counts_since(&sum->lattice.counts, &before);
     sum->seconds[SUNDER_PHASE_DECOMPOSE] = sunder_i_now() - start;
     sum->method.decomposition = u.p.fallbacks ? u.p.used : u.q.used; /* whichever fell back, if one did */
     sum->method.order = options->order;

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "shape/shape.h"
+#include "spatial/box.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,20 +19,13 @@ static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, 
         piece->feature = f;
         piece->corner = (uint32_t)*corner;
         piece->corners = shape->piece_end[p] - from;
-        piece->box[0] = piece->box[1] = INFINITY;
-        piece->box[2] = piece->box[3] = -INFINITY;
+        sunder_i_box_clear(piece->box);
         for (; from < shape->piece_end[p]; from++, ++*corner) {
             double *c = model->corner + 2 * *corner;
-            for (int k = 0; k < 2; k++) {
-                c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
-                piece->box[k] = fmin(piece->box[k], c[k]);
-                piece->box[k + 2] = fmax(piece->box[k + 2], c[k]);
-            }
+            for (int k = 0; k < 2; k++) c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
+            sunder_i_box_include(piece->box, c);
         }
-        for (int k = 0; k < 2; k++) {
-            body->box[k] = fmin(body->box[k], piece->box[k]);
-            body->box[k + 2] = fmax(body->box[k + 2], piece->box[k + 2]);
-        }
+        sunder_i_box_join(body->box, piece->box);
         body->pieces++;
     }
 }
@@ -78,13 +72,9 @@ static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body 
     piece->corner = (uint32_t)*corner;
     piece->corners = (uint32_t)hull(p, shape->vertices, model->corner + 2 * *corner);
     sunder_i_free(p);
-    piece->box[0] = piece->box[1] = INFINITY;
-    piece->box[2] = piece->box[3] = -INFINITY;
+    sunder_i_box_clear(piece->box);
     for (uint32_t k = 0; k < piece->corners; k++, ++*corner)
-        for (int c = 0; c < 2; c++) {
-            piece->box[c] = fmin(piece->box[c], model->corner[2 * *corner + (size_t)c]);
-            piece->box[c + 2] = fmax(piece->box[c + 2], model->corner[2 * *corner + (size_t)c]);
-        }
+        sunder_i_box_include(piece->box, model->corner + 2 * *corner);
     return SUNDER_OK;
 }
 
@@ -108,8 +98,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
         body->piece = (uint32_t)model->pieces;
-        body->box[0] = body->box[1] = INFINITY;
-        body->box[2] = body->box[3] = -INFINITY;
+        sunder_i_box_clear(body->box);
         const uint32_t first = model->member[body->member];
         body->origin[0] = model->box[4 * first];
         body->origin[1] = model->box[4 * first + 1];

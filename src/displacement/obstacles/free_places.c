@@ -13,6 +13,7 @@
 #include "base/invariant.h"
 #include "base/memory.h"
 #include "base/watch.h"
+#include "spatial/box.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,17 +67,13 @@ static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
     sunder_i_obstacle *obstacle = &o->obstacle[o->n];
     obstacle->wall = (uint32_t)first;
     obstacle->walls = (uint32_t)n;
-    obstacle->box[0] = obstacle->box[1] = INFINITY;
-    obstacle->box[2] = obstacle->box[3] = -INFINITY;
+    sunder_i_box_clear(obstacle->box);
     for (size_t k = 0; k < n; k++) {
         sunder_i_obstacle_side *w = &o->wall[first + k], *before = &o->wall[first + (k ? k - 1 : n - 1)];
         const double s = gap / (1 + w->n[0] * before->n[0] + w->n[1] * before->n[1]);
         const double c[2] = {w->from[0] + s * (w->n[0] + before->n[0]), w->from[1] + s * (w->n[1] + before->n[1])};
-        for (int i = 0; i < 2; i++) {
-            w->from[i] = before->to[i] = c[i];
-            obstacle->box[i] = fmin(obstacle->box[i], c[i]);
-            obstacle->box[i + 2] = fmax(obstacle->box[i + 2], c[i]);
-        }
+        for (int i = 0; i < 2; i++) w->from[i] = before->to[i] = c[i];
+        sunder_i_box_include(obstacle->box, c);
     }
     o->n++;
 }

@@ -97,12 +97,9 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
 /* Beyond everything, in the four directions: always free, for when all else is full. */
 static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
 {
-    double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY}, best = INFINITY;
-    for (size_t k = 0; k < o->n; k++)
-        for (int c = 0; c < 2; c++) {
-            all[c] = fmin(all[c], o->obstacle[k].box[c]);
-            all[c + 2] = fmax(all[c + 2], o->obstacle[k].box[c + 2]);
-        }
+    double all[4], best = INFINITY;
+    sunder_i_box_clear(all);
+    for (size_t k = 0; k < o->n; k++) sunder_i_box_join(all, o->obstacle[k].box);
     for (int c = 0; c < 4; c++) {
         const double d = fabs(all[c] - target[c & 1]);
         if (!(d < best) || d > limit) continue;

@@ -5,6 +5,8 @@
  * ask. Everything else goes the general way (shape/place.c). */
 #include "separation/operands/operands.h"
 
+#include "spatial/box.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -13,29 +15,18 @@
  * is within 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
 #define COORDINATE_ERROR 0x1p-45
 
-static void grow_box(double box[4], double x, double y)
-{
-    if (x < box[0]) box[0] = x;
-    if (y < box[1]) box[1] = y;
-    if (x > box[2]) box[2] = x;
-    if (y > box[3]) box[3] = y;
-}
-
-static const double EMPTY_BOX[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-
 void sunder_i_operands_fill_boxes(sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     const double *xy = g->xy[side];
     double *all = g->box[side];
-    memcpy(all, EMPTY_BOX, sizeof EMPTY_BOX);
+    sunder_i_box_clear(all);
     uint32_t c = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
         double *box = g->piece_box[side] + 4 * (size_t)i;
-        memcpy(box, EMPTY_BOX, sizeof EMPTY_BOX);
-        for (; c < s->piece_end[i]; c++) grow_box(box, xy[2 * s->piece_vertex[c]], xy[2 * s->piece_vertex[c] + 1]);
-        grow_box(all, box[0], box[1]);
-        grow_box(all, box[2], box[3]);
+        sunder_i_box_clear(box);
+        for (; c < s->piece_end[i]; c++) sunder_i_box_include(box, xy + 2 * (size_t)s->piece_vertex[c]);
+        sunder_i_box_join(all, box);
         g->turned[side][i].n = 0;
     }
     for (int k = 0; k < 4; k++) g->magnitude = fmax(g->magnitude, fabs(all[k]));
