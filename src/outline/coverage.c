@@ -1,6 +1,6 @@
-/* Coverage along one line after the other. A part is convex, so where it meets a line is found by bisection: of its ranks
- * for the corners that are lowest and highest across the line, then of the two chains between them for where each comes
- * through. Events are sorted by fractions along the line (degree 2, compared in degree 4), and counted.
+/* Coverage along one line after the other. A part is convex, so where it meets a line is found by bisection: of its
+ * ranks for the corners that are lowest and highest across the line, then of the two chains between them for where each
+ * comes through. Events are sorted by fractions along the line (degree 2, compared in degree 4), and counted.
  *
  * Ends of intervals of cover are open and those of candidates closed, so at one place three states are told apart: just
  * before it, at it, just after it. */

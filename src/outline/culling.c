@@ -1,6 +1,6 @@
-/* The hierarchy of cells, from the root down: a cell is halved, each part is asked of each half whether it is beyond it,
- * holds it, or has sides that pass, and the half is closed, left, or put on the stack (culling.h says what comes of it).
- * What makes a descent worth while and what ends it is in tuning.h. */
+/* The hierarchy of cells, from the root down: a cell is halved, each part is asked of each half whether it is beyond
+ * it, holds it, or has sides that pass, and the half is closed, left, or put on the stack (culling.h says what comes of
+ * it). What makes a descent worth while and what ends it is in tuning.h. */
 #include "outline/culling_inner.h"
 
 #include "base/watch.h"

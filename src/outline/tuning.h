@@ -40,7 +40,7 @@
 /* What a pair costs that is pushed, and then sorted and read again for its line, in sides of a split. */
 #define PAIR_COST 8
 
-/* ---- Contained sides ---------------------------------------------------------------------------------------------- */
+/* ---- Contained sides --------------------------------------------------------------------------------------------- */
 
 /* Parts looked at for one side: those at the front of a square's list hold most. */
 #define LOOKS 1024
@@ -54,7 +54,7 @@
 /* And there are no more squares than this for each part. */
 #define MOST_SQUARES 4.0
 
-/* ---- The table of vertices ---------------------------------------------------------------------------------------- */
+/* ---- The table of vertices --------------------------------------------------------------------------------------- */
 
 /* So many taken slots in a row do not come about by chance: in a table of n places, half full, the longest row is about
  * 5 ln n long. */
