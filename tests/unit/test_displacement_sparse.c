@@ -41,16 +41,16 @@ static void eliminate(double *a, double *b, size_t n)
 }
 
 /* A random graph on n nodes; a star now and then, as an outline with its houses is. */
-static size_t draw_graph(rng *g, size_t n, sunder_i_id_pair *couple)
+static size_t draw_graph(rng *g, size_t n, sunder_i_id_pair *pair)
 {
     size_t m = 0;
     const bool star = rng_once_in(g, 3);
     for (uint32_t a = 0; a < n; a++)
         for (uint32_t b = a + 1; b < n; b++)
             if (rng_once_in(g, 6) || (star && a == 3))
-                couple[m++] = rng_once_in(g, 2) ? (sunder_i_id_pair){b, a} : (sunder_i_id_pair){a, b};
-    /* A couple may come more than once. */
-    if (m) couple[m] = couple[0];
+                pair[m++] = rng_once_in(g, 2) ? (sunder_i_id_pair){b, a} : (sunder_i_id_pair){a, b};
+    /* A pair may come more than once. */
+    if (m) pair[m] = pair[0];
     return m ? m + 1 : 0;
 }
 
@@ -77,13 +77,13 @@ static void add_contact(sunder_i_sparse *matrix, double *full, size_t n, uint32_
 static void check_random(void **state)
 {
     (void)state;
-    static sunder_i_id_pair couple[MOST * MOST];
+    static sunder_i_id_pair pair[MOST * MOST];
     static double full[4 * MOST * MOST], x[2 * MOST], y[2 * MOST];
     for (size_t i = 0; i < test_count(300); i++) {
         rng g = rng_start(test_seed(), i);
-        const size_t n = (size_t)rng_int(&g, 1, MOST), m = draw_graph(&g, n, couple);
+        const size_t n = (size_t)rng_int(&g, 1, MOST), m = draw_graph(&g, n, pair);
         sunder_i_sparse matrix;
-        assert_true(sunder_i_sparse_init(&matrix, n, couple, m));
+        assert_true(sunder_i_sparse_init(&matrix, n, pair, m));
         sunder_i_sparse_clear(&matrix);
         memset(full, 0, sizeof full);
         for (size_t k = 0; k < 2 * n; k++) {
@@ -92,7 +92,7 @@ static void check_random(void **state)
             full[k * 2 * n + k] += h;
             x[k] = y[k] = rng_unit(&g) - 0.5;
         }
-        for (size_t k = 0; k < m; k++) add_contact(&matrix, full, n, couple[k].a, couple[k].b, &g);
+        for (size_t k = 0; k < m; k++) add_contact(&matrix, full, n, pair[k].a, pair[k].b, &g);
         assert_true(sunder_i_sparse_factor(&matrix));
         sunder_i_sparse_solve(&matrix, x);
         eliminate(full, y, 2 * n);
@@ -106,10 +106,10 @@ static void check_star(void **state)
 {
     (void)state;
     enum { RAYS = 1000 };
-    static sunder_i_id_pair couple[RAYS];
-    for (uint32_t k = 0; k < RAYS; k++) couple[k] = (sunder_i_id_pair){0, k + 1};
+    static sunder_i_id_pair pair[RAYS];
+    for (uint32_t k = 0; k < RAYS; k++) pair[k] = (sunder_i_id_pair){0, k + 1};
     sunder_i_sparse matrix;
-    assert_true(sunder_i_sparse_init(&matrix, RAYS + 1, couple, RAYS));
+    assert_true(sunder_i_sparse_init(&matrix, RAYS + 1, pair, RAYS));
     assert_int_equal(matrix.column[RAYS + 1], RAYS);
     assert_true(matrix.rank[0] >= RAYS - 1);
     sunder_i_sparse_clear(&matrix);

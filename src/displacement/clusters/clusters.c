@@ -31,7 +31,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->dirty);
     sunder_i_free(s->widened);
     sunder_i_free(s->changed);
-    sunder_i_free(s->standing);
+    sunder_i_free(s->reconsidered);
     sunder_i_free(s->improved);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);
@@ -52,10 +52,10 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->dirty = sunder_i_calloc(n, sizeof *s->dirty);
     s->widened = sunder_i_calloc(n, sizeof *s->widened);
     s->changed = sunder_i_calloc(s->model.features, sizeof *s->changed);
-    s->standing = sunder_i_calloc(n, sizeof *s->standing);
+    s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
     s->improved = sunder_i_calloc(n, sizeof *s->improved);
     s->carrier = sunder_i_alloc(n, sizeof *s->carrier);
-    if (!s->improved || !s->parent || !s->dirty || !s->widened || !s->changed || !s->standing || !s->carrier)
+    if (!s->improved || !s->parent || !s->dirty || !s->widened || !s->changed || !s->reconsidered || !s->carrier)
         return sunder_i_no_memory(err);
     sunder_i_union_init(s->parent, n);
     for (size_t b = 0; b < n; b++) s->carrier[b] = SUNDER_I_NOBODY;

@@ -144,7 +144,7 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, bool *any, sund
     sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
     *any = false;
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
-    memset(s->standing, SUNDER_I_UNASKED, model->bodies * sizeof *s->standing); /* within limits more can be proved */
+    memset(s->reconsidered, 0, model->bodies * sizeof *s->reconsidered); /* within limits more can be proved */
     if (!status) {
         find_offenders(s, root);
         for (uint32_t b = 0; b < model->bodies; b++) {

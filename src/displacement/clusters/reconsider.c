@@ -160,7 +160,7 @@ static void mark(const components *all, const sunder_i_model *model, uint32_t bo
 }
 
 /* What was proved infeasible is held to the clearance of its relaxation; ascending, as relaxations are. */
-static size_t list_held(const sunder_i_model *model, sunder_i_requirement *required)
+static size_t list_requirements(const sunder_i_model *model, sunder_i_requirement *required)
 {
     size_t n = 0;
     for (size_t k = 0; k < model->relaxations.n; k++) {
@@ -183,7 +183,7 @@ static sunder_status ask(const sunder_i_solver *s, const components *all, bool *
         mark(all, model, model->given_up[k].b, root);
     }
     for (size_t k = 0; k < all->n; k++)
-        asked[k] = root[all->component[k].root] && s->standing[all->component[k].root] == SUNDER_I_UNASKED;
+        asked[k] = root[all->component[k].root] && !s->reconsidered[all->component[k].root];
     sunder_i_free(root);
     return SUNDER_OK;
 }
@@ -236,14 +236,15 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sund
     if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
     if (!status) status = ask(s, &all, asked, err);
     if (!status) {
-        asking g = {s, all.component, asked, required, list_held(&s->model, required), decision};
+        asking g = {s, all.component, asked, required, list_requirements(&s->model, required), decision};
         status = sunder_i_parallel(s->model.rules.threads, all.n, 1, decide_some, &g, err);
     }
     if (!status) memset(s->changed, 0, s->model.features * sizeof *s->changed);
     for (size_t k = 0; k < all.n && !status; k++) {
-        unsigned char *standing = &s->standing[all.component[k].root];
-        if (asked[k] && decision[k].verdict != SUNDER_I_FEASIBLE) *standing = SUNDER_I_LEFT;
-        if (decision[k].verdict != SUNDER_I_FEASIBLE) continue;
+        if (decision[k].verdict != SUNDER_I_FEASIBLE) {
+            s->reconsidered[all.component[k].root] |= asked[k];
+            continue;
+        }
         *changed = true;
         if (!go_on_from(s, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
     }

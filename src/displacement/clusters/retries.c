@@ -164,7 +164,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     const sunder_i_body *p = &model->body[b];
     const double *t = model->move + 2 * (size_t)b, reach = model->rules.gap + far;
     double box[4];
-    if (p->fixed || p->pinned || p->pieces == 0) return true;
+    if (!sunder_i_may_move(p) || p->pieces == 0) return true;
     sunder_i_body_box(p, t, reach, box);
     near->n = 0;
     if (!sunder_i_rtree_query(model->standing, box, near)) return false;
@@ -183,7 +183,7 @@ static bool join_neighbours(sunder_i_solver *s)
     const sunder_i_model *model = &s->model;
     sunder_i_list near = {0};
     bool *alone = sunder_i_alloc(model->bodies, sizeof *alone), ok = alone != NULL;
-    for (size_t b = 0; b < model->bodies && ok; b++) alone[b] = !model->body[b].fixed && !model->body[b].pinned;
+    for (size_t b = 0; b < model->bodies && ok; b++) alone[b] = sunder_i_may_move(&model->body[b]);
     for (size_t e = 0; e < s->edges && ok; e++) alone[s->edge[e].a] = alone[s->edge[e].b] = false;
     for (size_t k = 0; k < model->relaxations.n && ok; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];

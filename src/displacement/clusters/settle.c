@@ -124,7 +124,7 @@ static void carry(sunder_i_solver *s, uint32_t f, uint32_t g)
         const uint32_t holder = model->body_of[e ? g : f], inner = model->body_of[e ? f : g];
         const double *t = model->move + 2 * (size_t)holder, *own = model->move + 2 * (size_t)inner;
         if (sunder_i_keeps_inside(model, e ? g : f, e ? f : g, &state) && own[0] == 0 && own[1] == 0 &&
-            !model->body[inner].fixed && !model->body[inner].pinned && sunder_i_within(t, model->body[inner].limit))
+            sunder_i_may_move(&model->body[inner]) && sunder_i_within(t, model->body[inner].limit))
             s->carrier[inner] = holder;
     }
 }
@@ -161,10 +161,10 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        const bool fi = model->body[i].fixed, fj = model->body[j].fixed;
+        const bool fi = model->body[i].fixed;
         if (s->aside && (s->aside[i] || s->aside[j])) continue;
         if (!sunder_i_is_conflict(r) || i == j) continue;
-        if ((fi || model->body[i].pinned) && (fj || model->body[j].pinned)) continue;
+        if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
         if (sunder_i_relaxations_find(&model->relaxations, r->a, r->b)) {
             const sunder_status status = heed_relaxation(s, r, any, err);
             if (status) return status;

@@ -9,12 +9,6 @@ typedef struct sunder_i_cluster_member {
     uint32_t root, body;
 } sunder_i_cluster_member;
 
-/* What is known of a component of the layer's conflicts. */
-typedef enum sunder_i_standing {
-    SUNDER_I_UNASKED,
-    SUNDER_I_LEFT /* asked about, and no solution was found */
-} sunder_i_standing;
-
 /* Features a and b, of which the one is to get inside the other: a move of b that brings them there. */
 typedef struct sunder_i_entry {
     uint32_t a, b;
@@ -36,7 +30,7 @@ typedef struct sunder_i_solver {
     bool *dirty;                     /* [bodies] to be solved (again) */
     unsigned char *widened;          /* [bodies] how often the margin grew */
     bool *changed;                   /* [features] moved in this round */
-    unsigned char *standing;         /* [bodies] a sunder_i_standing, by the least of a component of conflicts */
+    bool *reconsidered;              /* [bodies] of the least of a component of conflicts: no solution was found */
     bool *improved;                  /* [bodies] better sides were looked for since the body's cluster was solved */
     double *limit;                   /* [bodies] the limits, while they are lifted */
     bool *aside;                     /* [bodies] left as they are while limits are lifted; NULL: they never were */

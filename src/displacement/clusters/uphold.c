@@ -92,11 +92,6 @@ static void goal_of(const trial *t, size_t k, const double to[2], double goal[2]
     for (unsigned c = 0; c < 2; c++) goal[c] = t->along >> c & 1 ? to[c] : t->stood[2 * k + c];
 }
 
-static bool can_move(const sunder_i_solver *s, uint32_t b)
-{
-    return !s->model.body[b].fixed && !s->model.body[b].pinned;
-}
-
 static bool take(trial *t, uint32_t b)
 {
     const double *move = t->solver->model.move + 2 * (size_t)b;
@@ -220,7 +215,8 @@ static sunder_status take_alike(trial *t, uint32_t b, double hair, sunder_error 
         if (!sunder_i_rtree_query(&t->solver->placement.tree, box, &t->near)) return sunder_i_no_memory(err);
         for (size_t k = 0; k < t->near.n; k++) {
             const uint32_t other = model->body_of[t->near.item[k]];
-            if (t->taken[other] || !can_move(t->solver, other) || !is_alike(t, b, other, hair)) continue;
+            if (t->taken[other] || !sunder_i_may_move(&t->solver->model.body[other]) || !is_alike(t, b, other, hair))
+                continue;
             if (!take(t, other)) return sunder_i_no_memory(err);
             t->taken[other] = true;
         }
@@ -271,7 +267,7 @@ static sunder_status mend(sunder_i_solver *s, uint32_t i, uint32_t j, size_t *bu
             const double *other = s->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
             t.n = 0;
             t.along = ways[k].along;
-            if (!can_move(s, pair[e])) continue;
+            if (!sunder_i_may_move(&s->model.body[pair[e]])) continue;
             if (!take(&t, pair[e])) status = sunder_i_no_memory(err);
             if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
             if (!status && ways[k].way == PARTNER) status = try_place(&t, to, err);
@@ -297,9 +293,10 @@ static double cost_of(const sunder_i_solver *s, uint32_t b)
 static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const double home[2] = {0, 0};
-    uint32_t b = can_move(s, i) ? i : j;
-    if (can_move(s, i) && can_move(s, j) && cost_of(s, j) < cost_of(s, i)) b = j;
-    if (can_move(s, i) && can_move(s, j) && cost_of(s, b) == 0) b = b == i ? j : i;
+    const bool may_i = sunder_i_may_move(&s->model.body[i]), may_j = sunder_i_may_move(&s->model.body[j]);
+    uint32_t b = may_i ? i : j;
+    if (may_i && may_j && cost_of(s, j) < cost_of(s, i)) b = j;
+    if (may_i && may_j && cost_of(s, b) == 0) b = b == i ? j : i;
     memset(s->changed, 0, s->model.features * sizeof *s->changed);
     sunder_i_solver_place(s, b, home);
     const sunder_status status = sunder_i_solver_check(s, err);
@@ -318,7 +315,8 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];
             bool breaks, well = false;
             status = breaks_rule(s, &r, &breaks, err);
-            if (status || !breaks || (!can_move(s, i) && !can_move(s, j))) continue;
+            if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
+                continue;
             any = true;
             status = mend(s, i, j, &budget, &well, err);
             if (status || well) continue;

@@ -28,6 +28,9 @@ typedef struct sunder_i_body_piece {
     double box[4]; /* relative to the body's origin */
 } sunder_i_body_piece;
 
+/* May it move at all? */
+static inline bool sunder_i_may_move(const sunder_i_body *body) { return !body->fixed && !body->pinned; }
+
 /* How far the body may go. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 

@@ -11,7 +11,7 @@
 #include "displacement/obstacles/tuning.h"
 
 #include "base/invariant.h"
-#include "base/memory.h"
+#include "base/list.h"
 #include "base/watch.h"
 #include "spatial/box.h"
 

@@ -8,7 +8,7 @@
 #include "displacement/obstacles/obstacle.h"
 #include "displacement/obstacles/tuning.h"
 
-#include "base/memory.h"
+#include "base/list.h"
 #include "convex/merge.h"
 
 #include <math.h>
@@ -41,8 +41,8 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
-size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
-                           sunder_i_scratch *scratch)
+size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
+                                 sunder_i_scratch *scratch)
 {
     double *d = reserve(scratch, na + nb);
     if (!d) return 0;
@@ -66,7 +66,7 @@ size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t n
     return n;
 }
 
-size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_obstacle_edge *edge)
+size_t sunder_i_obstacle_edges(const double *d, size_t n, sunder_i_obstacle_edge *edge)
 {
     size_t edges = 0;
     for (size_t k = 0; k < n; k++) {

@@ -24,8 +24,8 @@ static inline bool sunder_i_turns_first(const double u[2], const double v[2])
 
 /* The obstacle A + (-B) of two convex polygons: corners counter-clockwise in scratch->xy. Returns how many, 0 if memory
  * is out. */
-size_t sunder_i_difference(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
-                           sunder_i_scratch *scratch);
+size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
+                                 sunder_i_scratch *scratch);
 
 /* A support constraint n.u >= support + gap, valid for every u outside the obstacle on that side. */
 typedef struct sunder_i_support {
@@ -39,7 +39,7 @@ typedef struct sunder_i_obstacle_edge {
 } sunder_i_obstacle_edge;
 
 /* The edges of the convex polygon d of n corners, those without length left out, in edge[n]; returns how many. */
-size_t sunder_i_edges_of(const double *d, size_t n, sunder_i_obstacle_edge *edge);
+size_t sunder_i_obstacle_edges(const double *d, size_t n, sunder_i_obstacle_edge *edge);
 /* The support line of the convex polygon of these edges that is farthest below u. */
 sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
 

@@ -4,7 +4,7 @@
 #include "displacement/obstacles/tuning.h"
 
 #include "base/invariant.h"
-#include "base/memory.h"
+#include "base/list.h"
 
 #include <string.h>
 
@@ -62,7 +62,7 @@ const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cach
     if (!make_room(cache) || !sunder_i_reserve(&cache->edge, &cache->capacity, cache->edges + *n, sizeof *cache->edge))
         return NULL;
     sunder_i_obstacle_edge *edge = cache->edge + cache->edges;
-    *n = sunder_i_edges_of(d, *n, edge);
+    *n = sunder_i_obstacle_edges(d, *n, edge);
     cache->slot[slot_of(cache, key)] = (cached_obstacle){key, (uint32_t)cache->edges, (uint32_t)*n};
     cache->edges += *n;
     cache->used++;

@@ -12,7 +12,6 @@
 #include "displacement/programs/sparse.h"
 #include "displacement/programs/tuning.h"
 
-#include "base/memory.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -44,20 +43,20 @@ static uint32_t unknown_of(const interior *q, uint32_t body)
 static bool shape_matrix(interior *q)
 {
     const sunder_i_quadratic *p = q->p;
-    sunder_i_id_pair *couple = sunder_i_alloc(q->m, sizeof *couple);
+    sunder_i_id_pair *pair = sunder_i_alloc(q->m, sizeof *pair);
     q->unknown = sunder_i_alloc(p->bodies, sizeof *q->unknown);
-    bool ok = couple && q->unknown;
+    bool ok = pair && q->unknown;
     for (size_t b = 0; ok && b < p->bodies; b++) {
         q->unknown[b] = p->mass[b] > 0 ? (uint32_t)q->n : SUNDER_I_GROUND;
         if (p->mass[b] > 0) q->n += 2;
     }
-    size_t couples = 0;
+    size_t pairs = 0;
     for (size_t c = 0; ok && c < q->m; c++) {
         const uint32_t a = unknown_of(q, p->constraint[c].i), b = unknown_of(q, p->constraint[c].j);
-        if (a != SUNDER_I_GROUND && b != SUNDER_I_GROUND) couple[couples++] = (sunder_i_id_pair){a / 2, b / 2};
+        if (a != SUNDER_I_GROUND && b != SUNDER_I_GROUND) pair[pairs++] = (sunder_i_id_pair){a / 2, b / 2};
     }
-    ok = ok && sunder_i_sparse_init(&q->matrix, q->n / 2, couple, couples);
-    sunder_i_free(couple);
+    ok = ok && sunder_i_sparse_init(&q->matrix, q->n / 2, pair, pairs);
+    sunder_i_free(pair);
     return ok;
 }
 

@@ -7,7 +7,6 @@
 #include "displacement/programs/sparse.h"
 
 #include "base/invariant.h"
-#include "base/memory.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,7 +57,7 @@ static void enlist(graph *g, uint32_t v)
     *head = v;
 }
 
-static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *couple, size_t couples)
+static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *pair, size_t pairs)
 {
     memset(g, 0, sizeof *g);
     g->n = n;
@@ -67,8 +66,9 @@ static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *couple, size_
     g->next = sunder_i_alloc(n, sizeof *g->next);
     g->prev = sunder_i_alloc(n, sizeof *g->prev);
     if (!g->near || !g->head || !g->next || !g->prev) return false;
-    for (size_t k = 0; k < couples; k++)
-        if (!sunder_i_list_push(&g->near[couple[k].a], couple[k].b) || !sunder_i_list_push(&g->near[couple[k].b], couple[k].a)) return false;
+    for (size_t k = 0; k < pairs; k++)
+        if (!sunder_i_list_push(&g->near[pair[k].a], pair[k].b) || !sunder_i_list_push(&g->near[pair[k].b], pair[k].a))
+            return false;
     for (size_t v = 0; v < n; v++) {
         sunder_i_list *near = &g->near[v];
         near->n = sunder_i_set_make(near->item, near->n);
@@ -168,7 +168,7 @@ static const char *check(const sunder_i_sparse *m)
 }
 #endif
 
-bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *couple, size_t couples)
+bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *pair, size_t pairs)
 {
     memset(m, 0, sizeof *m);
     m->n = n;
@@ -181,7 +181,7 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *
     m->y = sunder_i_alloc(2 * n, sizeof *m->y);
     if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y) return false;
     graph g;
-    const bool ok = graph_init(&g, n, couple, couples) && eliminate(&g, m->rank) && fill_columns(m, &g);
+    const bool ok = graph_init(&g, n, pair, pairs) && eliminate(&g, m->rank) && fill_columns(m, &g);
     graph_free(&g);
     SUNDER_I_CHECK(ok ? check(m) : NULL, n);
     return ok;

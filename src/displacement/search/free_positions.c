@@ -79,8 +79,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
             const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
             if (relaxation && relaxation->inside) continue;
             const size_t n =
-                sunder_i_difference(model->corner + 2 * (size_t)a->corner, a->corners,
-                                    model->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
+                sunder_i_obstacle_corners(model->corner + 2 * (size_t)a->corner, a->corners,
+                                          model->corner + 2 * (size_t)b->corner, b->corners, offset, &s->scratch);
             if (n == 0) {
                 s->failed = true;
                 return;

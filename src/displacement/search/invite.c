@@ -8,11 +8,6 @@
 
 #include <math.h>
 
-static bool can_move(const sunder_i_model *model, uint32_t body)
-{
-    return !model->body[body].fixed && !model->body[body].pinned;
-}
-
 /* Bodies that clash with the cluster's body i at that place. */
 static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i, const double place[2])
 {
@@ -30,7 +25,7 @@ static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i
 
 static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
 {
-    for (size_t k = s->own; k < s->n; k++) s->away[k] = can_move(s->model, s->body[k]);
+    for (size_t k = s->own; k < s->n; k++) s->away[k] = sunder_i_may_move(&s->model->body[s->body[k]]);
     const double cost = sunder_i_search_cost(s, s->t);
     for (uint32_t i = 0; i < cluster->n && !s->failed; i++) {
         const double *t = s->t + 2 * i, square = t[0] * t[0] + t[1] * t[1];

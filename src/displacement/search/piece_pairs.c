@@ -123,8 +123,8 @@ double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_
 static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
 {
     const double *corner = s->model->corner;
-    return sunder_i_difference(corner + 2 * (size_t)part->a->corner, part->a->corners,
-                               corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
+    return sunder_i_obstacle_corners(corner + 2 * (size_t)part->a->corner, part->a->corners,
+                                     corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
 }
 
 /* What a part without a relaxation owes, n edges of its obstacle given. */
@@ -141,7 +141,7 @@ static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, co
 static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
 {
     if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;
-    *n = sunder_i_edges_of(s->scratch.xy, *n, s->shifted);
+    *n = sunder_i_obstacle_edges(s->scratch.xy, *n, s->shifted);
     return s->shifted;
 }
 

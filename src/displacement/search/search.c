@@ -27,7 +27,7 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     if (!s->mass || !s->away || !s->t || !s->next || !s->box || !s->order) return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
-        s->mass[k] = b->fixed || b->pinned ? 0 : 0.5 / b->weight;
+        s->mass[k] = sunder_i_may_move(b) ? 0.5 / b->weight : 0;
         if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
     memcpy(s->t, move, 2 * n * sizeof *s->t);
