@@ -83,7 +83,7 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
 /* A vector of doubles of the caller's units. */
 sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *operands, double dx, double dy);
 sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_rational_point at);
-/* A rational spot's point. */
+/* What a rational one is. */
 static inline sunder_i_rational_point sunder_i_surd_point_of(const sunder_i_surd_point *at)
 {
     return (sunder_i_rational_point){at->x.part[0], at->y.part[0], at->w};

@@ -80,7 +80,7 @@ static inline float sunder_i_floats_least(sunder_i_floats v)
     return a < b ? a : b;
 }
 
-/* May a subsum of bodies with the extents u and v come near the square aimed at? */
+/* May a subsum of bodies with the extents u and v come near the square that is asked about? */
 static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_masks off = {0, 0, 0, 0};
