@@ -238,10 +238,8 @@ static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector 
 
 static bool common(sunder_i_operands *g, double on[2])
 {
-    const double *all = g->box[1], e = g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
-        const double *own = g->piece_box[0] + 4 * (size_t)i;
-        if (own[0] > all[2] + e || own[2] < all[0] - e || own[1] > all[3] + e || own[3] < all[1] - e) continue;
+        if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, g->box[1], g->error)) continue;
         for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
             if (!sunder_i_pieces_overlap(g, i, j)) continue;
             const size_t most = (size_t)g->shape[0]->vertices + g->shape[1]->vertices + 2;

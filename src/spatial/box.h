@@ -34,6 +34,36 @@ static inline bool sunder_i_box_meet(const double a[4], const double b[4])
     return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
+/* The same where both may be off: do they come that near to each other? */
+static inline bool sunder_i_box_near(const double a[4], const double b[4], double reach)
+{
+    return a[0] <= b[2] + reach && b[0] <= a[2] + reach && a[1] <= b[3] + reach && b[1] <= a[3] + reach;
+}
+
+/* Does a point come that near to the box? What is no number does. */
+static inline bool sunder_i_box_near_point(const double box[4], double x, double y, double reach)
+{
+    return !(x < box[0] - reach || x > box[2] + reach || y < box[1] - reach || y > box[3] + reach);
+}
+
+/* The Minkowski sum of two boxes. */
+static inline void sunder_i_box_sum(const double a[4], const double b[4], double out[4])
+{
+    for (int k = 0; k < 4; k++) out[k] = a[k] + b[k];
+}
+
+/* Does a point come that near to the sum? */
+static inline bool sunder_i_box_sum_near_point(const double a[4], const double b[4], double x, double y, double reach)
+{
+    return !(x < a[0] + b[0] - reach || x > a[2] + b[2] + reach || y < a[1] + b[1] - reach || y > a[3] + b[3] + reach);
+}
+
+/* How far the box is from the origin, in either coordinate. */
+static inline void sunder_i_box_distance(const double box[4], double out[2])
+{
+    for (int k = 0; k < 2; k++) out[k] = box[k] > 0 ? box[k] : box[k + 2] < 0 ? -box[k + 2] : 0;
+}
+
 /* The box grown by reach; one step outward covers the rounding of the sum. */
 static inline void sunder_i_box_grow(const double box[4], double reach, double out[4])
 {

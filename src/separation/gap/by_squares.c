@@ -166,8 +166,7 @@ static bool number_pairs(gathering *c)
     for (size_t k = 0; k < n; k++) {
         sunder_i_subsum *s = g->subsum + k;
         *s = (sunder_i_subsum){.i = (uint32_t)(key[k] >> 32), .j = (uint32_t)key[k]};
-        const double *u = box_of(g, c->q->bodies, 0, s->i), *v = box_of(g, c->q->bodies + 1, 1, s->j);
-        for (int m = 0; m < 4; m++) s->box[m] = u[m] + v[m];
+        sunder_i_box_sum(box_of(g, c->q->bodies, 0, s->i), box_of(g, c->q->bodies + 1, 1, s->j), s->box);
     }
     for (size_t k = 0; k < c->pairs; k++) {
         size_t low = 0, high = n - 1;

@@ -63,9 +63,7 @@ const sunder_i_gap_subsum *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
 
 bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, double y, double reach)
 {
-    const double *b = s->g->subsum[k].box, e = s->g->error;
-    const double r = reach + e;
-    return !(x < b[0] - r || x > b[2] + r || y < b[1] - r || y > b[3] + r); /* what is not a number is near */
+    return sunder_i_box_near_point(s->g->subsum[k].box, x, y, reach + s->g->error);
 }
 
 /* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error

@@ -189,13 +189,10 @@ bool sunder_i_gap_verify(const sunder_i_gap_problem *p, const sunder_i_surd_poin
     c.doubt = 256 * DBL_EPSILON * (g->magnitude + c.gap);
     const double reach = p->gap_units * (1 + 0x1p-50) + 4 * g->error;
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
-        const double *a = g->piece_box[0] + 4 * (size_t)i;
         const sunder_i_operand_piece u = sunder_i_operands_piece(g, 0, i);
         for (uint32_t j = 0; j < g->shape[1]->pieces; j++) {
-            const double *b = g->piece_box[1] + 4 * (size_t)j, x = c.at[0], y = c.at[1];
-            if (x < a[0] + b[0] - reach || x > a[2] + b[2] + reach || y < a[1] + b[1] - reach ||
-                y > a[3] + b[3] + reach)
-                continue;
+            const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
+            if (!sunder_i_box_sum_near_point(a, b, c.at[0], c.at[1], reach)) continue;
             const sunder_i_operand_piece v = sunder_i_operands_piece(g, 1, j);
             if (!pieces_apart(&c, &u, &v)) return false;
         }

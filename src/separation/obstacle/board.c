@@ -53,14 +53,6 @@ static bool holds(sunder_i_operands *g, sunder_i_subsum *s, const double box[4])
     return true;
 }
 
-static bool comes_near(const sunder_i_operands *g, const sunder_i_subsum *s, const double box[4])
-{
-    const double e = 4 * g->error;
-    for (int k = 0; k < 2; k++)
-        if (box[k] - e > s->box[k + 2] || box[k + 2] + e < s->box[k]) return false;
-    return true;
-}
-
 static void close_part(sunder_i_board *h, const part *p, uint32_t holder)
 {
     for (uint32_t y = p->y0; y < p->y1; y++)
@@ -94,7 +86,7 @@ static bool settle(board *b, const part *parent, part p, uint32_t *start)
     for (size_t i = parent->from; i < parent->to; i++) {
         const uint32_t number = b->near[i];
         sunder_i_subsum *s = b->g->subsum + number;
-        if (!comes_near(b->g, s, box)) continue;
+        if (!sunder_i_box_near(s->box, box, 4 * b->g->error)) continue;
         if (tries < TRIES && s->box[0] < box[0] && s->box[1] < box[1] && s->box[2] > box[2] && s->box[3] > box[3]) {
             tries++;
             if (holds(b->g, s, box)) {

@@ -117,8 +117,8 @@ static sunder_i_fan_answer inside_fan(const sunder_i_subsum *s, double x, double
 }
 
 /* Is the point in the interior of the subsum? Doubles where they suffice. */
-static bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
-                   const sunder_i_subsum *s)
+static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                          double y, const sunder_i_subsum *s)
 {
     if (s->sides >= SUNDER_I_SIDES_MANY) {
         const sunder_i_fan_answer where = inside_fan(s, x, y, g->error);
@@ -140,12 +140,11 @@ static bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sun
 }
 
 /* Does subsum k cover the point? False too if memory is out. */
-static bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
-                   size_t k)
+static inline bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
+                          double y, size_t k)
 {
-    const double e = g->error;
     sunder_i_subsum *s = g->subsum + k;
-    if (x < s->box[0] - e || x > s->box[2] + e || y < s->box[1] - e || y > s->box[3] + e) return false;
+    if (!sunder_i_box_near_point(s->box, x, y, g->error)) return false;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
     g->placed.lattice.counts.orientation_tests++;
     return inside(g, line, t, x, y, s);

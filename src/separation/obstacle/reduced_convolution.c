@@ -16,7 +16,9 @@
 
 bool sunder_i_candidates_push(sunder_i_operands *g, sunder_i_candidates *h, sunder_i_candidate c)
 {
-    if (!sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + 1, sizeof c)) return false;
+    if (h->n == h->capacity &&
+        !sunder_i_arena_reserve(&g->placed.lattice.arena, &h->item, &h->capacity, h->n + 1, sizeof c))
+        return false;
     h->item[h->n++] = c;
     return true;
 }

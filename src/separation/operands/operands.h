@@ -10,6 +10,7 @@
 #include "base/watch.h"
 #include "predicate/narrow.h"
 #include "shape/shape.h"
+#include "spatial/box.h"
 
 /* R_ij, counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
 typedef struct sunder_i_subsum {

@@ -25,8 +25,7 @@ static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
 
 bool sunder_i_pieces_overlap(sunder_i_operands *g, uint32_t i, uint32_t j)
 {
-    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
-    if (a[2] < b[0] - e || b[2] < a[0] - e || a[3] < b[1] - e || b[3] < a[1] - e) return false;
+    if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, g->error)) return false;
     return !side_parts(g, 0, i, j) && !side_parts(g, 1, j, i);
 }
 
@@ -37,12 +36,8 @@ static uint32_t *pieces_near(sunder_i_operands *g, int side, double reach, uint3
     uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, all, sizeof *list);
     *n = 0;
     if (!list) return NULL;
-    const double *o = g->box[!side];
-    for (uint32_t i = 0; i < all; i++) {
-        const double *b = g->piece_box[side] + 4 * (size_t)i;
-        if (b[0] <= o[2] + reach && o[0] <= b[2] + reach && b[1] <= o[3] + reach && o[1] <= b[3] + reach)
-            list[(*n)++] = i;
-    }
+    for (uint32_t i = 0; i < all; i++)
+        if (sunder_i_box_near(g->piece_box[side] + 4 * (size_t)i, g->box[!side], reach)) list[(*n)++] = i;
     return list;
 }
 

@@ -12,16 +12,16 @@
 
 static bool touches_disc(const double box[4], double radius)
 {
-    const double x = box[0] > 0 ? box[0] : box[2] < 0 ? -box[2] : 0;
-    const double y = box[1] > 0 ? box[1] : box[3] < 0 ? -box[3] : 0;
+    double d[2];
+    sunder_i_box_distance(box, d);
+    const double x = d[0], y = d[1];
     return x <= radius && y <= radius && (x + y <= radius || x * x + y * y <= radius * radius * (1 + 0x1p-50));
 }
 
 /* Which of the subsums matter: 0 none, 1 comes within reach, 2 may cover the origin. */
 static int nearness(const sunder_i_operands *g, uint32_t i, uint32_t j, double reach, double box[4])
 {
-    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
-    for (int k = 0; k < 4; k++) box[k] = a[k] + b[k];
+    sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, box);
     return touches_disc(box, 2 * g->error) ? 2 : touches_disc(box, reach) ? 1 : 0;
 }
 

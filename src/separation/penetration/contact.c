@@ -28,8 +28,7 @@ static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
 /* The cone of one subsum at the point; false if the point is not on its boundary. */
 static bool cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
 {
-    const double e = g->error;
-    if (f->x < s->box[0] - e || f->x > s->box[2] + e || f->y < s->box[1] - e || f->y > s->box[3] + e) return false;
+    if (!sunder_i_box_near_point(s->box, f->x, f->y, g->error)) return false;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
     uint32_t on[2], n = 0;
     for (uint32_t k = 0; k < s->sides; k++) {

@@ -86,10 +86,9 @@ bool sunder_i_doubles_free(sunder_i_operands *g, double dx, double dy)
 {
     if (!isfinite(dx) || !isfinite(dy)) return false;
     const dyadic d = dyadic_of(g, dx, dy);
-    const double e = g->error;
     for (size_t n = 0; n < g->subsums; n++) {
         sunder_i_subsum *s = g->subsum + n;
-        if (d.ax < s->box[0] - e || d.ax > s->box[2] + e || d.ay < s->box[1] - e || d.ay > s->box[3] + e) continue;
+        if (!sunder_i_box_near_point(s->box, d.ax, d.ay, g->error)) continue;
         if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
         bool inside = true;
         for (uint32_t k = 0; k < s->sides && inside; k++) {

@@ -54,9 +54,8 @@ static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const
 /* Does the point lie off the subsum of these pieces by its box, or by a side of one of them? */
 static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
 {
-    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j, e = g->error;
-    if (f->x < a[0] + b[0] - e || f->x > a[2] + b[2] + e || f->y < a[1] + b[1] - e || f->y > a[3] + b[3] + e)
-        return true;
+    const double *a = g->piece_box[0] + 4 * (size_t)i, *b = g->piece_box[1] + 4 * (size_t)j;
+    if (!sunder_i_box_sum_near_point(a, b, f->x, f->y, g->error)) return true;
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);
     return side_parts(g, f, &p, &q) || side_parts(g, f, &q, &p);
 }
@@ -79,13 +78,11 @@ static int by_low_x(void *context, uint32_t i, uint32_t j)
 static bool line_up(const sunder_i_operands *g, const sunder_i_free_point *f, int side, row *r)
 {
     const uint32_t n = g->shape[side]->pieces;
-    const double *o = g->box[!side], e = g->error;
     *r = (row){.box = g->piece_box[side], .piece = sunder_i_alloc(n, sizeof *r->piece)};
     if (!r->piece) return false;
     for (uint32_t i = 0; i < n; i++) {
         const double *a = r->box + 4 * (size_t)i;
-        if (f->x < a[0] + o[0] - e || f->x > a[2] + o[2] + e || f->y < a[1] + o[1] - e || f->y > a[3] + o[3] + e)
-            continue;
+        if (!sunder_i_box_sum_near_point(a, g->box[!side], f->x, f->y, g->error)) continue;
         r->piece[r->n++] = i;
         r->widest = fmax(r->widest, a[2] - a[0]);
     }

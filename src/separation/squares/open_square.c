@@ -65,8 +65,7 @@ bool sunder_i_squares_take_subsums(sunder_i_squares *q)
     for (size_t k = 0; k < g->subsums; k++) {
         sunder_i_subsum *s = g->subsum + k;
         *s = (sunder_i_subsum){.i = q->pair[k][0], .j = q->pair[k][1]};
-        for (int m = 0; m < 4; m++)
-            s->box[m] = g->piece_box[0][4 * (size_t)s->i + (size_t)m] + g->piece_box[1][4 * (size_t)s->j + (size_t)m];
+        sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)s->i, g->piece_box[1] + 4 * (size_t)s->j, s->box);
     }
     return g->subsum != NULL;
 }

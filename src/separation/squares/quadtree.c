@@ -42,8 +42,7 @@ static bool passes(const builder *b, uint32_t v, const double box[4])
 
 static bool meets(const builder *b, uint32_t piece, const double box[4])
 {
-    const double *p = b->g->piece_box[b->side] + 4 * (size_t)piece;
-    return p[0] <= box[2] && p[2] >= box[0] && p[1] <= box[3] && p[3] >= box[1];
+    return sunder_i_box_meet(b->g->piece_box[b->side] + 4 * (size_t)piece, box);
 }
 
 /* Is a certain point of the box in the piece for certain? */

@@ -35,9 +35,9 @@ sunder_i_square sunder_i_squares_first(sunder_i_squares *q)
 
 static double distance_of(const double box[4])
 {
-    const double x = box[0] > 0 ? box[0] : box[2] < 0 ? -box[2] : 0;
-    const double y = box[1] > 0 ? box[1] : box[3] < 0 ? -box[3] : 0;
-    return sqrt(x * x + y * y);
+    double d[2];
+    sunder_i_box_distance(box, d);
+    return sqrt(d[0] * d[0] + d[1] * d[1]);
 }
 
 bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
