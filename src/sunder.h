@@ -93,6 +93,9 @@ typedef enum sunder_validity {
     SUNDER_VALIDITY_EVEN_ODD /* the set that each polygon's rings enclose by the even-odd rule, taken exactly */
 } sunder_validity;
 
+/* "strict", "even-odd"; never NULL, "" for a number that is none of the values (so for all enumerations below). */
+SUNDER_API const char *sunder_validity_string(sunder_validity validity);
+
 /* A polygonal set from plain arrays.
  *
  * xy         2 * n coordinates x0 y0 x1 y1 ... of all rings, one after the other. Finite; else SUNDER_EINVALID.
@@ -245,6 +248,8 @@ typedef struct sunder_sum_method {
 } sunder_sum_method;
 
 typedef enum sunder_phase { SUNDER_PHASE_DECOMPOSE, SUNDER_PHASE_SUBSUMS, SUNDER_PHASE_UNION } sunder_phase;
+/* "decompose", "subsums", "union"; never NULL. */
+SUNDER_API const char *sunder_phase_string(sunder_phase phase);
 
 SUNDER_API void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
 /* Operations of one phase; false, and all zero, if the road has no such phases (the convolution). */
@@ -399,6 +404,9 @@ typedef enum sunder_containment {
     SUNDER_CONTAINMENT_IGNORE,  /* it may overlap the one that it lies in */
     SUNDER_CONTAINMENT_SEPARATE /* it is separated like any other */
 } sunder_containment;
+
+/* "block", "ignore", "separate"; never NULL. */
+SUNDER_API const char *sunder_containment_string(sunder_containment containment);
 
 typedef struct sunder_layer_options {
     double gap;             /* >= 0 */

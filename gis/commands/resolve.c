@@ -32,15 +32,7 @@ static const char *order_word(unsigned i) { return sunder_order_string((sunder_o
 static const char *operation_word(unsigned i) { return sunder_operation_string((sunder_operation)i); }
 static const char *invalid_word(unsigned i) { return gis_invalid_string((gis_invalid)i); }
 static const char *weighting_word(unsigned i) { return gis_weighting_string((gis_weighting)i); }
-
-/* The library has no words for this one. */
-static const char *containment_word(unsigned i)
-{
-    static const char *const word[] = {[SUNDER_CONTAINMENT_BLOCK] = "block",
-                                       [SUNDER_CONTAINMENT_IGNORE] = "ignore",
-                                       [SUNDER_CONTAINMENT_SEPARATE] = "separate"};
-    return i < sizeof word / sizeof *word ? word[i] : "";
-}
+static const char *containment_word(unsigned i) { return sunder_containment_string((sunder_containment)i); }
 
 static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_error *error)
 {

@@ -179,7 +179,6 @@ static void json_seconds(gis_json *out, const sum_run *run)
 /* The convolution has no phases that count for themselves. */
 static void json_operations(gis_json *out, const sum_run *run)
 {
-    static const char *const phase[] = {"decompose", "subsums", "union"};
     sunder_counts counts;
     sunder_sum_get_counts(run->sum, &counts);
     gis_json_key(out, "operations");
@@ -189,7 +188,7 @@ static void json_operations(gis_json *out, const sum_run *run)
     gis_json_open(out, '{');
     for (int i = SUNDER_PHASE_DECOMPOSE; i <= SUNDER_PHASE_UNION; i++) {
         if (!sunder_sum_phase(run->sum, (sunder_phase)i, &counts)) break;
-        gis_json_key(out, phase[i]);
+        gis_json_key(out, sunder_phase_string((sunder_phase)i));
         gis_json_open(out, '{');
         gis_json_operations(out, &counts);
         gis_json_close(out, '}');

@@ -16,6 +16,8 @@ WORDS(sunder_status_string, sunder_status, SUNDER_EFAULT, "unknown status", "no 
       "argument out of range", "result beyond the range of doubles", "out of memory", "stopped on request",
       "more parts than can be numbered", "internal fault")
 
+WORDS(sunder_validity_string, sunder_validity, SUNDER_VALIDITY_EVEN_ODD, "", "strict", "even-odd")
+
 WORDS(sunder_algorithm_string, sunder_algorithm, SUNDER_ALGORITHM_DIVIDE, "", "auto", "convolution", "arrangement",
       "incremental", "divide")
 
@@ -24,10 +26,14 @@ WORDS(sunder_decomposition_string, sunder_decomposition, SUNDER_DECOMPOSITION_MI
 
 WORDS(sunder_order_string, sunder_order, SUNDER_ORDER_GIVEN, "", "random", "fat", "given")
 
+WORDS(sunder_phase_string, sunder_phase, SUNDER_PHASE_UNION, "", "decompose", "subsums", "union")
+
 WORDS(sunder_operation_string, sunder_operation, SUNDER_OPERATION_CLOSE, "", "dilate", "erode", "open", "close")
 
 WORDS(sunder_contact_string, sunder_contact, SUNDER_CONTACT_DEGENERATE_POINT, "", "none", "edge", "vertex", "arc",
       "degenerate_segment", "degenerate_point")
+
+WORDS(sunder_containment_string, sunder_containment, SUNDER_CONTAINMENT_SEPARATE, "", "block", "ignore", "separate")
 
 WORDS(sunder_feature_status_string, sunder_feature_status, SUNDER_FEATURE_SKIPPED, "", "unmoved", "moved", "fixed",
       "blocked", "skipped")

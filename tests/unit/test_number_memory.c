@@ -142,6 +142,11 @@ static void test_words(void **state)
     for (int i = 0; i < 5; i++) assert_string_equal(sunder_feature_status_string((sunder_feature_status)i), status[i]);
     for (int i = 0; i < 5; i++) assert_string_equal(sunder_conflict_kind_string((sunder_conflict_kind)i), kind[i]);
     for (int i = 0; i < 8; i++) assert_string_equal(sunder_reason_string((sunder_reason)i), reason[i]);
+    assert_string_equal(sunder_validity_string(SUNDER_VALIDITY_EVEN_ODD), "even-odd");
+    assert_string_equal(sunder_containment_string(SUNDER_CONTAINMENT_IGNORE), "ignore");
+    assert_string_equal(sunder_phase_string(SUNDER_PHASE_UNION), "union");
+    assert_string_equal(sunder_phase_string((sunder_phase)3), "");
+    assert_string_equal(sunder_containment_string((sunder_containment)-1), "");
     assert_string_equal(sunder_version(), SUNDER_VERSION);
     for (int i = 0; i <= SUNDER_EFAULT; i++)
         for (int j = 0; j < i; j++)

@@ -47,12 +47,18 @@ static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, dou
     return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
 }
 
+#ifdef SUNDER_NO_LONG_DOUBLE
+#define LONG_BITS DBL_MANT_DIG
+#else
+#define LONG_BITS LDBL_MANT_DIG
+#endif
+
 /* sqrt(n) / w * 2^exponent, from long doubles: correctly rounded where they leave no doubt. Every step is off by at
  * most half an ulp of the format (2^-64 relative), four steps in all. Where long doubles are no longer than doubles
- * all roots go the slow way. */
+ * (or SUNDER_NO_LONG_DOUBLE says to take them so, as a test does) all roots go the slow way. */
 static bool quick_root(sunder_i_u128 n, sunder_i_i128 w, long exponent, double *nearest, double *down)
 {
-    if (LDBL_MANT_DIG < 64 || exponent < -400 || exponent > 400) return false;
+    if (LONG_BITS < 64 || exponent < -400 || exponent > 400) return false;
     const long double wide = (long double)(uint64_t)(n >> 64) * 0x1p64L + (long double)(uint64_t)n;
     const long double root = sqrtl(wide) / (long double)(int64_t)w;
     const double d = (double)root;
