@@ -49,7 +49,7 @@ static bool keep_pair(gathering *c, uint32_t i, uint32_t j)
 static bool keep_segments(gathering *c, const sunder_i_square *s)
 {
     sunder_i_lattice *l = &c->p->operands->placed.lattice;
-    const double by = c->p->gap_units * (1 + 0x1p-20);
+    const double by = c->p->gap_units * SUNDER_I_GAP_MORE_FLOATS;
     const double box[4] = {s->box[0] - by, s->box[1] - by, s->box[2] + by, s->box[3] + by};
     const sunder_i_mark mark = sunder_i_arena_mark(&l->arena);
     sunder_i_candidates near;
@@ -69,7 +69,8 @@ static bool middle_is_free(const gathering *c, const sunder_i_square *s)
     const sunder_i_operands *g = c->p->operands;
     const sunder_i_bodies *b = c->q->bodies;
     const sunder_i_square_query query = sunder_i_bodies_query(g, (double[4]){x, y, x, y});
-    const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (1 + 0x1p-20f) + 2 * SUNDER_I_BODIES_ERROR;
+    const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (float)SUNDER_I_GAP_MORE_FLOATS +
+                      2 * SUNDER_I_BODIES_ERROR;
     for (size_t k = 0; k < c->q->pairs; k++) {
         const uint32_t i = c->q->pair[k][0], j = c->q->pair[k][1];
         if (!(sunder_i_bodies_depth(b, i, j, &query).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
@@ -79,7 +80,7 @@ static bool middle_is_free(const gathering *c, const sunder_i_square *s)
 
 static void lower_limit(gathering *c, double x, double y)
 {
-    const double d = sqrt(x * x + y * y) * (1 + 0x1p-40) + 64 * c->p->operands->error;
+    const double d = sqrt(x * x + y * y) * SUNDER_I_GAP_MORE + 64 * c->p->operands->error;
     if (d < c->p->limit) c->p->limit = d;
 }
 
@@ -109,7 +110,7 @@ static bool look_at_all(gathering *c, bool *done)
     sunder_i_squares *q = c->q;
     *done = false;
     if (!make_nodes(c)) return false;
-    while (q->n && q->heap[0].distance <= c->p->limit * (1 + 0x1p-20) + 64 * q->g->error) {
+    while (q->n && q->heap[0].distance <= c->p->limit * SUNDER_I_GAP_MORE_FLOATS + 64 * q->g->error) {
         const sunder_i_square s = sunder_i_squares_first(q);
         if (sunder_i_squares_too_many(q, &s)) return true;
         const sunder_i_square_state what = sunder_i_squares_look(q, &s);

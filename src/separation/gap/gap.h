@@ -8,6 +8,14 @@
 #include "separation/answer/answer.h"
 #include "separation/obstacle/reduced_convolution.h"
 
+/* Makes a number larger by far more than the rounding of some doubles, or of some floats, and by nothing that costs. */
+#define SUNDER_I_GAP_MORE (1 + 0x1p-40)
+#define SUNDER_I_GAP_MORE_FLOATS (1 + 0x1p-20)
+
+/* A rational answer beside an irrational one is longer by no more than this much of it: nothing that is measured is
+ * known so well, and the room beside most points is wider by far. */
+#define SUNDER_I_GAP_LONGER 4e-10
+
 /* A stretch of boundary: the line a + t d moved by the gap to its right, outward; or the circle of radius g about a. */
 typedef struct sunder_i_gap_curve {
     bool arc;
@@ -56,7 +64,7 @@ const uint32_t *sunder_i_gap_quadtree_near(const sunder_i_gap_quadtree *quadtree
 
 typedef struct sunder_i_gap_answer {
     bool found;             /* a free point within the limit */
-    sunder_i_surd_point at; /* rational; longer than the least by at most 4e-10 of it */
+    sunder_i_surd_point at; /* rational; longer than the least by at most SUNDER_I_GAP_LONGER of it */
     double bound;           /* the length of the least in units, rounded down */
     sunder_contact contact;
 } sunder_i_gap_answer;

@@ -42,7 +42,7 @@ static bool find_centers(sunder_i_gap_problem *p)
 /* The way out along each axis, and the gap. */
 static double way_out(const sunder_i_operands *g, double gap)
 {
-    return (sunder_i_operands_way_out(g) + gap) * (1 + 0x1p-40) + 64 * g->error;
+    return (sunder_i_operands_way_out(g) + gap) * SUNDER_I_GAP_MORE + 64 * g->error;
 }
 
 /* Does every subsum keep the gap from the origin? */
@@ -67,7 +67,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
         for (uint32_t i = 0; i < s->sides && !far; i++) {
             const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
             const double length = sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
-            far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * (1 + 0x1p-40) * length;
+            far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * SUNDER_I_GAP_MORE * length;
             inside = inside && turn > s->bound[i];
         }
         if (inside || (!far && sunder_i_gap_cmp(p, s, &origin, &side, &flat) < 0)) return false;
@@ -141,7 +141,7 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
     p->limit = way_out(g, p->gap_units);
-    if (upper < p->limit) p->limit = upper * (1 + 0x1p-40) + 8 * g->error;
+    if (upper < p->limit) p->limit = upper * SUNDER_I_GAP_MORE + 8 * g->error;
     if (are_many(p, o) && !take_squares(p, quadtree)) return sunder_i_no_memory(err);
     if (!p->quadtree && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
     bool memory = true;

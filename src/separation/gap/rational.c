@@ -109,6 +109,13 @@ sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_
 
 /* ---- Steps ---- */
 
+/* Ways narrower than this are left to exact steps: doubles would have to go too far along them to get off. */
+#define NARROW 0x1p-20
+/* The first step is of some ulps, so that doubles beside the point are another place; each further one is 8 times as
+ * long, so many in all. */
+#define FIRST_STEP 0x1p-49
+#define DOUBLES_TRIED 8
+
 /* To a place of doubles of the caller's units, where those are fine enough: what users like best. */
 static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, const sunder_i_gap_contact *a,
                        const sunder_i_gap_contact *b, const sunder_i_big xy[2], unsigned long bits,
@@ -119,16 +126,16 @@ static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
     /* Where the way between a and b is wide, the middle of it. */
     double ux = a->nx + b->nx, uy = a->ny + b->ny, gain = 1;
     const double f1 = sunder_i_gap_length(ux, uy);
-    if (!(f1 > 0x1p-20)) return false;
+    if (!(f1 > NARROW)) return false;
     ux /= f1;
     uy /= f1;
     for (size_t k = 0; k < f->contacts; k++) gain = fmin(gain, ux * f->contact[k].nx + uy * f->contact[k].ny);
-    if (!(gain > 0x1p-20)) return false;
+    if (!(gain > NARROW)) return false;
     const double x = sunder_i_gap_big(xy[0], -(long)bits - s->g->placed.lattice.approx_shift);
     const double y = sunder_i_gap_big(xy[1], -(long)bits - s->g->placed.lattice.approx_shift);
     const double size = sunder_i_gap_length(x, y);
-    double step = 0x1p-49 * size / gain;
-    for (int round = 0; round < 8 && step <= size * 4e-10; round++, step *= 8) {
+    double step = FIRST_STEP * size / gain;
+    for (int round = 0; round < DOUBLES_TRIED && step <= size * SUNDER_I_GAP_LONGER; round++, step *= 8) {
         const double dx = (x + ux * step) * unit, dy = (y + uy * step) * unit;
         if (!isfinite(dx) || !isfinite(dy)) return false;
         *out = sunder_i_surd_point_doubles(s->g, dx, dy);

@@ -153,8 +153,8 @@ typedef struct sunder_i_gap_way {
 } sunder_i_gap_way;
 
 sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *at);
-/* A rational free point no farther than 1 + 4e-10 times as far as the irrational one found, which stands at xy / 2^bits
- * to 72 digits. */
+/* A rational free point no farther than 1 + SUNDER_I_GAP_LONGER times as far as the irrational one found, which stands
+ * at xy / 2^bits to 72 digits. */
 bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *found,
                                   const sunder_i_gap_way *way, const sunder_i_big xy[2], unsigned long bits,
                                   sunder_i_surd_point *out);

@@ -12,6 +12,11 @@
 #include <string.h>
 
 #define TRIES 24 /* of the fattest subsums whose boxes hold a part; what they do not hold is rarely held */
+/* The board has LEAST to MOST squares a side, a power of two, and no more subsums than SUBSUMS_EACH for each square if
+ * it can: a finer one holds more of the plane, and takes longer to be made. */
+#define LEAST 16
+#define MOST 256
+#define SUBSUMS_EACH 16
 
 /* columns x0 .. x1 - 1, rows y0 .. y1 - 1; its list is the end of the common one */
 typedef struct part {
@@ -156,8 +161,8 @@ static bool arrange(sunder_i_board *h, const uint32_t *start)
 
 bool sunder_i_board_build(sunder_i_operands *g, double reach)
 {
-    uint32_t n = 16;
-    while (n < 256 && (size_t)n * n * 16 < g->subsums) n *= 2;
+    uint32_t n = LEAST;
+    while (n < MOST && (size_t)n * n * SUBSUMS_EACH < g->subsums) n *= 2;
     sunder_i_board *h = sunder_i_calloc(1, sizeof *h);
     if (!h) return false;
     g->board = h;
