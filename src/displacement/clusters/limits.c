@@ -154,7 +154,7 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, bool *any, sund
         send_home(s, back);
         if (*any) s->members = 0; /* else who once was in a cluster with a fixed body would pass for known to it */
         memset(s->aside, 0, model->bodies * sizeof *s->aside);
-        status = forget(s, back) ? sunder_i_solver_check(s, err) : sunder_i_no_memory(err);
+        status = forget(s, back) ? sunder_i_solver_relate(s, err) : sunder_i_no_memory(err);
     }
     sunder_i_free(root);
     sunder_i_free(back);

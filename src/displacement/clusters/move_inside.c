@@ -36,5 +36,5 @@ sunder_status sunder_i_solver_move_inside(sunder_i_solver *s, sunder_error *err)
         send(s, &s->entry[k]);
         if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
     }
-    return sunder_i_solver_check(s, err);
+    return sunder_i_solver_relate(s, err);
 }

@@ -253,5 +253,5 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sund
     sunder_i_free(decision);
     sunder_i_free(required);
     free_components(&all);
-    return !status && *changed ? sunder_i_solver_check(s, err) : status;
+    return !status && *changed ? sunder_i_solver_relate(s, err) : status;
 }

@@ -213,5 +213,5 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *s, sunder_error *err)
     if (status) return status;
     sunder_i_solver_commit(s);
     status = sunder_i_solver_take_over(s, err);
-    return status ? status : sunder_i_solver_check(s, err);
+    return status ? status : sunder_i_solver_relate(s, err);
 }

@@ -102,7 +102,7 @@ void sunder_i_solver_commit(sunder_i_solver *s)
 }
 
 /* Exact relations of what changed. */
-sunder_status sunder_i_solver_check(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_placement_move(&s->model, &s->placement, s->changed, err);
     if (status) return status;
@@ -223,7 +223,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         note_solved(s);
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
         status = sunder_i_solver_take_over(s, err);
-        if (!status) status = sunder_i_solver_check(s, err);
+        if (!status) status = sunder_i_solver_relate(s, err);
         if (!status) status = find_work(s, &any, err);
     }
     return status;
@@ -263,5 +263,5 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
     if (status) return status;
     sunder_i_solver_commit(s);
     for (size_t k = 0; k < s->members; k++) s->improved[s->body[k]] = true;
-    return sunder_i_solver_check(s, err);
+    return sunder_i_solver_relate(s, err);
 }

@@ -16,7 +16,7 @@ void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *mo
 /* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
 void sunder_i_solver_commit(sunder_i_solver *solver);
 /* Exact relations of what changed. */
-sunder_status sunder_i_solver_check(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
 /* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
 sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, double to, sunder_error *err);
 /* Were better sides looked for since any cluster was last solved? */

@@ -1,6 +1,6 @@
 /* The stages before, between and after the rounds of settle.c. */
-#ifndef SUNDER_I_STAGES_H
-#define SUNDER_I_STAGES_H
+#ifndef SUNDER_I_SOLVER_STAGES_H
+#define SUNDER_I_SOLVER_STAGES_H
 
 #include "displacement/clusters/solver.h"
 

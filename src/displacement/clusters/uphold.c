@@ -158,7 +158,7 @@ static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
     for (size_t k = 0; k < t->n && t->well && !status; k++)
         status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
     if (status) return status;
-    return t->well ? sunder_i_solver_check(s, err) : put(t, NULL, err);
+    return t->well ? sunder_i_solver_relate(s, err) : put(t, NULL, err);
 }
 
 /* The units of what the body may be moved by from where it stands. */
@@ -299,7 +299,7 @@ static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_erro
     if (may_i && may_j && cost_of(s, b) == 0) b = b == i ? j : i;
     memset(s->changed, 0, s->model.features * sizeof *s->changed);
     sunder_i_solver_place(s, b, home);
-    const sunder_status status = sunder_i_solver_check(s, err);
+    const sunder_status status = sunder_i_solver_relate(s, err);
     s->model.body[b].pinned = true;
     return status;
 }

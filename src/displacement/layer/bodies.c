@@ -4,9 +4,7 @@
 
 #include "base/parallel.h"
 #include "shape/shape.h"
-#include "spatial/box.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

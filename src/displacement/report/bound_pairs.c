@@ -51,7 +51,7 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
     return now && sunder_i_is_conflict(now);
 }
 
-/* Of each pair of blocks the pair of members that is hardest to bring to resolution; of those that were. */
+/* Of each pair of blocks the pair of members that is hardest to resolve; of those that were. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;

@@ -1,6 +1,6 @@
 /* The stages of the search for the moves of one cluster. */
-#ifndef SUNDER_I_STAGES_H
-#define SUNDER_I_STAGES_H
+#ifndef SUNDER_I_SEARCH_STAGES_H
+#define SUNDER_I_SEARCH_STAGES_H
 
 #include "displacement/search/search.h"
 
