@@ -1,6 +1,7 @@
 /* Edges, and their ends sorted around each vertex by rank; then covered walks, by turning across covered wedges. */
 #include "outline/boundary_graph.h"
 
+#include "base/invariant.h"
 #include "base/sort.h"
 
 #include <string.h>
@@ -65,7 +66,8 @@ static uint32_t turn(const sunder_i_graph *g, uint32_t edge, bool clockwise, boo
         if (r & 1) continue;
         if (!same_component || g->component[g->walk[r >> 1]] == g->component[g->walk[edge]]) return r >> 1;
     }
-    return edge; /* cannot be: in and out balance at each vertex */
+    SUNDER_I_ASSERT(!"edges that arrive and edges that leave balance at each vertex");
+    return edge;
 }
 
 uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
