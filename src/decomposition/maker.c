@@ -2,6 +2,8 @@
  * pieces, their corners and Steiner points that grow as pieces are found, and are cut to size at the end. */
 #include "decomposition/maker.h"
 
+#include "base/invariant.h"
+
 #include <string.h>
 
 /* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the
@@ -188,7 +190,9 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
     }
     for (uint32_t i = 0; i < m->steiner_n && !arena->failed; i++)
         out->corner[n + i] = reduced(arena, &m->scratch, m->steiner[i]);
-    if (!arena->failed && !sunder_i_maker_failed(m)) return true;
+    if (!arena->failed && !sunder_i_maker_failed(m))
+        SUNDER_I_CHECK(sunder_i_decomposition_check(m->lattice, m->shape, m->rings.at, out), out->corners);
+    if (!arena->failed && !sunder_i_maker_failed(m)) return true; /* the checker may have run out of memory, too */
     sunder_i_decomposition_clear(out);
     return false;
 }

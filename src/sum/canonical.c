@@ -169,5 +169,5 @@ const char *sunder_i_canonical_check(sunder_sum *sum)
     for (size_t i = 1; i < sum->points && !wrong; i++)
         if (sunder_i_sum_vertex_cmp(sum, sum->point[i - 1], sum->point[i]) >= 0) wrong = "points are out of order";
     sum->lattice.counts = counts;
-    return wrong;
+    return sum->lattice.arena.failed ? NULL : wrong; /* without memory nothing can be told */
 }

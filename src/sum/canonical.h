@@ -35,7 +35,7 @@ int sunder_i_sum_vertex_cmp(void *sum, uint32_t v, uint32_t w);
 /* Fills rings, polygons, segments and points of an empty sum. False if memory is out. */
 bool sunder_i_canonical(sunder_i_found *found, sunder_sum *out);
 
-/* What of a sum is not canonical, or NULL. */
+/* What of a sum is not canonical, or NULL; NULL too where memory runs out. */
 const char *sunder_i_canonical_check(sunder_sum *sum);
 
 #endif
