@@ -11,6 +11,7 @@
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "sum/canonical.h"
+#include "sum/place.h"
 
 #include <string.h>
 
@@ -67,13 +68,10 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
     if (!sum) return sunder_i_no_memory(err);
     sunder_i_placed placed;
-    static const sunder_i_place_options how;
-    sunder_status status = sunder_i_place(shape, b, &how, &placed, err);
+    sunder_status status = sunder_i_sum_place(sum, shape, b, false, &placed, err);
     if (status == SUNDER_OK) {
-        sum->lattice = placed.lattice; /* moved */
-        memset(&placed.lattice, 0, sizeof placed.lattice);
+        memset(sum->origin[1], 0, sizeof sum->origin[1]); /* of b there is nothing but the lattice */
         sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
-        memcpy(sum->origin[0], placed.origin_p, sizeof sum->origin[0]);
         status = unite_pieces(shape, placed.p, options, sum, err);
         sunder_i_placed_free(&placed);
     }

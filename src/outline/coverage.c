@@ -206,7 +206,9 @@ static void sweep(finder *f, uint32_t number)
         size_t j = i;
         for (; j < f->events_n; j++) {
             const event *e = &f->events[f->order[j]];
-            if (j > i && compare_events(f, f->order[i], f->order[j]) != 0) break;
+            const int later = j > i ? -compare_events(f, f->order[i], f->order[j]) : 0;
+            SUNDER_I_ASSERT(later >= 0); /* events stand in order along the line */
+            if (later) break;
             cover_ends += e->change.cover < 0;
             domain_starts += e->change.domain > 0;
             if (e->corner != NO_CORNER) corner = e->corner;
