@@ -1,6 +1,7 @@
 /* The allocation hooks, growing arrays, and arenas: chunks of memory, each twice as large as the one before. */
 #include "base/memory.h"
 
+#include "base/invariant.h"
 #include "base/watch.h"
 
 #include <stdlib.h>
@@ -17,6 +18,10 @@ void sunder_set_allocator(void *(*allocate)(size_t), void *(*reallocate)(void *,
     hook_realloc = reallocate ? reallocate : realloc;
     hook_free = release ? release : free;
 }
+
+#ifndef NDEBUG
+bool sunder_i_allocator_is_own(void) { return hook_alloc == malloc; }
+#endif
 
 void sunder_free(void *memory) { sunder_i_free(memory); }
 

@@ -2,6 +2,7 @@
  * digits in which all keys agree. */
 #include "base/sort.h"
 
+#include "base/invariant.h"
 #include "base/watch.h"
 
 #include <string.h>
@@ -92,6 +93,7 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
         sunder_i_steps(n / 32);
     }
     if (from != key) memcpy(key, from, n * sizeof *key);
+    for (size_t i = 1; i < n; i++) SUNDER_I_ASSERT(key[i - 1] <= key[i]);
     sunder_i_free(scratch);
     return true;
 }

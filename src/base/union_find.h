@@ -6,6 +6,8 @@
 #ifndef SUNDER_I_UNION_FIND_H
 #define SUNDER_I_UNION_FIND_H
 
+#include "base/invariant.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,7 +19,10 @@ static inline void sunder_i_union_init(uint32_t *parent, size_t n)
 /* The least member of the set of x. */
 static inline uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x)
 {
-    while (parent[x] != x) x = parent[x] = parent[parent[x]];
+    while (parent[x] != x) {
+        SUNDER_I_ASSERT(parent[x] < x);
+        x = parent[x] = parent[parent[x]];
+    }
     return x;
 }
 

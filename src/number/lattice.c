@@ -1,6 +1,8 @@
 /* Choosing a lattice for what is to stand on it, and reading doubles, integers and ratios as its numbers. */
 #include "number/lattice.h"
 
+#include "base/invariant.h"
+
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -136,6 +138,7 @@ int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunde
         lattice->arena.failed = true;
         return 0;
     }
+    SUNDER_I_ASSERT(lattice->scratch.failed || sunder_i_big_sign(den) > 0);
     lattice->pool[lattice->pool_n] = (sunder_i_pooled){{num, den}, value};
     return INT64_MIN + (int64_t)lattice->pool_n++;
 }

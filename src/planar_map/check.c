@@ -269,3 +269,12 @@ const char *sunder_i_planar_map_check(sunder_i_planar_map *map)
     if (map->faces_valid) wrong = check_faces(map);
     return sunder_i_map_broken(map) ? "memory ran out" : wrong;
 }
+
+const char *sunder_i_planar_map_sound(sunder_i_planar_map *map)
+{
+    if (sunder_i_map_broken(map)) return NULL;
+    const sunder_counts counts = map->lattice->counts;
+    const char *wrong = sunder_i_planar_map_check(map);
+    map->lattice->counts = counts;
+    return sunder_i_map_broken(map) ? NULL : wrong;
+}

@@ -103,6 +103,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
             map->failed = true;
         else if (map->vertex[v].alive && sunder_i_planar_map_mergeable(map, v))
             sunder_i_edge_merge(map, v);
+    SUNDER_I_CHECK(sunder_i_planar_map_sound(map), map->trapezoids);
     return sunder_i_map_status(map, err);
 }
 

@@ -121,6 +121,7 @@ sunder_status sunder_i_planar_map_faces(sunder_i_planar_map *map, sunder_error *
     sunder_i_free(of.item);
     if (!ok) map->failed = true;
     map->faces_valid = ok;
+    SUNDER_I_CHECK(sunder_i_planar_map_sound(map), map->trapezoids);
     return sunder_i_map_status(map, err);
 }
 

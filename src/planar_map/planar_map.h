@@ -188,5 +188,8 @@ void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size 
 /* Proves, exactly and in about n log n, every invariant of half-edges, counts, geometry, trapezoids and history
  * (README.md lists them). NULL if all hold, else a sentence on the first that does not. */
 const char *sunder_i_planar_map_check(sunder_i_planar_map *map);
+/* The same at the end of a stage, where NDEBUG is not set: nothing is counted, and where memory runs out nothing is known
+ * and NULL is returned. */
+const char *sunder_i_planar_map_sound(sunder_i_planar_map *map);
 
 #endif

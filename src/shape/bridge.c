@@ -1,13 +1,12 @@
 /* Holes joined to the outer ring by bridges, so that a polygon becomes one closed walk.
  *
  *        f                  h is the lexicographically smallest corner of a hole, e and f the edges of the polygon
- *    ---------------        just below and above it. Of the corners between them, left of h, and the left ends of e and
- * f,
- *       u .   /\            the lexicographically greatest, u, is joined to h: nothing can stand between them, for it
- *           ' h \           would have a corner that is greater. These are the diagonals that a sweep puts in at split
- *    --------\__/---        vertices [BKOS08, section 3.2]: each lies in one trapezoid of the vertical decomposition,
- * so
- *        e                  no two of them cross, and u < h makes them a tree rooted at the outer ring.
+ *    ---------------        just below and above it. Of the corners between them, left of h, and the left ends of
+ *       u .   /\            e and f, the lexicographically greatest, u, is joined to h: nothing can stand between
+ *           ' h \           them, for it would have a corner that is greater. These are the diagonals that a sweep
+ *    --------\__/---        puts in at split vertices [BKOS08, section 3.2]: each lies in one trapezoid of the
+ *        e                  vertical decomposition, so no two of them cross, and u < h makes them a tree rooted at
+ *                           the outer ring.
  *
  * All bridges are found from the edges of the rings alone and then put in one by one. At the places of u and h several
  * corners may stand (rings that touch; bridges put in before): the one whose sector of the interior the bridge

@@ -84,7 +84,7 @@ static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
     }
 }
 
-static const char *check_edges(const checker *c)
+static const char *check_edges(checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t e = 0; e < s->vertices; e++) {
@@ -98,7 +98,7 @@ static const char *check_edges(const checker *c)
     return NULL;
 }
 
-static const char *check_shared(const checker *c)
+static const char *check_shared(checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t v = 0; v < s->vertices; v++) {
@@ -240,15 +240,14 @@ const char *sunder_i_shape_check(const sunder_shape *shape)
 {
     sunder_i_placed placed;
     if (shape->polygons == 0) return shape->vertices || shape->pieces ? "an empty shape has vertices" : NULL;
-    if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return "out of memory";
+    if (sunder_i_place(shape, NULL, NULL, &placed, NULL)) return NULL;
     checker c = {.s = shape, .l = &placed.lattice, .at = placed.p};
     c.polygon = sunder_i_alloc(shape->vertices, sizeof *c.polygon);
-    const char *fault = c.polygon ? check_links(&c) : "out of memory";
-    if (!fault) fault = check_numbers(&c);
-    if (!fault) fault = check_edges(&c);
-    if (!fault) fault = check_shared(&c);
-    if (!fault) fault = check_pieces(&c);
-    if (!fault) fault = check_areas(&c);
+    static const char *(*const check[])(checker *) = {check_links,  check_numbers, check_edges,
+                                                      check_shared, check_pieces,  check_areas};
+    const char *fault = NULL;
+    for (size_t i = 0; c.polygon && !fault && i < sizeof check / sizeof *check; i++) fault = check[i](&c);
+    if (c.arena.failed || placed.lattice.arena.failed) fault = NULL;
     sunder_i_free(c.polygon);
     sunder_i_arena_free(&c.arena);
     sunder_i_placed_free(&placed);

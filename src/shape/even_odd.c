@@ -5,11 +5,10 @@
  * top; the number below an arc tells its inner side. Arcs are then directed with the inside on the left. Around a point
  * inside and outside alternate,
  *
- *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc clockwise
- * goes
- *      o  \   i   /  o          out: the two bound one sector of the interior, and the boundary goes on from one to
- *           \   /               the other. So rings touch in points only, and a vertex stands for one sector.
- *             p
+ *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc
+ *      o  \   i   /  o          clockwise goes out: the two bound one sector of the interior, and the boundary goes on
+ *           \   /               from one to the other. So rings touch in points only, and a vertex stands for one
+ *             p                 sector.
  *
  * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point; the ring
  * is an outer one if the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */

@@ -5,6 +5,7 @@
  * the shape. */
 #include "shape/from_rings.h"
 
+#include "base/invariant.h"
 #include "shape/rational.h"
 #include "shape/repair.h"
 
@@ -254,6 +255,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }
+    SUNDER_I_CHECK(sunder_i_shape_check(s), s->vertices);
     *out = s;
     return SUNDER_OK;
 }
