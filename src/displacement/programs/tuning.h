@@ -43,7 +43,7 @@
 
 /* ---- Interior point ---------------------------------------------------------------------------------------------- */
 
-/* Steps, of which ten to thirty are the rule; one that is shorter than the least leads nowhere. */
+/* Steps, of which a dozen or two are the rule; one that is shorter than the least leads nowhere. */
 #define MOST_STEPS 60
 #define LEAST_STEP 1e-8
 /* The products of slacks and forces that are left, as a share of the cost: then the method has converged. */

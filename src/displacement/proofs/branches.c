@@ -41,7 +41,7 @@ static void cut(area *p, const double n[2], double d)
     *p = out;
 }
 
-/* What limits and steps leave of the relative moves of a pair, roughly. */
+/* What limits and claims leave of the relative moves of a pair, roughly. */
 static area room_of(const sunder_i_branching *c, uint32_t i, uint32_t j)
 {
     area room = {.n = DISC_SIDES};
@@ -50,8 +50,8 @@ static area room_of(const sunder_i_branching *c, uint32_t i, uint32_t j)
         room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);
         room.xy[2 * k + 1] = r * sin(TURN * k / DISC_SIDES);
     }
-    for (size_t k = 0; k < c->steps; k++) {
-        const sunder_i_claim *s = &c->step[k];
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
         const double behind[2] = {-s->n[0], -s->n[1]};
         if (s->i == i && s->j == j) cut(&room, s->n, s->d);
         if (s->i == j && s->j == i) cut(&room, behind, s->d);
@@ -105,15 +105,16 @@ static sunder_i_node *add_node(sunder_i_branching *c)
     return node;
 }
 
-/* A node for the contradiction that the steps' forces prove. */
+/* A node for the contradiction that the claims' forces prove. */
 static bool add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *root)
 {
     *root = c->nodes;
     memset(levels, 0, sizeof *levels);
     sunder_i_node *node = add_node(c);
-    if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->steps, sizeof *c->force)) return false;
-    for (size_t k = 0; k < c->steps; k++) {
-        const sunder_i_claim *s = &c->step[k];
+    if (!node || !sunder_i_reserve(&c->force, &c->force_capacity, c->forces + c->claims, sizeof *c->force))
+        return false;
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
         if (!(s->force > 0)) continue;
         add_level(levels, s->level);
         c->force[c->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
@@ -141,18 +142,18 @@ static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_
 
 static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, size_t way, bool behind, unsigned level)
 {
-    if (!sunder_i_reserve(&c->step, &c->step_capacity, c->steps + 1, sizeof *c->step)) return false;
+    if (!sunder_i_reserve(&c->claim, &c->claim_capacity, c->claims + 1, sizeof *c->claim)) return false;
     const sunder_i_way *w = &c->way[way];
     const double sign = behind ? -1 : 1;
     SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && j < c->bodies && i != j);
-    c->step[c->steps++] = (sunder_i_claim){.i = i,
-                                           .j = j,
-                                           .n = {sign * w->n[0], sign * w->n[1]},
-                                           .d = sign * w->d,
-                                           .node = node,
-                                           .way = way,
-                                           .behind = behind,
-                                           .level = level};
+    c->claim[c->claims++] = (sunder_i_claim){.i = i,
+                                             .j = j,
+                                             .n = {sign * w->n[0], sign * w->n[1]},
+                                             .d = sign * w->d,
+                                             .node = node,
+                                             .way = way,
+                                             .behind = behind,
+                                             .level = level};
     return true;
 }
 
@@ -161,7 +162,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
-    const size_t first = c->node[node].way, end = first + c->node[node].ways, steps = c->steps, bodies = c->bodies;
+    const size_t first = c->node[node].way, end = first + c->node[node].ways, claims = c->claims, bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
     if (!t) return sunder_i_no_memory(err);
     memcpy(t, c->t, 2 * bodies * sizeof *t);
@@ -174,7 +175,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         size_t below = 0;
         memset(c->t, 0, 2 * c->bodies * sizeof *c->t);
         memcpy(c->t, t, 2 * bodies * sizeof *t);
-        const size_t before = c->steps;
+        const size_t before = c->claims;
         bool ok = push(c, i, j, node, way, false, level);
         const bool dead = ok && sunder_i_branching_is_dead_end(c);
         if (dead)
@@ -191,11 +192,11 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         }
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
         /* What comes now is behind this line; one beyond everybody's limits need not be said to be so. */
-        c->steps = before;
+        c->claims = before;
         if (!dead && !push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
     }
     drop_level(levels, level);
-    c->steps = steps;
+    c->claims = claims;
     sunder_i_free(t);
     return status;
 }

@@ -50,11 +50,11 @@ typedef struct sunder_i_branching {
     double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
     size_t bodies;
     size_t body_capacity, limit_capacity, mass_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
-    double longest;  /* limit */
-    double hair;     /* a length far below the limits, and far above rounding */
-    uint64_t looked; /* work done besides the programs' */
-    sunder_i_claim *step;
-    size_t steps, step_capacity;
+    double longest;        /* limit */
+    double hair;           /* a length far below the limits, and far above rounding */
+    uint64_t looked;       /* work done besides the programs' */
+    sunder_i_claim *claim; /* what the branches down to the node at hand say */
+    size_t claims, claim_capacity;
     sunder_i_tangent *tangent;
     size_t tangents, tangent_capacity;
     sunder_i_quadratic program;
@@ -91,14 +91,14 @@ bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uin
 /* ---- program.c --------------------------------------------------------------------------------------------------- */
 
 typedef enum sunder_i_node_outcome {
-    SUNDER_I_NODE_INFEASIBLE, /* what the steps say contradicts the limits, proved by their forces */
-    SUNDER_I_NODE_CANDIDATE,  /* t is as the steps say, up to a hair */
+    SUNDER_I_NODE_INFEASIBLE, /* what the claims say contradicts the limits, proved by their forces */
+    SUNDER_I_NODE_CANDIDATE,  /* t is as the claims say, up to a hair */
     SUNDER_I_NODE_UNDECIDED   /* too near to call */
 } sunder_i_node_outcome;
 
 sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_node_outcome *outcome,
                                        sunder_error *err);
-/* Is the last step alone more than the limits allow? Then the forces are set to say so. */
+/* Is the last claim alone more than the limits allow? Then the forces are set to say so. */
 bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
@@ -117,7 +117,7 @@ size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_vio
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */
 
-/* Goes through the branches below the steps as they are. levels: of those that the proof needs; *root: its node. */
+/* Goes through the branches below the claims as they are. levels: of those that the proof needs; *root: its node. */
 sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err);
 

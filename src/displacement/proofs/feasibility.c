@@ -22,7 +22,7 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->shift);
     sunder_i_free(c->net);
     sunder_i_free(c->weight);
-    sunder_i_free(c->step);
+    sunder_i_free(c->claim);
     sunder_i_free(c->tangent);
     sunder_i_free(c->program.constraint);
     sunder_i_free(c->node);

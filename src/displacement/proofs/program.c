@@ -1,6 +1,6 @@
 /* The convex program of one node of a branch and bound, and the proof that it has no solution.
  *
- * The steps to the node say n.(t_j - t_i) >= d, and limits |t| <= L. Forces f >= 0 on the steps, of any size, prove
+ * The claims to the node say n.(t_j - t_i) >= d, and limits |t| <= L. Forces f >= 0 on the claims, of any size, prove
  * that no t does both if
  *
  *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
@@ -9,9 +9,9 @@
  * Vandenberghe, Convex Optimization, section 5.8]. The program's own forces are tried, whatever it restored with.
  *
  * Limits enter it as tangents, added where a solution oversteps one. The program pulls each body to a place, softly,
- * and asks a hair more of the steps than they say, so that its softness does not show. The place is the last solution,
+ * and asks a hair more of the claims than they say, so that its softness does not show. The place is the last solution,
  * and the program is solved again and again [proximal point method; Rockafellar 1976]: so the pull vanishes, and with
- * it what it spoils of the forces' balance, where the steps contradict the limits by a millionth of them or less. */
+ * it what it spoils of the forces' balance, where the claims contradict the limits by a millionth of them or less. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -23,16 +23,16 @@
 
 /* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
-/* Rounding, with e = 2^-53 and N steps, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
+/* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
  * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
  * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
 static bool is_contradiction(sunder_i_branching *c)
 {
-    const double share = (double)(c->steps + c->bodies + 8) * 0x1p-50;
+    const double share = (double)(c->claims + c->bodies + 8) * 0x1p-50;
     double won = 0, all = 0, lost = 0;
     for (size_t b = 0; b < c->bodies; b++) c->net[2 * b] = c->net[2 * b + 1] = c->weight[b] = 0;
-    for (size_t k = 0; k < c->steps; k++) {
-        const sunder_i_claim *s = &c->step[k];
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
         if (!(s->force > 0)) continue;
         won += s->force * s->d;
         all += s->force * fabs(s->d);
@@ -52,9 +52,9 @@ static bool is_contradiction(sunder_i_branching *c)
 
 bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
 {
-    sunder_i_claim *last = &c->step[c->steps - 1];
+    sunder_i_claim *last = &c->claim[c->claims - 1];
     if (!(last->d > c->limit[last->i] + c->limit[last->j])) return false;
-    for (size_t k = 0; k < c->steps; k++) c->step[k].force = 0;
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
     last->force = 1;
     return is_contradiction(c);
 }
@@ -67,13 +67,13 @@ static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1]
 static bool load(sunder_i_branching *c)
 {
     sunder_i_quadratic *p = &c->program;
-    if (!sunder_i_reserve(&p->constraint, &p->capacity, c->steps + c->tangents, sizeof *p->constraint)) return false;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, c->claims + c->tangents, sizeof *p->constraint)) return false;
     p->bodies = c->bodies;
     p->mass = c->mass;
     p->t = c->shift;
     p->n = 0;
-    for (size_t k = 0; k < c->steps; k++) {
-        const sunder_i_claim *s = &c->step[k];
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
         const double d = s->d + c->hair - at(s->n, c->t + 2 * s->j) + at(s->n, c->t + 2 * s->i);
         p->constraint[p->n++] = (sunder_i_constraint){s->i, s->j, {s->n[0], s->n[1]}, d, s->force, k};
     }
@@ -91,17 +91,17 @@ static void take_over(sunder_i_branching *c)
     const sunder_i_quadratic *p = &c->program;
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *e = &p->constraint[k];
-        *(e->key < c->steps ? &c->step[e->key].force : &c->tangent[TANGENT - e->key].force) = e->force;
+        *(e->key < c->claims ? &c->claim[e->key].force : &c->tangent[TANGENT - e->key].force) = e->force;
     }
     for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
 }
 
-/* By how much the candidate misses a step at worst. */
-static double worst_step(const sunder_i_branching *c)
+/* By how much the candidate misses a claim at worst. */
+static double worst_claim(const sunder_i_branching *c)
 {
     double worst = 0;
-    for (size_t k = 0; k < c->steps; k++) {
-        const sunder_i_claim *s = &c->step[k];
+    for (size_t k = 0; k < c->claims; k++) {
+        const sunder_i_claim *s = &c->claim[k];
         worst = fmax(worst, s->d - at(s->n, c->t + 2 * s->j) + at(s->n, c->t + 2 * s->i));
     }
     return worst;
@@ -150,7 +150,7 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outc
         take_over(c);
         *outcome = SUNDER_I_NODE_INFEASIBLE;
         if (is_contradiction(c)) return SUNDER_OK;
-        missed = worst_step(c);
+        missed = worst_claim(c);
         add_tangents(c, &over);
         if (c->failed) return sunder_i_no_memory(err);
         *outcome = SUNDER_I_NODE_CANDIDATE;

@@ -23,8 +23,8 @@
 /* Times that constraints are added to one program; to a soft one, of which the solution is no place to stay, fewer. */
 #define MOST_ADDITIONS 24
 #define MOST_SOFT_ADDITIONS 4
-/* Two lines of one pair are the same if their normals differ by no more: pieces cut from one wall differ by rounding,
- * and a true turn by less shifts nothing that is not within the margin of a body's size. */
+/* Two lines of one pair are the same if their normals differ by no more: those of pieces cut from one wall differ by
+ * rounding. Of two that differ truly, what the one left out would have said is found when the solution misses it. */
 #define SAME_NORMAL 1e-7
 /* A limit of moves is overstepped from this share of it on: else a tangent would be added for rounding. */
 #define LIMIT_SLACK 1e-12
