@@ -74,7 +74,7 @@ static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
     }
     if (fabsf(*in) > SUNDER_I_BODIES_ERROR) return *in > 0;
     const bool pieces = i < q->g->shape[0]->pieces && j < q->g->shape[1]->pieces;
-    return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_WITHIN;
+    return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_POSITION_WITHIN;
 }
 
 static bool before(const void *a, const void *b)

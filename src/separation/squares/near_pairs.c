@@ -12,11 +12,13 @@ static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, ui
     const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
     if (q->gap > 0) {
         const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
-        return d.touch + gap < -e ? SUNDER_I_OUTSIDE : d.in > e ? SUNDER_I_WITHIN : SUNDER_I_ACROSS;
+        return d.touch + gap < -e ? SUNDER_I_POSITION_OUTSIDE
+               : d.in > e         ? SUNDER_I_POSITION_WITHIN
+                                  : SUNDER_I_POSITION_ACROSS;
     }
-    if (d.touch < -e) return SUNDER_I_OUTSIDE;
-    if (d.in > e) return SUNDER_I_WITHIN;
-    return d.touch > e && d.in < -e ? SUNDER_I_ACROSS : sunder_i_squares_position(q, q->at, i, j);
+    if (d.touch < -e) return SUNDER_I_POSITION_OUTSIDE;
+    if (d.in > e) return SUNDER_I_POSITION_WITHIN;
+    return d.touch > e && d.in < -e ? SUNDER_I_POSITION_ACROSS : sunder_i_squares_position(q, q->at, i, j);
 }
 
 /* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
@@ -39,8 +41,8 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
         const uint32_t i = p->piece[a - p->leaves], j = r->piece[b - r->leaves];
         if (!sunder_i_step()) return false;
         const sunder_i_square_position where = position_to_subsum(q, i, j);
-        if (where == SUNDER_I_OUTSIDE) return true;
-        q->held = where == SUNDER_I_WITHIN;
+        if (where == SUNDER_I_POSITION_OUTSIDE) return true;
+        q->held = where == SUNDER_I_POSITION_WITHIN;
         q->holder[0] = i;
         q->holder[1] = j;
         if (q->held) return false;

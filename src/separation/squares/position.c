@@ -12,7 +12,7 @@ static sunder_i_square_position position_to_sides(const sunder_i_operands *g, co
     const double e = 128 * g->error, fixed = 32 * g->magnitude * g->coarse; /* where ends are rounded, sides are too */
     const double cx = at[0] / 2 + at[2] / 2, cy = at[1] / 2 + at[3] / 2;
     const double hx = at[2] / 2 - at[0] / 2 + e, hy = at[3] / 2 - at[1] / 2 + e;
-    sunder_i_square_position where = SUNDER_I_WITHIN;
+    sunder_i_square_position where = SUNDER_I_POSITION_WITHIN;
     for (uint32_t k = 0; k < p.n; k++) {
         const double *a = xy + 2 * (size_t)p.corner[k], *b = xy + 2 * (size_t)sunder_i_piece_next(&p, k);
         const double dx = b[0] - a[0], dy = b[1] - a[1];
@@ -23,8 +23,8 @@ static sunder_i_square_position position_to_sides(const sunder_i_operands *g, co
             most = v > most ? v : most;
         }
         const double reach = hx * fabs(dy) + hy * fabs(dx), error = e * (fabs(dx) + fabs(dy)) + fixed;
-        if (most + reach < -error) return SUNDER_I_OUTSIDE;
-        if (most - reach <= error) where = SUNDER_I_ACROSS;
+        if (most + reach < -error) return SUNDER_I_POSITION_OUTSIDE;
+        if (most - reach <= error) where = SUNDER_I_POSITION_ACROSS;
     }
     return where;
 }
@@ -33,6 +33,6 @@ sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *q, co
                                                    uint32_t j)
 {
     const sunder_i_square_position p = position_to_sides(q->g, at, 0, i, j);
-    const sunder_i_square_position r = p == SUNDER_I_OUTSIDE ? p : position_to_sides(q->g, at, 1, j, i);
+    const sunder_i_square_position r = p == SUNDER_I_POSITION_OUTSIDE ? p : position_to_sides(q->g, at, 1, j, i);
     return p < r ? p : r;
 }

@@ -50,7 +50,11 @@ struct sunder_i_squares {
 };
 
 /* A square and a subsum: one of its sides has it outside for certain, or all have it inside. */
-typedef enum sunder_i_square_position { SUNDER_I_OUTSIDE, SUNDER_I_ACROSS, SUNDER_I_WITHIN } sunder_i_square_position;
+typedef enum sunder_i_square_position {
+    SUNDER_I_POSITION_OUTSIDE,
+    SUNDER_I_POSITION_ACROSS,
+    SUNDER_I_POSITION_WITHIN
+} sunder_i_square_position;
 
 sunder_i_square_position sunder_i_squares_position(const sunder_i_squares *squares, const double square[4], uint32_t i,
                                                    uint32_t j);
