@@ -121,7 +121,7 @@ bool sunder_i_components_find(const sunder_i_free_space *s, sunder_i_corners *c)
     /* Points without stretches are degenerate: no way leads there, and a ray from them goes nowhere. */
     for (uint32_t v = 0; ok && v < c->vertices; v++)
         if (curve[v] == v) shoot(s, c, &t, least[v], curve, v);
-    for (uint32_t v = c->vertices; ok && v < c->vertices + 2; v++) shoot(s, c, &t, v, curve, SUNDER_I_NO_VERTEX);
+    for (uint32_t v = c->vertices; ok && v < c->vertices + 2; v++) shoot(s, c, &t, v, curve, SUNDER_I_NO_PLACE);
     sunder_i_free(curve);
     sunder_i_free(least);
     sunder_i_strips_free(&t);

@@ -34,8 +34,8 @@ static void count_degrees(const sunder_i_free_space *s, sunder_i_corners *c, deg
         /* With O on the left; degenerate stretches fill whichever place is empty. */
         const bool turned = e->banks == SUNDER_I_BANK_RIGHT;
         const uint32_t u = end[turned], v = end[!turned];
-        c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_VERTEX ? 0 : 1] = v;
-        c->beside[v][e->banks == both && c->beside[v][0] != SUNDER_I_NO_VERTEX ? 1 : 0] = u;
+        c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_PLACE ? 0 : 1] = v;
+        c->beside[v][e->banks == both && c->beside[v][0] != SUNDER_I_NO_PLACE ? 1 : 0] = u;
     }
 }
 
@@ -62,7 +62,7 @@ static bool find_nodes(const sunder_i_free_space *s, sunder_i_corners *c)
         /* A vertex where the path starts or ends would only repeat it. */
         if (is_node(s, c, v, &d[v]) && !is_same(s, c, v, c->vertices) && !is_same(s, c, v, c->vertices + 1))
             c->node[c->nodes++] = v;
-        if (d[v].all != 2 || d[v].degenerate) c->beside[v][0] = c->beside[v][1] = SUNDER_I_NO_VERTEX;
+        if (d[v].all != 2 || d[v].degenerate) c->beside[v][0] = c->beside[v][1] = SUNDER_I_NO_PLACE;
     }
     sunder_i_free(d);
     c->node[c->nodes++] = c->vertices;

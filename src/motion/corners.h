@@ -8,13 +8,13 @@
 
 #include "motion/free_space.h"
 
-#define SUNDER_I_NO_VERTEX UINT32_MAX
+#define SUNDER_I_NO_PLACE UINT32_MAX
 
 typedef struct sunder_i_corners {
     uint32_t vertices;              /* of the outline; start is place `vertices`, goal the next */
     sunder_i_filtered_point *place; /* [vertices + 2] */
     uint32_t (*beside)[2]; /* [vertices + 2] of a plain corner, the vertices before and after it with O on the left;
-                              else NO_VERTEX */
+                              else NO_PLACE */
     uint32_t *node;        /* places where a path from the start can bend, then start, then goal */
     uint32_t nodes;
     uint32_t *parent; /* [vertices + 3] free space's components, as a forest; the last is what lies outside */

@@ -164,7 +164,7 @@ static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, u
 {
     const sunder_i_sector all = {0, 4};
     const uint32_t place = view->corners->node[v], *beside = view->corners->beside[place];
-    if (before == SUNDER_I_NO_NODE || beside[0] == SUNDER_I_NO_VERTEX) return all;
+    if (before == SUNDER_I_NO_NODE || beside[0] == SUNDER_I_NO_PLACE) return all;
     const double *u = node_at(view, before), *at = view->at[place];
     const int a = clear_side(u, at, view->at[beside[0]]), b = clear_side(u, at, view->at[beside[1]]);
     sunder_i_sector on, along;
@@ -309,7 +309,7 @@ static void see_nodes(look *k, uint32_t v)
 static bool bends_in_vain(const sunder_i_visibility *view, uint32_t v, uint32_t w)
 {
     const uint32_t place = view->corners->node[w], *beside = view->corners->beside[place];
-    if (beside[0] == SUNDER_I_NO_VERTEX) return false;
+    if (beside[0] == SUNDER_I_NO_PLACE) return false;
     const double *a = node_at(view, v), *b = view->at[place];
     return clear_side(a, b, view->at[beside[0]]) * clear_side(a, b, view->at[beside[1]]) < 0;
 }

@@ -134,7 +134,7 @@ static bool sides(const scene *s, uint32_t v, const sunder_i_filtered_point *p, 
 {
     const uint32_t *beside = s->corners.beside[s->corners.node[v]];
     *lowest = *highest = 0;
-    if (beside[0] == SUNDER_I_NO_VERTEX) return false;
+    if (beside[0] == SUNDER_I_NO_PLACE) return false;
     for (int k = 0; k < 2; k++) {
         const int side = sunder_i_filtered_orient(&s->space.filter, p, q, &s->corners.place[beside[k]]);
         if (side < *lowest) *lowest = side;
