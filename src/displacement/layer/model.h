@@ -49,15 +49,13 @@ struct sunder_i_model {
     uint32_t *member;  /* [features] features by body */
     sunder_i_body *body;
     sunder_i_body_piece *piece;
-    sunder_i_body_piece
-        *outline;   /* [features] the convex hull of each: stands in for its pieces where they are too many */
-    double *corner; /* [2 * corners] relative to the body's origin */
+    sunder_i_body_piece *outline; /* [features] the convex hull of each, for where its pieces are too many */
+    double *corner;               /* [2 * corners] relative to the body's origin */
     size_t corners;
-    sunder_shape *
-        *whole;    /* [bodies] the union of a block's members where it is wanted; NULL for one that stands alone */
-    double *box;   /* [4 * features] as they stood at the start */
-    bool *present; /* [features] */
-    sunder_i_rtree tree;            /* as they stood at the start */
+    sunder_shape **whole; /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
+    double *box;          /* [4 * features] as they stood at the start */
+    bool *present;        /* [features] */
+    sunder_i_rtree tree;  /* as they stood at the start */
     const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     size_t walls;

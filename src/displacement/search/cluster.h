@@ -7,11 +7,10 @@
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double margin; /* what is demanded beyond the gap, to cover rounding */
-    bool limited;  /* a limit or a fixed body is in it: it may have no solution */
-    sunder_i_relaxations
-        relaxations;             /* new ones, of pairs that its solution gave up, or in place of older ones; owned */
-    sunder_i_restored *restored; /* [restored_n] relaxations of the model that have ended; owned */
+    double margin;                    /* what is demanded beyond the gap, to cover rounding */
+    bool limited;                     /* a limit or a fixed body is in it: it may have no solution */
+    sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
+    sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;
     sunder_i_id_pair *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
     size_t guests, guest_capacity;
@@ -54,7 +53,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
 
 /* ---- invite.c ---------------------------------------------------------------------------------------------------- */
 
-/* Bodies of the cluster that would have a nearer place but for strangers who might move: pairs of the two go to
+/* Bodies of the cluster that would have a nearer place but for others who might move: pairs of the two go to
  * cluster->guest. False if memory is out. */
 bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
