@@ -16,12 +16,10 @@ static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32
     uint32_t *list = sunder_i_arena_alloc(&g->placed.lattice.arena, s->vertices, sizeof *list);
     *n = 0;
     if (!list) return NULL;
-    const double *o = g->box[!side], *xy = g->xy[side];
     for (uint32_t v = 0; v < s->vertices; v++) {
-        const double *a = xy + 2 * v, *b = xy + 2 * s->next[v];
-        if (fmin(a[0], b[0]) <= o[2] + reach && o[0] <= fmax(a[0], b[0]) + reach && fmin(a[1], b[1]) <= o[3] + reach &&
-            o[1] <= fmax(a[1], b[1]) + reach)
-            list[(*n)++] = v;
+        double box[4];
+        sunder_i_box_of_segment(g->xy[side] + 2 * v, g->xy[side] + 2 * s->next[v], box);
+        if (sunder_i_box_near(box, g->box[!side], reach)) list[(*n)++] = v;
     }
     return list;
 }
@@ -34,9 +32,10 @@ static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, ui
     const uint32_t in = g->shape[0]->next[i], jn = g->shape[1]->next[j];
     const double *a = g->xy[0] + 2 * i, *b = g->xy[0] + 2 * in, *c = g->xy[1] + 2 * j, *d = g->xy[1] + 2 * jn;
     const double doubt = 16 * g->error + 0x1p-50 * units, reach = units + doubt;
-    if (fmin(a[0], b[0]) > fmax(c[0], d[0]) + reach || fmin(c[0], d[0]) > fmax(a[0], b[0]) + reach ||
-        fmin(a[1], b[1]) > fmax(c[1], d[1]) + reach || fmin(c[1], d[1]) > fmax(a[1], b[1]) + reach)
-        return FAR;
+    double ab[4], cd[4];
+    sunder_i_box_of_segment(a, b, ab);
+    sunder_i_box_of_segment(c, d, cd);
+    if (!sunder_i_box_near(ab, cd, reach)) return FAR;
     /* With disjoint interiors no two edges cross properly, so the least distance is at an end; with coordinates off by
      * at most the error it is off by less than 8 times that. */
     const double square = fmin(fmin(sunder_i_point_square(a, c, d), sunder_i_point_square(b, c, d)),

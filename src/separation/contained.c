@@ -46,15 +46,6 @@ static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int s
     return sunder_i_fraction_cmp(l, &out->low, &out->high) < 0;
 }
 
-static bool box_misses(const double box[4], const double a[2], const double b[2], double e)
-{
-    for (int k = 0; k < 2; k++) {
-        const double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
-        if (high < box[k] - e || low > box[k + 2] + e) return true;
-    }
-    return false;
-}
-
 /* Do the closed intervals cover [low, high] but for points? Sorts them. */
 static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const interval *want)
 {
@@ -78,14 +69,15 @@ static bool edge_harmless(sunder_i_operands *g, uint32_t i, uint32_t e, interval
 {
     const sunder_shape *q = g->shape[1];
     const uint32_t next = q->next[e];
-    const double *ax = g->xy[1] + 2 * e, *bx = g->xy[1] + 2 * next;
+    double box[4];
+    sunder_i_box_of_segment(g->xy[1] + 2 * e, g->xy[1] + 2 * next, box);
     const sunder_i_point a = g->at[1][e], b = g->at[1][next];
     interval want;
-    if (box_misses(g->piece_box[0] + 4 * (size_t)i, ax, bx, g->error) || !clip(g, a, b, 0, i, false, &want))
+    if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, box, g->error) || !clip(g, a, b, 0, i, false, &want))
         return true;
     uint32_t n = 0;
     for (uint32_t j = 0; j < q->pieces; j++)
-        if (!box_misses(g->piece_box[1] + 4 * (size_t)j, ax, bx, g->error) && clip(g, a, b, 1, j, true, buffer + n))
+        if (sunder_i_box_near(g->piece_box[1] + 4 * (size_t)j, box, g->error) && clip(g, a, b, 1, j, true, buffer + n))
             n++;
     return intervals_cover(&g->placed.lattice, buffer, n, &want);
 }

@@ -12,6 +12,15 @@ static inline void sunder_i_box_clear(double box[4])
     box[2] = box[3] = -INFINITY;
 }
 
+/* The box of a segment. */
+static inline void sunder_i_box_of_segment(const double a[2], const double b[2], double out[4])
+{
+    for (int k = 0; k < 2; k++) {
+        out[k] = a[k] < b[k] ? a[k] : b[k];
+        out[k + 2] = a[k] < b[k] ? b[k] : a[k];
+    }
+}
+
 /* The least box that holds this one and a point, and this one and another. */
 static inline void sunder_i_box_include(double box[4], const double at[2])
 {
