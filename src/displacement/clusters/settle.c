@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-bool sunder_i_solver_is_dirty(const sunder_i_solver *s, const sunder_i_cluster *c)
+static bool is_dirty(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     for (size_t k = 0; k < c->n; k++)
         if (s->dirty[c->body[k]]) return true;
@@ -33,7 +33,7 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
         double *move = sunder_i_solver_load_moves(s, c);
-        if (!sunder_i_solver_is_dirty(s, c)) continue;
+        if (!is_dirty(s, c)) continue;
         const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);
         if (status) return status;
     }
@@ -62,7 +62,7 @@ static void note_solved(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
-        if (!sunder_i_solver_is_dirty(s, c)) continue;
+        if (!is_dirty(s, c)) continue;
         for (size_t m = 0; m < c->n; m++) s->improved[c->body[m]] = false;
     }
 }

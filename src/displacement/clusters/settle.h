@@ -4,8 +4,6 @@
 
 #include "displacement/clusters/solver.h"
 
-/* Is one of the cluster's bodies dirty? */
-bool sunder_i_solver_is_dirty(const sunder_i_solver *solver, const sunder_i_cluster *c);
 /* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
  * no two threads do the same. */
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
