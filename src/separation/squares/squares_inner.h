@@ -13,6 +13,8 @@ typedef struct sunder_i_square {
     uint32_t best[2]; /* the nodes whose chiefs' sum was nearest to holding the square that this is a quarter of */
 } sunder_i_square;
 
+/* What held the last square is remembered for each of so many fields a side of the plane: neighbours are often held by
+ * the same two bodies, and all of it fits the cache. */
 #define SUNDER_I_SQUARES_MEMORY 64
 
 /* Nodes of the two trees of bodies, and how deep the square is in the sum of their chiefs. */
@@ -45,7 +47,7 @@ struct sunder_i_squares {
     float best_depth;
     sunder_i_node_pair *node; /* a heap, the most promising on top */
     size_t nodes, nodes_capacity;
-    uint32_t memory[SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY][2]; /* by place: what held the last one */
+    uint32_t memory[SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY][2]; /* by field: what held the last one */
     float reach;                                                           /* of the memory */
 };
 
