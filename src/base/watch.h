@@ -21,6 +21,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+/* Steps from one asking to the next: some microseconds each, so that a stop is heard within a millisecond or so. */
 #define SUNDER_I_STEPS 256
 
 typedef struct sunder_i_watch {

@@ -51,6 +51,5 @@ sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *e
         }
     }
     map->marked = true;
-    SUNDER_I_CHECK(sunder_i_planar_map_sound(map), map->trapezoids);
     return sunder_i_map_status(map, err);
 }

@@ -96,11 +96,14 @@ bool sunder_i_map_renew(sunder_i_planar_map *map)
     return true;
 }
 
-/* Vertices gone, lines and the history of what is gone: after many removals they outweigh the map, and lead to places
- * the long way round. The factor keeps the cost of starting afresh below that of the insertions that made it
- * necessary. */
+/* Nodes of the history for each trapezoid that is alive, and for a map of any size, before it is made anew: vertices
+ * gone, lines and the history of what is gone outweigh the map after many removals, and lead to places the long way
+ * round. So many keep the cost of starting afresh below that of the insertions that made it necessary. */
+#define HISTORY_EACH 64
+#define HISTORY_LEAST 65536
+
 bool sunder_i_map_compact(sunder_i_planar_map *map)
 {
     const size_t live = map->trapezoids - map->dead_trapezoids;
-    return map->nodes < 64 * live + 65536 || sunder_i_map_renew(map);
+    return map->nodes < HISTORY_EACH * live + HISTORY_LEAST || sunder_i_map_renew(map);
 }

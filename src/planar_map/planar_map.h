@@ -58,7 +58,9 @@ sunder_status sunder_i_planar_map_insert_polygon(sunder_i_planar_map *map, const
 
 /* Adds the segment from a to b (a != b), with so many regions on its left and right that have it on their boundary.
  * `below` of the vertices in its relative interior grows by the count on its lower side, that of its ends does not.
- * On success *first and *last (may be NULL) are the vertices at a and b. */
+ * That is right for convex regions; where a corner of a region touches the inside of one of its own edges, and the
+ * region is not below it, the covered count of that vertex means nothing (those of edges and faces do). On success
+ * *first and *last (may be NULL) are the vertices at a and b. */
 sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, sunder_i_rational_point a,
                                                  sunder_i_rational_point b, uint32_t left, uint32_t right,
                                                  uint32_t *first, uint32_t *last, sunder_error *err);
@@ -188,8 +190,8 @@ void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size 
 /* Proves, exactly and in about n log n, every invariant of half-edges, counts, geometry, trapezoids and history
  * (README.md lists them). NULL if all hold, else a sentence on the first that does not. */
 const char *sunder_i_planar_map_check(sunder_i_planar_map *map);
-/* The same at the end of a stage, where NDEBUG is not set: nothing is counted, and where memory runs out nothing is known
- * and NULL is returned. */
+/* The same at the end of a stage, where NDEBUG is not set: nothing is counted, and where memory runs out nothing is
+ * known and NULL is returned. */
 const char *sunder_i_planar_map_sound(sunder_i_planar_map *map);
 
 #endif

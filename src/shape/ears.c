@@ -29,7 +29,10 @@
 
 /* A list up to here, a tree from here on; by measurement on random and coast-like rings. */
 #define TREE_FROM 24
+/* Corners in a block of the tree: to ask whether one forbids a cut takes longer than to look at a box. */
 #define LEAF 4
+/* Up to so many bridges the corners still come in the order of one ring, more or less. */
+#define FEW_BRIDGES 8
 
 enum { CONVEX, BLUNT, CUT };
 
@@ -285,7 +288,7 @@ void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *b
         c.tree = sunder_i_box_tree_of(c.listed, LEAF);
         c.tree.box = sunder_i_arena_alloc(arena, 2 * c.tree.leaves, sizeof *c.tree.box);
         if (!c.tree.box) return;
-        if (bridges > 8 || strays(&c)) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
+        if (bridges > FEW_BRIDGES || strays(&c)) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
         if (arena->failed) return;
     }
     cut_all(&c);

@@ -9,7 +9,10 @@
 
 #include "spatial/curve.h"
 
-#define LEAF_EDGES 8 /* in a block */
+/* Edges in a block: more make the tree smaller and have more pairs of edges compared one by one. */
+#define LEAF_EDGES 8
+/* Rings are few up to here: each is in good order by itself, and sorting so few would not bring others together. */
+#define FEW_RINGS 8
 
 /* Tails of the edges, rings in the curve's order of their first vertices. */
 static void sort_rings(sunder_i_edge_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
@@ -61,7 +64,7 @@ void sunder_i_edge_tree_build(sunder_i_edge_tree *tree, const sunder_i_rings *r,
 {
     *tree = (sunder_i_edge_tree){.first = ring_lo ? r->ring_end[ring_lo - 1] : 0};
     tree->boxes = sunder_i_box_tree_of(r->ring_end[ring_hi - 1] - tree->first, LEAF_EDGES);
-    if (ring_hi - ring_lo > 8) sort_rings(tree, r, ring_lo, ring_hi, arena);
+    if (ring_hi - ring_lo > FEW_RINGS) sort_rings(tree, r, ring_lo, ring_hi, arena);
     tree->boxes.box = sunder_i_arena_alloc(arena, 2 * tree->boxes.leaves, sizeof *tree->boxes.box);
     if (!arena->failed) sunder_i_box_tree_fill(&tree->boxes, add_edge, &(edges){tree, r});
 }

@@ -10,7 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Children of a node: many, so that there are few levels to mend when a box moves. */
 #define FANOUT 16
+/* The tree is worn when its nodes have so many times the size that they were packed to: queries then look at about that
+ * many times the nodes, and building anew costs about as much as asking once for each box. */
+#define WORN 1.5
 
 typedef struct place {
     uint32_t hilbert, item;
@@ -145,7 +149,7 @@ void sunder_i_rtree_move(sunder_i_rtree *tree, uint32_t item, const double box[4
     }
 }
 
-bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl <= 1.5 * tree->packed); }
+bool sunder_i_rtree_is_worn(const sunder_i_rtree *tree) { return !(tree->sprawl <= WORN * tree->packed); }
 
 void sunder_i_rtree_free(sunder_i_rtree *tree)
 {

@@ -6,8 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+/* Strips at most: beyond that the array of their ends costs more than shorter lists save. */
 #define MOST_STRIPS (1u << 20)
-#define ENTRIES_EACH 8 /* of an item, on average */
+/* Strips that an item is in, on average, at most: what bounds the memory. */
+#define ENTRIES_EACH 8
 
 /* Monotone in the height, so what holds of heights holds of strips. */
 static uint32_t strip_of(const sunder_i_strips *s, double height)
