@@ -44,7 +44,7 @@ typedef struct sunder_i_gap_quadtree {
 typedef struct sunder_i_gap_problem {
     sunder_i_operands *operands;
     sunder_i_big gap;  /* gap / 2^gap_bits lattice units: the lattice itself need not be so fine */
-    sunder_i_big over; /* surd_point.c: units are divided by this, so that the points at hand are integers */
+    sunder_i_big over; /* boundary_points.c: units are divided by this, so that the points at hand are integers */
     unsigned long gap_bits;
     double gap_units, limit;
     const sunder_i_candidate *segment; /* of the reduced convolution, unmoved */
@@ -69,10 +69,10 @@ typedef struct sunder_i_gap_answer {
     sunder_contact contact;
 } sunder_i_gap_answer;
 
-/* The search: what doubles and long doubles conclude clears an error bound, and all else is decided exactly. */
+/* The search: what doubles conclude clears an error bound, and all else is decided exactly. */
 sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_gap_answer *out, sunder_error *err);
 
-/* ---- Exact points (surd_point.c) ---- */
+/* ---- Exact points (boundary_points.c) ---- */
 
 /* The point of the curve's line or circle that is nearest to the origin; of a circle about the origin the leftmost. */
 void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out);
@@ -88,6 +88,17 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_
 /* The position of a point on that line, from the foot, within 4 of it times 2^bits. */
 bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *line,
                            const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along);
+/* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
+ * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
+ * left of the side. *flat: a point inside the side is nearest, not its corner. Exact. */
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
+                          const sunder_i_surd_point *at, bool *inward, bool *flat);
+/* The same for all of the (closed) subsum; *k: the side, if it is not above. */
+int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
+                     uint32_t *k, bool *flat);
+
+/* ---- Their order and digits (surd_point.c) ---- */
+
 /* A vector of doubles of the caller's units. */
 sunder_i_surd_point sunder_i_surd_point_doubles(sunder_i_operands *operands, double dx, double dy);
 sunder_i_surd_point sunder_i_surd_point_rational(sunder_i_operands *operands, sunder_i_rational_point at);
@@ -97,15 +108,6 @@ static inline sunder_i_rational_point sunder_i_surd_point_of(const sunder_i_surd
     return (sunder_i_rational_point){at->x.part[0], at->y.part[0], at->w};
 }
 bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact);
-
-/* Is the distance of the point from side k of the subsum, from its first corner (included) to its second (not), below,
- * equal to or above the gap? -1, 0, 1; 1 also where the side's second corner is nearer. *inward: the point lies to the
- * left of the side. *flat: a point inside the side is nearest, not its corner. Exact. */
-int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
-                          const sunder_i_surd_point *at, bool *inward, bool *flat);
-/* The same for all of the (closed) subsum; *k: the side, if it is not above. */
-int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
-                     uint32_t *k, bool *flat);
 /* Order of the distances of two points from the origin, then lexicographic. Exact. */
 int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_point *a, const sunder_i_surd_point *b);
 /* The point's coordinates times 2^bits (lattice units), within 3. */

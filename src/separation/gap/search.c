@@ -4,7 +4,7 @@
  * that places are irrational. In numbers with a known error (gap/search.h) most of them are seen to be covered: a point
  * by a grown subsum whose distance is less than the gap by more than all rounding, a stretch from point to point so
  * covered. What that leaves open is asked exactly, of points that are fractions of integers and square roots
- * (surd_point.c): nothing is discarded, and nothing is found, that is not so. So the first free point is the nearest
+ * (boundary_points.c): nothing is discarded or found that is not so. So the first free point is the nearest
  * one, and its length the bound; equal ones are told apart exactly as well.
  *
  * Where the nearest point is irrational, a rational one beside it is given (rational.c). */

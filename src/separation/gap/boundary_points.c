@@ -1,0 +1,299 @@
+/* Points of the boundary of the grown obstacle, exactly, and the exact test of the gap. With N = 2^gap_bits the gap is
+ * G / N; a side a + t d of length L = sqrt(q) has the normal n = (d.y, -d.x) and the moved line N n.x = C, where
+ * C = N n.a + G L. So feet and crossings are fractions of integers and one or two square roots: L of each line, and the
+ * half chord of a circle. That these roots are integers wherever the point is rational makes rational points plain:
+ * nothing rational lies on a line of irrational length, since N n.x would be rational and C is not. */
+#include "separation/gap/gap.h"
+
+#include "predicate/rational_point.h"
+
+typedef struct vec {
+    sunder_i_big x, y;
+} vec;
+
+static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->operands->placed.lattice.arena; }
+
+/* The problem in units that divide the lattice's, such that these points are integers in them. */
+static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder_i_point *point, size_t n)
+{
+    sunder_i_arena *m = arena_of(p);
+    sunder_i_gap_problem q = *p;
+    for (size_t i = 0; i < n && !m->failed; i++) {
+        if (sunder_i_point_is_plain(point[i])) continue;
+        const sunder_i_big w = sunder_i_rational_get(m, &p->operands->placed.lattice, point[i]).w;
+        const sunder_i_big g = sunder_i_big_gcd(m, q.over, w);
+        if (!m->failed) q.over = sunder_i_big_mul(m, q.over, sunder_i_big_div_floor(m, w, g));
+    }
+    q.gap = sunder_i_times(m, p->gap, q.over);
+    return q;
+}
+
+static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
+{
+    sunder_i_arena *m = arena_of(p);
+    if (m->failed) return (vec){{NULL, 0}, {NULL, 0}};
+    const sunder_i_rational_point v = sunder_i_rational_get(m, &p->operands->placed.lattice, a);
+    if (sunder_i_big_is_one(p->over)) return (vec){v.x, v.y};
+    const sunder_i_big factor = sunder_i_big_div_floor(m, p->over, v.w);
+    return (vec){sunder_i_big_mul(m, v.x, factor), sunder_i_big_mul(m, v.y, factor)};
+}
+
+/* Both points of a curve; of an arc they are one. */
+static void points_of(const sunder_i_gap_curve *curve, sunder_i_point out[2])
+{
+    out[0] = curve->a;
+    out[1] = curve->arc ? curve->a : curve->d;
+}
+
+static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve)
+{
+    sunder_i_point point[2];
+    points_of(curve, point);
+    return over_one(p, point, 2);
+}
+
+/* Times N. */
+static sunder_i_big scaled(const sunder_i_gap_problem *p, sunder_i_big v)
+{
+    return p->gap_bits ? sunder_i_big_shl(arena_of(p), v, p->gap_bits) : v;
+}
+
+static sunder_i_big add(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+{
+    return sunder_i_big_add(arena_of(p), a, b);
+}
+
+static sunder_i_big sub(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+{
+    return sunder_i_big_sub(arena_of(p), a, b);
+}
+
+static sunder_i_big mul(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+{
+    return sunder_i_big_mul(arena_of(p), a, b);
+}
+
+static sunder_i_big cross(const sunder_i_gap_problem *p, vec u, vec v)
+{
+    return sub(p, mul(p, u.x, v.y), mul(p, u.y, v.x));
+}
+
+static sunder_i_big dot(const sunder_i_gap_problem *p, vec u, vec v)
+{
+    return add(p, mul(p, u.x, v.x), mul(p, u.y, v.y));
+}
+
+static sunder_i_surd surd(const sunder_i_gap_problem *p, sunder_i_big v) { return sunder_i_surd_big(arena_of(p), v); }
+
+static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_big f)
+{
+    return sunder_i_surd_scale(arena_of(p), a, f);
+}
+
+/* A coordinate of the lattice's units in those of the problem. */
+static sunder_i_surd in_units(const sunder_i_gap_problem *p, sunder_i_surd a)
+{
+    return sunder_i_big_is_one(p->over) ? a : scale(p, a, p->over);
+}
+
+static sunder_i_surd sum(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
+{
+    return sunder_i_surd_add(arena_of(p), a, b);
+}
+
+static sunder_i_surd difference(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
+{
+    return sunder_i_surd_sub(arena_of(p), a, b);
+}
+
+/* ---- Feet and crossings ---- */
+
+typedef struct line {
+    vec d, n;
+    sunder_i_big square;  /* q */
+    sunder_i_surd length; /* L */
+    sunder_i_surd c;      /* C */
+} line;
+
+static line moved_line(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_roots *roots)
+{
+    line l = {.d = get(p, curve->d)};
+    l.n = (vec){l.d.y, sunder_i_big_neg(l.d.x)};
+    l.square = dot(p, l.d, l.d);
+    sunder_i_surd_root(arena_of(p), roots, surd(p, l.square), &l.length);
+    l.c = sum(p, surd(p, scaled(p, dot(p, l.n, get(p, curve->a)))), scale(p, l.length, p->gap));
+    return l;
+}
+
+static void finish(sunder_i_surd_point *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y,
+                   sunder_i_big w)
+{
+    w = sunder_i_times(arena_of(p), w, p->over);
+    const bool negative = sunder_i_big_sign(w) < 0;
+    const sunder_i_big minus = sunder_i_big_i64(arena_of(p), -1);
+    out->x = negative ? scale(p, x, minus) : x;
+    out->y = negative ? scale(p, y, minus) : y;
+    out->w = negative ? sunder_i_big_neg(w) : w;
+}
+
+/* c (1 - g / |c|). */
+static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
+{
+    const vec c = get(p, curve->a);
+    const sunder_i_big square = dot(p, c, c);
+    if (sunder_i_big_sign(square) == 0) {
+        finish(out, p, surd(p, sunder_i_big_neg(p->gap)), surd(p, square), scaled(p, sunder_i_big_i64(arena_of(p), 1)));
+        return;
+    }
+    sunder_i_surd length;
+    sunder_i_surd_root(arena_of(p), &out->roots, surd(p, square), &length);
+    const sunder_i_surd k = difference(p, surd(p, scaled(p, square)), scale(p, length, p->gap));
+    finish(out, p, scale(p, k, c.x), scale(p, k, c.y), scaled(p, square));
+}
+
+void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
+{
+    const sunder_i_gap_problem q = over_curve(problem, curve), *const p = &q;
+    out->roots.n = 0;
+    if (curve->arc) {
+        arc_foot(p, curve, out);
+        return;
+    }
+    const line l = moved_line(p, curve, &out->roots);
+    finish(out, p, scale(p, l.c, l.n.x), scale(p, l.c, l.n.y), scaled(p, l.square));
+}
+
+/* c + (n k + sign d s) / (q N) with k = C - N n.c and s = sqrt(G^2 q - k^2). */
+static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *side, const sunder_i_gap_curve *arc,
+                     int sign, sunder_i_surd_point *out)
+{
+    sunder_i_arena *a = arena_of(p);
+    const line l = moved_line(p, side, &out->roots);
+    const vec c = get(p, arc->a);
+    const sunder_i_surd k = difference(p, l.c, surd(p, scaled(p, dot(p, l.n, c))));
+    const sunder_i_surd square = surd(p, mul(p, mul(p, p->gap, p->gap), l.square));
+    sunder_i_surd s;
+    if (!sunder_i_surd_root(a, &out->roots, difference(p, square, sunder_i_surd_mul(a, &out->roots, k, k)), &s))
+        return false;
+    if (sign < 0) s = scale(p, s, sunder_i_big_i64(a, -1));
+    const sunder_i_big w = scaled(p, l.square);
+    finish(out, p, sum(p, surd(p, mul(p, w, c.x)), sum(p, scale(p, k, l.n.x), scale(p, s, l.d.x))),
+           sum(p, surd(p, mul(p, w, c.y)), sum(p, scale(p, k, l.n.y), scale(p, s, l.d.y))), w);
+    return true;
+}
+
+/* The middle, and on either side of it v turned left times sqrt((4 G^2 - Q N^2) Q) / (2 Q N), Q = |v|^2. */
+static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *c, const sunder_i_gap_curve *d, int sign,
+                    sunder_i_surd_point *out)
+{
+    sunder_i_arena *arena = arena_of(p);
+    const vec a = get(p, c->a), b = get(p, d->a), v = {sub(p, b.x, a.x), sub(p, b.y, a.y)};
+    const sunder_i_big q = dot(p, v, v), wide = scaled(p, q);
+    const sunder_i_big four = sunder_i_big_shl(arena, mul(p, p->gap, p->gap), 2);
+    sunder_i_surd s;
+    if (sunder_i_big_sign(q) == 0 ||
+        !sunder_i_surd_root(arena, &out->roots, surd(p, mul(p, sub(p, four, scaled(p, wide)), q)), &s))
+        return false;
+    if (sign < 0) s = scale(p, s, sunder_i_big_i64(arena, -1));
+    finish(out, p, difference(p, surd(p, mul(p, add(p, a.x, b.x), wide)), scale(p, s, v.y)),
+           sum(p, surd(p, mul(p, add(p, a.y, b.y), wide)), scale(p, s, v.x)), sunder_i_big_shl(arena, wide, 1));
+    return true;
+}
+
+bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
+                           const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out)
+{
+    sunder_i_point point[4];
+    points_of(c, point);
+    points_of(d, point + 2);
+    const sunder_i_gap_problem q = over_one(problem, point, 4), *const p = &q;
+    out->roots.n = 0;
+    if (d->arc) return c->arc ? arc_arc(p, c, d, sign, out) : line_arc(p, c, d, sign, out);
+    const line l = moved_line(p, c, &out->roots), m = moved_line(p, d, &out->roots);
+    const sunder_i_big w = scaled(p, cross(p, l.n, m.n));
+    if (sunder_i_big_sign(w) == 0) return false;
+    finish(out, p, difference(p, scale(p, l.c, m.n.y), scale(p, m.c, l.n.y)),
+           difference(p, scale(p, m.c, l.n.x), scale(p, l.c, m.n.x)), w);
+    return true;
+}
+
+/* ---- Along a line of rational length ---- */
+
+bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side, sunder_i_big along,
+                        unsigned long bits, sunder_i_surd_point *out)
+{
+    const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
+    along = sunder_i_times(arena_of(p), along, p->over);
+    out->roots.n = 0;
+    const line l = moved_line(p, side, &out->roots);
+    if (out->roots.n) return false;
+    /* n C / (q N) + d along / (L 2^bits), over q N 2^bits. */
+    sunder_i_arena *a = arena_of(p);
+    const sunder_i_big k = scaled(p, mul(p, along, l.length.part[0])), c = sunder_i_big_shl(a, l.c.part[0], bits);
+    finish(out, p, surd(p, add(p, mul(p, l.n.x, c), mul(p, l.d.x, k))),
+           surd(p, add(p, mul(p, l.n.y, c), mul(p, l.d.y, k))), sunder_i_big_shl(a, scaled(p, l.square), bits));
+    return true;
+}
+
+bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side,
+                           const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along)
+{
+    /* The side's own units drop out: at is in those of the lattice. */
+    const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
+    sunder_i_arena *a = arena_of(p);
+    sunder_i_roots roots = {.n = 0};
+    const line l = moved_line(p, side, &roots);
+    if (roots.n) return false;
+    const sunder_i_surd s = sum(p, scale(p, at->x, l.d.x), scale(p, at->y, l.d.y));
+    *along = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, s, bits), mul(p, at->w, l.length.part[0]));
+    return true;
+}
+
+/* ---- The gap ---- */
+
+int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *s, uint32_t k,
+                          const sunder_i_surd_point *at, bool *inward, bool *flat)
+{
+    sunder_i_arena *a = arena_of(problem);
+    const sunder_i_mark mark = sunder_i_arena_mark(a);
+    const sunder_i_point point[2] = {s->corner[k], s->side[k]};
+    const sunder_i_gap_problem q = over_one(problem, point, 2), *const p = &q;
+    const sunder_i_roots *roots = &at->roots;
+    const vec c = get(p, s->corner[k]), d = get(p, s->side[k]);
+    const sunder_i_surd vx = difference(p, in_units(p, at->x), surd(p, mul(p, c.x, at->w)));
+    const sunder_i_surd vy = difference(p, in_units(p, at->y), surd(p, mul(p, c.y, at->w)));
+    const sunder_i_surd turn = difference(p, scale(p, vy, d.x), scale(p, vx, d.y));
+    const sunder_i_surd along = sum(p, scale(p, vx, d.x), scale(p, vy, d.y));
+    const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);
+    int order = 1;
+    *inward = sunder_i_surd_sign(a, roots, turn) > 0;
+    *flat = false;
+    if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the corner */
+        const sunder_i_surd norm = sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
+        const sunder_i_surd wide = sunder_i_surd_shl(a, norm, 2 * p->gap_bits);
+        order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, limit)));
+    } else if (sunder_i_surd_sign(a, roots, difference(p, along, surd(p, mul(p, square, at->w)))) < 0) {
+        const sunder_i_surd wide = sunder_i_surd_shl(a, sunder_i_surd_mul(a, roots, turn, turn), 2 * p->gap_bits);
+        order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, mul(p, limit, square))));
+        *flat = true;
+    }
+    sunder_i_arena_release(a, mark);
+    return order;
+}
+
+int sunder_i_gap_cmp(const sunder_i_gap_problem *p, const sunder_i_subsum *s, const sunder_i_surd_point *at,
+                     uint32_t *k, bool *flat)
+{
+    bool inside = true;
+    int least = 1;
+    for (uint32_t i = 0; i < s->sides && least >= 0; i++) {
+        bool inward, is_flat;
+        const int order = sunder_i_gap_cmp_side(p, s, i, at, &inward, &is_flat);
+        inside = inside && inward;
+        if (order >= least) continue;
+        least = order;
+        *k = i;
+        *flat = is_flat;
+    }
+    return inside ? -1 : least;
+}
