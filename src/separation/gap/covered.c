@@ -56,7 +56,7 @@ const sunder_i_gap_subsum *sunder_i_gap_load(sunder_i_gap_state *s, size_t k)
     for (size_t i = 0; i < n; i++) {
         r->length[i] = sunder_i_gap_length(r->sx[i], r->sy[i]);
         r->inverse[i] = 1 / r->length[i];
-        r->vague = r->vague || !(r->length[i] > SUNDER_I_GAP_TINY);
+        r->vague = r->vague || !(r->length[i] > SUNDER_I_SHORTEST);
     }
     return r;
 }

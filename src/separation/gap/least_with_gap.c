@@ -67,7 +67,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
         for (uint32_t i = 0; i < s->sides && !far; i++) {
             const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
             const double length = sqrt(s->sx[i] * s->sx[i] + s->sy[i] * s->sy[i]);
-            far = length > SUNDER_I_GAP_TINY && turn < -s->bound[i] - r * SUNDER_I_GAP_MORE * length;
+            far = length > SUNDER_I_SHORTEST && turn < -s->bound[i] - r * SUNDER_I_GAP_MORE * length;
             inside = inside && turn > s->bound[i];
         }
         if (inside || (!far && sunder_i_gap_cmp(p, s, &origin, &side, &flat) < 0)) return false;

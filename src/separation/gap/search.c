@@ -65,7 +65,7 @@ static double side_key(const sunder_i_gap_state *s, size_t segment)
     double t = -(x * dx + y * dy) / square;
     t = t > 0 ? t < 1 ? t : 1 : 0;
     /* Where the direction is not known well enough, or lost below all doubles: the unmoved side, less the gap. */
-    if (s->g->coarse > 0 || !(square > SUNDER_I_GAP_TINY * SUNDER_I_GAP_TINY))
+    if (s->g->coarse > 0 || !(square > SUNDER_I_SHORTEST * SUNDER_I_SHORTEST))
         return sqrt(c->square) - s->p->gap_units - 8 * s->g->error;
     return hypot(x + t * dx, y + t * dy) - 8 * s->g->error;
 }

@@ -18,13 +18,11 @@
  *            by no more than that: below 200 u S.
  *
  * `error` = 128 u S bounds that of a point, and `margin` = 2 error that of a distance from a point so computed (48 +
- * 200 u S). Sides shorter than GAP_TINY, whose squares leave the range of doubles, take no part in any of this. */
+ * 200 u S). Sides shorter than SUNDER_I_SHORTEST take no part in any of this. */
 #ifndef SUNDER_I_GAP_SEARCH_H
 #define SUNDER_I_GAP_SEARCH_H
 
 #include "separation/gap/gap.h"
-
-#define SUNDER_I_GAP_TINY 0x1p-480
 
 /* A subsum as the search wants it. */
 typedef struct sunder_i_gap_subsum {

@@ -12,6 +12,10 @@
 #include "shape/shape.h"
 #include "spatial/box.h"
 
+/* Sides shorter than this, in units, are left out of what is concluded in doubles: their squares come near to the end
+ * of the range of doubles, 2^-1022, and what is divided by them is not known to a few ulps any more. */
+#define SUNDER_I_SHORTEST 0x1p-480
+
 /* R_ij, counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
 typedef struct sunder_i_subsum {
     uint32_t i, j;  /* the pieces of P and of Q */

@@ -34,7 +34,7 @@ static void add_body(sunder_i_bodies *b, const sunder_i_operands *g, const doubl
         to->ny[m] = (float)(-dx / length);
         to->support[m] = (float)(scale * (dy / length * c[0] - dx / length * c[1]));
     }
-    const double vague = shortest > 0x1p-480 ? 32 * g->coarse / shortest : INFINITY;
+    const double vague = shortest > SUNDER_I_SHORTEST ? 32 * g->coarse / shortest : INFINITY;
     b->vague[b->n] = (float)vague;
     for (uint32_t k = first; vague > 0 && k < first + blocks; k++)
         for (int m = 0; m < 4; m++) b->block[k].support[m] -= b->vague[b->n];
