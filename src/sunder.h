@@ -167,7 +167,7 @@ typedef struct sunder_sum sunder_sum;
 typedef enum sunder_algorithm {
     SUNDER_ALGORITHM_AUTO, /* the convolution; with keep_map the arrangement */
     SUNDER_ALGORITHM_CONVOLUTION,    /* only sides that can bound the sum, settled line by line: by far the fastest */
-    SUNDER_ALGORITHM_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement, whose cells are then marked [AFH00] */
+    SUNDER_ALGORITHM_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement; its cells are then marked [AFH00] */
     SUNDER_ALGORITHM_INCREMENTAL,    /* one subsum after the other united with the union so far [AFH00] */
     SUNDER_ALGORITHM_DIVIDE          /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
 } sunder_algorithm;
@@ -179,9 +179,9 @@ typedef enum sunder_decomposition {
     SUNDER_DECOMPOSITION_VERTICAL,           /* vertical cuts from the reflex vertices */
     SUNDER_DECOMPOSITION_TRIANGULATION,
     SUNDER_DECOMPOSITION_HERTEL_MEHLHORN,    /* a triangulation without its needless diagonals */
-    SUNDER_DECOMPOSITION_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500 vertices, fall back to Hertel
-                       and Mehlhorn's */
-    SUNDER_DECOMPOSITION_MIXED    /* both operands together: least length of all subsums' boundaries; falls back likewise */
+    SUNDER_DECOMPOSITION_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500
+                                     vertices, fall back to Hertel and Mehlhorn's */
+    SUNDER_DECOMPOSITION_MIXED    /* both together: least length of all subsums' boundaries; falls back likewise */
 } sunder_decomposition;
 
 /* In what order subsums go in; for all roads but the convolution. */
@@ -207,7 +207,7 @@ typedef struct sunder_sum_options {
     sunder_order order;
     uint64_t seed; /* of the random order, and of what is drawn besides */
     bool keep_map; /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
-    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. The result is the same */
+    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are the same */
 } sunder_sum_options;
 
 typedef struct sunder_sum_size {
@@ -334,8 +334,10 @@ SUNDER_API uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex);
 
 SUNDER_API uint32_t sunder_map_origin(const sunder_map *map, uint32_t half);
 SUNDER_API uint32_t sunder_map_twin(uint32_t half);
-SUNDER_API uint32_t sunder_map_next(const sunder_map *map, uint32_t half); /* along the boundary of the face on its left */
-SUNDER_API uint32_t sunder_map_turn(const sunder_map *map, uint32_t half); /* counter-clockwise around its origin */
+/* The next one along the boundary of the face on its left. */
+SUNDER_API uint32_t sunder_map_next(const sunder_map *map, uint32_t half);
+/* The next one counter-clockwise around its origin. */
+SUNDER_API uint32_t sunder_map_turn(const sunder_map *map, uint32_t half);
 SUNDER_API uint32_t sunder_map_face(const sunder_map *map, uint32_t half);
 
 /* Boundaries of a face, by one half-edge each: the outer one (NOWHERE for face 0), and *n inner ones. */
@@ -462,8 +464,8 @@ typedef enum sunder_reason {
     SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
     SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,
-    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed pairs are no
-                               * worse than at the start */
+    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
+                               * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
     SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
