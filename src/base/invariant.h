@@ -2,8 +2,8 @@
  *
  * SUNDER_I_ASSERT  a condition that costs no more than what is done about it anyway.
  * SUNDER_I_CHECK   a checker, which returns NULL or a sentence. Checkers look at everything, some of them at all pairs:
- *                  so they are asked of things of moderate size only, n of them. Some allocate: under an allocator of the
- *                  caller's, a test's that counts what is asked of it, nothing is checked. */
+ *                  so they are asked of things of moderate size only, n of them. Some allocate: under an allocator of
+ *                  the caller's, a test's that counts what is asked of it, nothing is checked. */
 #ifndef SUNDER_I_INVARIANT_H
 #define SUNDER_I_INVARIANT_H
 

@@ -93,8 +93,8 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 /* The largest convex piece in doubles, first of equals; *from is its first corner. */
 uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from);
 
-/* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence; NULL too
- * where memory runs out, since nothing is known then. */
+/* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence; NULL
+ * too where memory runs out, since nothing is known then. */
 const char *sunder_i_shape_check(const sunder_shape *shape);
 
 #endif
