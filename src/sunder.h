@@ -103,11 +103,11 @@ SUNDER_API const char *sunder_validity_string(sunder_validity validity);
  *            the last polygon.
  * poly_end   poly_end[p] is the index past the last ring of polygon p. The first ring of a polygon is its outer one.
  * polygons   how many; 0 gives the empty set.
- * validity   SUNDER_VALIDITY_STRICT: rings may be closed or not, of either orientation, with repeated and collinear vertices;
- *            they may touch at points, never cross or share a piece of edge. Members may touch and overlap: their
- *            union is meant. A polygon whose interior falls apart where its rings touch counts as several.
- *            SUNDER_VALIDITY_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose by the
- *            even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
+ * validity   SUNDER_VALIDITY_STRICT: rings may be closed or not, of either orientation, with repeated and collinear
+ *            vertices; they may touch at points, never cross or share a piece of edge. Members may touch and overlap:
+ *            their union is meant. A polygon whose interior falls apart where its rings touch counts as several.
+ *            SUNDER_VALIDITY_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose
+ *            by the even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
  *            nothing vanishes.
  * Fails      SUNDER_EARG      ends that do not ascend, or no such validity
  *            SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
@@ -165,11 +165,11 @@ typedef struct sunder_sum sunder_sum;
 
 /* Roads to the sum. All lead to the same result, whatever the decomposition, the order and the seed. */
 typedef enum sunder_algorithm {
-    SUNDER_ALGORITHM_AUTO, /* the convolution; with keep_map the arrangement */
-    SUNDER_ALGORITHM_CONVOLUTION,    /* only sides that can bound the sum, settled line by line: by far the fastest */
-    SUNDER_ALGORITHM_ARRANGEMENT,    /* all subsums of convex pieces in one arrangement; its cells are then marked [AFH00] */
-    SUNDER_ALGORITHM_INCREMENTAL,    /* one subsum after the other united with the union so far [AFH00] */
-    SUNDER_ALGORITHM_DIVIDE          /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
+    SUNDER_ALGORITHM_AUTO,        /* the convolution; with keep_map the arrangement */
+    SUNDER_ALGORITHM_CONVOLUTION, /* only sides that can bound the sum, settled line by line: by far the fastest */
+    SUNDER_ALGORITHM_ARRANGEMENT, /* all subsums of convex pieces in one arrangement; its cells are then marked [AFH00] */
+    SUNDER_ALGORITHM_INCREMENTAL, /* one subsum after the other united with the union so far [AFH00] */
+    SUNDER_ALGORITHM_DIVIDE       /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
 } sunder_algorithm;
 
 /* How the operands are cut into convex pieces; for all roads but the convolution. See src/decomposition/README. */
@@ -207,7 +207,7 @@ typedef struct sunder_sum_options {
     sunder_order order;
     uint64_t seed; /* of the random order, and of what is drawn besides */
     bool keep_map; /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
-    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are the same */
+    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are equal */
 } sunder_sum_options;
 
 typedef struct sunder_sum_size {
@@ -364,7 +364,7 @@ SUNDER_API const char *sunder_contact_string(sunder_contact contact);
 
 typedef struct sunder_separation {
     bool overlap;            /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
-    bool attained;           /* the least is given, as near as is said below: always, for isolated optima are rational */
+    bool attained;           /* the least is given, as near as is said below: always, as isolated optima are rational */
     bool rounded_is_free;    /* (dx, dy) as doubles takes them apart as well, checked exactly */
     sunder_contact contact;
     double dx, dy, distance; /* nearest doubles of the exact values */
@@ -377,9 +377,9 @@ typedef struct sunder_separation {
  *
  * The global minimum over every free placement, degenerate ones (exact slides and fits) included; of several nearest
  * the lexicographically smallest, told apart exactly with a gap as well. With a gap the optimum may be irrational: then
- * the vector given is rational, provably keeps the gap, and is longer than the optimum by at most 1e-9 of it; lower_bound
- * is the optimum's length then. There always is an answer, but for a gap of over 2^700 times the shortest side, where the
- * search may lose its way in the range of doubles: then it is SUNDER_EFAULT, and nothing is claimed.
+ * the vector given is rational, provably keeps the gap, and is longer than the optimum by at most 1e-9 of it;
+ * lower_bound is the optimum's length then. There always is an answer, but for a gap of over 2^700 times the shortest
+ * side, where the search may lose its way in the range of doubles: then it is SUNDER_EFAULT, and nothing is claimed.
  * gap   >= 0 and finite, else SUNDER_EARG.
  * out   on success owns its texts: sunder_separation_clear(). An empty operand: zero translation.
  * Source  [LM95] for the role of the no-fit polygon; src/separation/README for the search. */
@@ -507,7 +507,8 @@ typedef struct sunder_layer_summary {
 } sunder_layer_summary;
 
 /* The exact list of conflicts of a layer as it stands.
- * Fails   SUNDER_EARG for a gap or tolerance that is negative, not finite, or a tolerance not less than a non-zero gap. */
+ * Fails   SUNDER_EARG for a gap or tolerance that is negative, not finite, or a tolerance not less than a non-zero
+ *         gap. */
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
@@ -525,7 +526,8 @@ SUNDER_API void sunder_report_summary(const sunder_report *report, sunder_layer_
 /* The move of one feature; a coordinate as written is the double nearest to x + dx. */
 SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
 SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
-/* The number of the feature's block, counted from 0 in the order of their first members; -1 for one that stands alone. */
+/* The number of the feature's block, counted from 0 in the order of their first members; -1 for one that stands
+ * alone. */
 SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t feature);
 /* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
  * and, with list_inside, every pair inside blocks. */
