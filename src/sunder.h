@@ -167,7 +167,7 @@ typedef struct sunder_sum sunder_sum;
 typedef enum sunder_algorithm {
     SUNDER_ALGORITHM_AUTO,        /* the convolution; with keep_map the arrangement */
     SUNDER_ALGORITHM_CONVOLUTION, /* only sides that can bound the sum, settled line by line: by far the fastest */
-    SUNDER_ALGORITHM_ARRANGEMENT, /* all subsums of convex pieces in one arrangement; its cells are then marked [AFH00] */
+    SUNDER_ALGORITHM_ARRANGEMENT, /* all subsums of convex pieces in one arrangement, its cells then marked [AFH00] */
     SUNDER_ALGORITHM_INCREMENTAL, /* one subsum after the other united with the union so far [AFH00] */
     SUNDER_ALGORITHM_DIVIDE       /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
 } sunder_algorithm;
