@@ -78,24 +78,12 @@ void town_building_draw(town_building *building, const town_ground *ground, town
                                       {0.7, 0.75}, {0.7, 0.9}, {0.6, 1},    {0.4, 1},   {0.3, 0.9},
                                       {0.3, 0.75}, {0, 0.75},  {0, 0.55},   {0.3, 0.55}};
     switch (plan) {
-    case TOWN_PLAN_L:
-        DRAW(l);
-        break;
-    case TOWN_PLAN_T:
-        DRAW(t);
-        break;
-    case TOWN_PLAN_U:
-        DRAW(u);
-        break;
-    case TOWN_PLAN_BAY:
-        DRAW(bay);
-        break;
-    case TOWN_PLAN_CROSS:
-        DRAW(cross);
-        break;
-    case TOWN_PLAN_COURTYARD:
-        draw_courtyard(building, ground, s0, b0, width, depth);
-        break;
+    case TOWN_PLAN_L: DRAW(l); break;
+    case TOWN_PLAN_T: DRAW(t); break;
+    case TOWN_PLAN_U: DRAW(u); break;
+    case TOWN_PLAN_BAY: DRAW(bay); break;
+    case TOWN_PLAN_CROSS: DRAW(cross); break;
+    case TOWN_PLAN_COURTYARD: draw_courtyard(building, ground, s0, b0, width, depth); break;
     case TOWN_PLAN_RECTANGLE:
         town_building_corner(building, ground, s0, b0);
         town_building_corner(building, ground, s0 + width, b0);

@@ -108,9 +108,11 @@ int main(int argc, char **argv)
     }
     const family *f = settings.chosen;
     const int64_t units = f->map_units;
-    const family_place place = settings.map ? (family_place){units, MAP_X * units, MAP_Y * units} : (family_place){1, 0, 0};
+    const family_place place =
+        settings.map ? (family_place){units, MAP_X * units, MAP_Y * units} : (family_place){1, 0, 0};
     const uint64_t purpose = (uint64_t)(f - families);
-    family_streams streams = {town_random_at(settings.seed, 0, 0, purpose), town_random_at(settings.seed, 1, 0, purpose)};
+    family_streams streams = {town_random_at(settings.seed, 0, 0, purpose),
+                              town_random_at(settings.seed, 1, 0, purpose)};
     family_set p = {0}, q = {0};
     f->draw(&p, &q, settings.m, settings.n, &streams);
     const bool done = family_print(settings.swap ? &q : &p, &place, stdout) &&

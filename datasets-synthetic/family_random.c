@@ -86,7 +86,8 @@ static void draw_places(place *places, size_t n, town_random *random)
 {
     const int64_t share = 1000000 / (int64_t)n > 100 ? 1000000 / (int64_t)n : 100, span = share * (int64_t)n;
     for (size_t i = 0; i < n; i++)
-        places[i] = (place){(int64_t)i * share + family_integer(random, 0, share - 1), family_integer(random, 0, span - 1)};
+        places[i] =
+            (place){(int64_t)i * share + family_integer(random, 0, share - 1), family_integer(random, 0, span - 1)};
     for (size_t i = n; i > 1; i--) swap(&places[i - 1], &places[(size_t)family_integer(random, 0, (int64_t)i - 1)]);
 }
 

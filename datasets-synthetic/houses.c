@@ -151,8 +151,8 @@ static double add_house(town_block *block, const town_ground *street, double s, 
         double away = wrong ? town_random_between(random, -1, 1) : town_random_between(random, 3.5, 9);
         double shed_width = quarter_metres(town_random_between(random, 2.5, 4.5));
         double shed_depth = quarter_metres(town_random_between(random, 2, 3.5));
-        add_shed(block, &ground, town_random_between(random, s0, -s0 - shed_width), depth + away, shed_width, shed_depth,
-                 wrong ? -2 : 3.5);
+        add_shed(block, &ground, town_random_between(random, s0, -s0 - shed_width), depth + away, shed_width,
+                 shed_depth, wrong ? -2 : 3.5);
     }
     return width;
 }

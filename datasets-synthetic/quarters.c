@@ -186,8 +186,9 @@ void town_quarter_flats(town_block *block)
     double length = town_random_between(random, 32, 44);
     for (double s = 12; s < ground->length - 20; s += town_random_between(random, 24, 30)) {
         double height = town_random_between(random, 14, 32), back = town_random_between(random, 12, 26);
-        town_building *built = place(block, &turned, town_random_chance(random, 0.2) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE,
-                                     s, back, 12, length, 5, "flats", height);
+        town_building *built =
+            place(block, &turned, town_random_chance(random, 0.2) ? TOWN_PLAN_L : TOWN_PLAN_RECTANGLE, s, back, 12,
+                  length, 5, "flats", height);
         if (built &&
             town_random_chance(random, 0.5)) { /* a stair tower, drawn a little into the wall or a little off it */
             place(block, &turned, TOWN_PLAN_RECTANGLE, s + 12.5, 30, 2.5, 4,
@@ -230,6 +231,7 @@ void town_quarter_park(town_block *block)
     place_monuments(block, ground, town_random_between(random, 30, 60), back);
     for (int i = 0; i < 3; ++i) {
         double away = town_random_between(random, 14, 66);
-        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 16, 86), away, 5, 4, 3.2, "pavilion", 3.5);
+        place(block, ground, TOWN_PLAN_RECTANGLE, town_random_between(random, 16, 86), away, 5, 4, 3.2, "pavilion",
+              3.5);
     }
 }

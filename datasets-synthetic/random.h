@@ -2,7 +2,8 @@
  *
  * SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): a counter and a mixing function. Streams are told apart by hashing what
  * they are for (seed, column, row, purpose), so that every block of the town can be drawn by itself, in any order.
- * Draws stand in statements of their own: the order in which the arguments of one call are worked out is the compiler's. */
+ * Draws stand in statements of their own: the order in which the arguments of one call are worked out is the
+ * compiler's. */
 #ifndef TOWN_RANDOM_H
 #define TOWN_RANDOM_H
 

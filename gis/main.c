@@ -19,8 +19,8 @@ const gis_command gis_commands[] = {
      "--gap 3m --max-shift 10m houses.gpkg separated.gpkg", gis_command_separate},
     {GIS_CHECK, "check", "INPUT [OUTPUT]", 1, 2, "Lists overlaps and gap violations, exactly", "--gap 3m houses.gpkg",
      gis_command_check},
-    {GIS_SUM, "sum", "P Q [OUTPUT]", 2, 3, "Minkowski sum P + Q, exactly",
-     "\"POLYGON ((0 0, 4 0, 0 3))\" disc:1", gis_command_sum},
+    {GIS_SUM, "sum", "P Q [OUTPUT]", 2, 3, "Minkowski sum P + Q, exactly", "\"POLYGON ((0 0, 4 0, 0 3))\" disc:1",
+     gis_command_sum},
     {GIS_PAIR, "pair", "P Q [OUTPUT]", 2, 3, "Least translation of Q that takes its interior off P",
      "square:4 \"POLYGON ((1 1, 5 1, 5 2))\" --gap 0.5", gis_command_pair},
     {GIS_BUFFER, "buffer", "INPUT OUTPUT", 2, 2, "Grows, shrinks, opens or closes features by a shape, exactly",
@@ -116,7 +116,7 @@ int main(int argc, char **argv)
         status = run(command, argc - 2, argv + 2);
     } else if (!first) {
         gis_fail_usage(&error, "which command? separate, check, sum, pair, buffer or route; `sunder --help` tells "
-                       "more");
+                               "more");
         status = gis_say_failure(&error);
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());

@@ -92,7 +92,7 @@ static sigset_t all_of_them(void)
 /* ---- Outside ----------------------------------------------------------------------------------------------------- */
 
 /* Waiting reads and writes are interrupted: no SA_RESTART. */
-static void catch(int number)
+static void catch (int number)
 {
     const struct sigaction action = {.sa_handler = hear, .sa_mask = all_of_them()};
     sigaction(number, &action, NULL);
@@ -101,9 +101,9 @@ static void catch(int number)
 void gis_catch_signals(void)
 {
     main_thread = pthread_self();
-    catch(SIGALRM);
-    catch(SIGINT);
-    catch(SIGTERM);
+    catch (SIGALRM);
+    catch (SIGINT);
+    catch (SIGTERM);
     gis_watch();
 }
 

@@ -2,8 +2,8 @@
  * of its members comes first; memory that runs out is remembered, and asked for once, at the end. */
 #include "base/json.h"
 
-#include <inttypes.h>
 #include <float.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -15,8 +15,9 @@ typedef struct unit {
 } unit;
 
 static const unit units[] = {
-    {"", GIS_LAYER_UNIT, 1, 1},       {"m", GIS_METRE, 1, 1},           {"km", GIS_KILOMETRE, 1000, 1},
-    {"ft", GIS_FOOT, 3048, 10000},  {"us-ft", GIS_US_FOOT, 1200, 3937}, {"mm", GIS_SHEET_MILLIMETRE, 1, 1000},
+    {"", GIS_LAYER_UNIT, 1, 1},         {"m", GIS_METRE, 1, 1},
+    {"km", GIS_KILOMETRE, 1000, 1},     {"ft", GIS_FOOT, 3048, 10000},
+    {"us-ft", GIS_US_FOOT, 1200, 3937}, {"mm", GIS_SHEET_MILLIMETRE, 1, 1000},
 };
 #define N_UNITS (sizeof units / sizeof units[0])
 
@@ -87,8 +88,10 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
         return true;
     }
     if (rule->geographic) {
-        return gis_fail(error, "%s: the layer's coordinates are degrees, in which no length can be measured; "
-                        "reproject it first (ogr2ogr -t_srs)", what);
+        return gis_fail(error,
+                        "%s: the layer's coordinates are degrees, in which no length can be measured; "
+                        "reproject it first (ogr2ogr -t_srs)",
+                        what);
     }
     if (given->unit == GIS_LAYER_UNIT) {
         *out = given->value;
@@ -98,8 +101,10 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
         return gis_fail(error, "%s: mm are measured on the sheet; give the map's scale, as in --scale 25000", what);
     }
     if (!rule->has_crs) {
-        return gis_fail(error, "%s: there is no CRS that would tell its unit; give the length without a unit, or "
-                        "give the layer a CRS (--input-crs), or reproject it first", what);
+        return gis_fail(error,
+                        "%s: there is no CRS that would tell its unit; give the length without a unit, or "
+                        "give the layer a CRS (--input-crs), or reproject it first",
+                        what);
     }
     size_t from = 0, to = 0;
     while (units[from].unit != given->unit) from++;

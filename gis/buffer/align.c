@@ -71,8 +71,7 @@ typedef struct part {
 static bool tell_part(double fraction, void *user)
 {
     const part *p = user;
-    return !p->whole->progress ||
-           p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
+    return !p->whole->progress || p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
 }
 
 /* The sum in doubles, if the core made one; else its message. */
@@ -239,8 +238,8 @@ bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const
     in_block *members = malloc((set->members + 1) * sizeof *members);
     gis_polygons polygons = {0};
     double before = 0;
-    bool ok = ((feature && members) || gis_no_memory(error)) &&
-              find_blocks(buffer, set, how, members, &n, &before, error);
+    bool ok =
+        ((feature && members) || gis_no_memory(error)) && find_blocks(buffer, set, how, members, &n, &before, error);
     for (size_t i = 0; ok && i < n; i++) feature[i] = members[i].feature;
     set->none = ok && n == 0;
     for (size_t i = 0, end; ok && i < n; i = end) {

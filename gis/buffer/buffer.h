@@ -22,10 +22,10 @@ typedef struct gis_buffer_request {
 typedef struct gis_buffer_set {
     const size_t *member; /* features, in their order; borrowed */
     size_t members;
-    bool none;            /* none of them has a polygon: nothing is made, and a null geometry written */
+    bool none; /* none of them has a polygon: nothing is made, and a null geometry written */
     gis_rounded result;
-    double *segment;      /* [4 * segments] ends, if degenerate ones are wanted */
-    double *point;        /* [2 * points] */
+    double *segment; /* [4 * segments] ends, if degenerate ones are wanted */
+    double *point;   /* [2 * points] */
     size_t segments, points;
     double area;
 } gis_buffer_set;
@@ -35,10 +35,10 @@ typedef struct gis_buffer {
     gis_layer_input input;
     sunder_shape *shape;
     gis_source *shape_source; /* NULL: it is a text */
-    int field;             /* of dissolve_field; -1: none */
+    int field;                /* of dissolve_field; -1: none */
     gis_buffer_set *set;
     size_t sets;
-    size_t *member;        /* features, set by set */
+    size_t *member; /* features, set by set */
     size_t empty, vertices, repaired;
     double area, deviation;
 } gis_buffer;

@@ -70,11 +70,12 @@ static bool has_single_values(const gis_buffer *buffer, gis_error *error)
     case OFTString:
     case OFTDate:
     case OFTTime:
-    case OFTDateTime:
-        return true;
+    case OFTDateTime: return true;
     default:
-        return gis_fail(error, "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told "
-                        "apart", OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
+        return gis_fail(error,
+                        "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told "
+                        "apart",
+                        OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
     }
 }
 
@@ -154,8 +155,8 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
     gis_polygons all = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < set->members; i++)
-        ok = !has_shape(buffer, set->member[i]) ||
-             append_member(buffer, set->member[i], &rings, &all, deviation, error);
+        ok =
+            !has_shape(buffer, set->member[i]) || append_member(buffer, set->member[i], &rings, &all, deviation, error);
     sunder_error why;
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) != SUNDER_OK)
         ok = gis_core_failed(error, NULL, &why);
@@ -234,8 +235,7 @@ static bool make_from(const gis_buffer *buffer, gis_buffer_set *set, const sunde
     return ok;
 }
 
-bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
-                         gis_error *error)
+bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how, gis_error *error)
 {
     sunder_shape *joined = NULL, *turned = NULL;
     set->none = true;

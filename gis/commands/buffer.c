@@ -88,8 +88,8 @@ int gis_command_buffer(const gis_options *options)
                       .to = gis_resolve_destinations(options),
                       .progress = gis_resolve_progress(options),
                       .start = gis_clock()};
-    bool taken, ok = gis_resolve_buffer(options, &run.request, &error) &&
-                     gis_destinations_check(&run.to, &taken, &error);
+    bool taken,
+        ok = gis_resolve_buffer(options, &run.request, &error) && gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_BUFFER_READ);
     ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) && make_and_write(&run, &error) &&
          deliver(&run, taken, &error);

@@ -63,18 +63,13 @@ static void print_value(const gis_value *value)
 {
     char number[GIS_NUMBER_MAX];
     switch (value->kind) {
-    case GIS_NULL:
-        break;
-    case GIS_INTEGER:
-        printf(CPL_FRMT_GIB, value->as.integer);
-        break;
+    case GIS_NULL: break;
+    case GIS_INTEGER: printf(CPL_FRMT_GIB, value->as.integer); break;
     case GIS_REAL:
         gis_number_text(value->as.real, number);
         fputs(number, stdout);
         break;
-    case GIS_TEXT:
-        print_text(value->as.text);
-        break;
+    case GIS_TEXT: print_text(value->as.text); break;
     }
 }
 
@@ -135,9 +130,8 @@ static bool deliver(const check_run *run, bool taken, gis_error *error)
 int gis_command_check(const gis_options *options)
 {
     gis_error error;
-    check_run run = {.options = options,
-                     .to = gis_resolve_destinations(options),
-                     .progress = gis_resolve_progress(options)};
+    check_run run = {
+        .options = options, .to = gis_resolve_destinations(options), .progress = gis_resolve_progress(options)};
     bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_CHECK_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&

@@ -26,9 +26,9 @@ static void json_pair(gis_json *out, const sunder_separation *answer)
 static bool add_translation(gis_sink *sink, const gis_operands *operands, const sunder_separation *answer,
                             gis_error *error)
 {
-    static const gis_field fields[] = {{"overlap", OFTInteger64, 0},  {"dx", OFTReal, 0},
-                                       {"dy", OFTReal, 0},            {"len", OFTReal, 0},
-                                       {"contact", OFTString, 20},    {"attained", OFTInteger64, 0},
+    static const gis_field fields[] = {{"overlap", OFTInteger64, 0}, {"dx", OFTReal, 0},
+                                       {"dy", OFTReal, 0},           {"len", OFTReal, 0},
+                                       {"contact", OFTString, 20},   {"attained", OFTInteger64, 0},
                                        {"free", OFTInteger64, 0}};
     const gis_sink_layer_request request = {.suffix = "",
                                             .type = wkbLineString,
@@ -50,7 +50,7 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
     const double to[2] = {from[0] + answer->dx, from[1] + answer->dy};
     if (!isfinite(to[0]) || !isfinite(to[1]))
         return gis_fail(error, "the translation leaves the range of doubles, which a layer holds; without OUTPUT it is "
-                        "given exactly");
+                               "given exactly");
     OGRGeometryH line = gis_geometry_line(from, to);
     gis_sink_layer *layer;
     if (!line) return gis_no_memory(error);

@@ -188,7 +188,7 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
     if (meant) return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
     if (options->given[OPT_DISSOLVE] && options->given[OPT_DISSOLVE_FIELD])
         return gis_fail_usage(error, "--dissolve makes one set of all features, --dissolve-field one of each value: "
-                              "give one of them");
+                                     "give one of them");
     *out = (gis_buffer_request){
         .dissolve = options->given[OPT_DISSOLVE] || options->given[OPT_DISSOLVE_FIELD],
         .dissolve_field = options->text[OPT_DISSOLVE_FIELD],

@@ -16,15 +16,15 @@ typedef struct route_run {
     gis_route_request request;
     gis_route_input input;
     sunder_route *route;
-    gis_sink *sink;           /* NULL: no layers are written */
-    double max_deviation;     /* of layers; NaN: none are written */
+    gis_sink *sink;                  /* NULL: no layers are written */
+    double max_deviation;            /* of layers; NaN: none are written */
     char reason[GIS_WHO_SIZE + 128]; /* "" where there is a route */
 } route_run;
 
 static bool open_sink(route_run *run, gis_error *error)
 {
-    static const char *const suffixes[] = {"placements", "obstacles", "free_space", "degenerate_segments",
-                                           "degenerate_points", NULL};
+    static const char *const suffixes[] = {"placements",          "obstacles",         "free_space",
+                                           "degenerate_segments", "degenerate_points", NULL};
     static const char *const fewer[] = {"placements", NULL};
     const char *path = run->to.output;
     gis_sink_request request = gis_resolve_sink(run->options, path, "route");
@@ -40,8 +40,8 @@ static bool find(route_run *run, gis_error *error)
     gis_progress progress = gis_resolve_progress(run->options);
     gis_progress_stage(&progress, 0, 1);
     const sunder_route_options how = {run->input.gap, gis_progress_call, &progress};
-    sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot,
-                                             &run->request.from.at, &run->request.to.at, &how, &run->route, &why);
+    sunder_status status = sunder_route_find(run->input.obstacle, run->input.n, run->input.robot, &run->request.from.at,
+                                             &run->request.to.at, &how, &run->route, &why);
     if (status != SUNDER_OK) return gis_core_failed(error, NULL, &why);
     gis_progress_done(&progress);
     size_t obstacle;
@@ -127,10 +127,9 @@ int gis_command_route(const gis_options *options)
 {
     gis_error error;
     route_run run = {.options = options, .to = gis_resolve_destinations(options), .max_deviation = NAN};
-    bool taken, ok = gis_destinations_check(&run.to, &taken, &error) &&
-                     gis_resolve_route(options, &run.request, &error) &&
-                     gis_route_input_read(&run.request, &run.input, &error) &&
-                     (!run.to.output || open_sink(&run, &error));
+    bool taken,
+        ok = gis_destinations_check(&run.to, &taken, &error) && gis_resolve_route(options, &run.request, &error) &&
+             gis_route_input_read(&run.request, &run.input, &error) && (!run.to.output || open_sink(&run, &error));
     ok = ok && find(&run, &error) && report(&run, taken, &error);
     bool lost = ok && run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS];
     int status = !ok ? gis_say_failure(&error) : lost ? GIS_CONFLICTS : GIS_DONE;

@@ -168,8 +168,13 @@ static void json_seconds(gis_json *out, const sum_run *run)
     const struct {
         const char *key;
         double seconds;
-    } times[] = {{"read", run->read}, {"decompose", decompose}, {"subsums", subsums}, {"union", unite},
-                 {"write", run->write}, {"compute", run->compute}, {"total", gis_clock() - run->start}};
+    } times[] = {{"read", run->read},
+                 {"decompose", decompose},
+                 {"subsums", subsums},
+                 {"union", unite},
+                 {"write", run->write},
+                 {"compute", run->compute},
+                 {"total", gis_clock() - run->start}};
     gis_json_key(out, "seconds");
     gis_json_open(out, '{');
     for (size_t i = 0; i < sizeof times / sizeof *times; i++) gis_json_seconds(out, times[i].key, times[i].seconds);
@@ -226,8 +231,8 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
 /* Opened before the work is done: what can be refused is refused at once. */
 static bool open_sink(sum_run *run, gis_error *error)
 {
-    static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", "faces", "edges", "vertices",
-                                           NULL};
+    static const char *const suffixes[] = {
+        "degenerate_segments", "degenerate_points", "faces", "edges", "vertices", NULL};
     static const char *const without_map[] = {"degenerate_segments", "degenerate_points", NULL};
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, "sum");
     request.suffixes = run->how.keep_map ? suffixes : without_map;
@@ -270,10 +275,8 @@ static bool report(sum_run *run, bool taken, gis_error *error)
 int gis_command_sum(const gis_options *options)
 {
     gis_error error;
-    sum_run run = {.options = options,
-                   .to = gis_resolve_destinations(options),
-                   .max_deviation = NAN,
-                   .start = gis_clock()};
+    sum_run run = {
+        .options = options, .to = gis_resolve_destinations(options), .max_deviation = NAN, .start = gis_clock()};
     gis_operands_request request;
     bool taken, ok = gis_resolve_road(options, &run.how, &error) && gis_destinations_check(&run.to, &taken, &error) &&
                      gis_resolve_operands(options, &request, &error) &&

@@ -24,8 +24,7 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
     case OFTReal:
         *value = (gis_value){GIS_REAL, {.real = OGR_F_GetFieldAsDouble(feature, input->id_field)}};
         return true;
-    default:
-        break;
+    default: break;
     }
     const char *text = OGR_F_GetFieldAsString(feature, input->id_field);
     char *copied = malloc(strlen(text) + 1);
@@ -60,12 +59,9 @@ OGRFieldType gis_id_type(const gis_layer_input *input)
     OGRFieldDefnH field = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(input->source)), input->id_field);
     switch (OGR_Fld_GetType(field)) {
     case OFTInteger:
-    case OFTInteger64:
-        return OFTInteger64;
-    case OFTReal:
-        return OFTReal;
-    default:
-        return OFTString;
+    case OFTInteger64: return OFTInteger64;
+    case OFTReal: return OFTReal;
+    default: return OFTString;
     }
 }
 
@@ -101,12 +97,18 @@ bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sun
 {
     OGRFieldType id = gis_id_type(input);
     const gis_field fields[N_CONFLICT_COLUMNS] = {
-        [COLUMN_FID_A] = {"fid_a", OFTInteger64, 0},    [COLUMN_ID_A] = {"id_a", id, 0},
-        [COLUMN_FID_B] = {"fid_b", OFTInteger64, 0},    [COLUMN_ID_B] = {"id_b", id, 0},
-        [COLUMN_BARRIER] = {"barrier", OFTString, 0},   [COLUMN_BARR_FID] = {"barr_fid", OFTInteger64, 0},
-        [COLUMN_KIND] = {"kind", OFTString, 10},        [COLUMN_REASON] = {"reason", OFTString, 12},
-        [COLUMN_DISTANCE] = {"distance", OFTReal, 0},   [COLUMN_BEFORE] = {"before", OFTReal, 0},
-        [COLUMN_DEPTH] = {"depth", OFTReal, 0},         [COLUMN_REQUIRED] = {"required", OFTReal, 0},
+        [COLUMN_FID_A] = {"fid_a", OFTInteger64, 0},
+        [COLUMN_ID_A] = {"id_a", id, 0},
+        [COLUMN_FID_B] = {"fid_b", OFTInteger64, 0},
+        [COLUMN_ID_B] = {"id_b", id, 0},
+        [COLUMN_BARRIER] = {"barrier", OFTString, 0},
+        [COLUMN_BARR_FID] = {"barr_fid", OFTInteger64, 0},
+        [COLUMN_KIND] = {"kind", OFTString, 10},
+        [COLUMN_REASON] = {"reason", OFTString, 12},
+        [COLUMN_DISTANCE] = {"distance", OFTReal, 0},
+        [COLUMN_BEFORE] = {"before", OFTReal, 0},
+        [COLUMN_DEPTH] = {"depth", OFTReal, 0},
+        [COLUMN_REQUIRED] = {"required", OFTReal, 0},
         [COLUMN_BLOCKED_BY] = {"blocked_by", OFTString, 0},
     };
     const gis_sink_layer_request request = {.suffix = suffix,

@@ -22,18 +22,18 @@ typedef struct gis_layer_input_request {
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
     gis_source *source;
-    size_t n;                 /* features */
-    bool points;              /* the features are points, and the shapes the symbols at them */
-    bool as_chords;           /* arcs are taken as their polylines, and not grown to contain the arcs */
+    size_t n;       /* features */
+    bool points;    /* the features are points, and the shapes the symbols at them */
+    bool as_chords; /* arcs are taken as their polylines, and not grown to contain the arcs */
     gis_ruler rule;
-    double gap, max_shift;    /* in units of the layer; INFINITY: no limit */
-    double tolerance;         /* negative: the default */
-    sunder_shape **shape;     /* [n] NULL: nothing that could conflict */
-    sunder_feature *feature;  /* [n] */
+    double gap, max_shift;   /* in units of the layer; INFINITY: no limit */
+    double tolerance;        /* negative: the default */
+    sunder_shape **shape;    /* [n] NULL: nothing that could conflict */
+    sunder_feature *feature; /* [n] */
     sunder_layer *layer;
-    int id_field;             /* -1: none */
-    size_t invalid, null;     /* features with invalid, with no geometry */
-    size_t other;             /* features with geometries that are not looked at */
+    int id_field;         /* -1: none */
+    size_t invalid, null; /* features with invalid, with no geometry */
+    size_t other;         /* features with geometries that are not looked at */
 } gis_layer_input;
 
 /* Reads everything. On failure what was read can be released all the same. */

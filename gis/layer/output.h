@@ -26,8 +26,20 @@ bool gis_id_value(const gis_layer_input *input, size_t feature, char **copy, gis
 /* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
  * same scratch, which starts zeroed and is cleared at the end. */
 enum {
-    COLUMN_FID_A, COLUMN_ID_A, COLUMN_FID_B, COLUMN_ID_B, COLUMN_BARRIER, COLUMN_BARR_FID, COLUMN_KIND, COLUMN_REASON,
-    COLUMN_DISTANCE, COLUMN_BEFORE, COLUMN_DEPTH, COLUMN_REQUIRED, COLUMN_BLOCKED_BY, N_CONFLICT_COLUMNS
+    COLUMN_FID_A,
+    COLUMN_ID_A,
+    COLUMN_FID_B,
+    COLUMN_ID_B,
+    COLUMN_BARRIER,
+    COLUMN_BARR_FID,
+    COLUMN_KIND,
+    COLUMN_REASON,
+    COLUMN_DISTANCE,
+    COLUMN_BEFORE,
+    COLUMN_DEPTH,
+    COLUMN_REQUIRED,
+    COLUMN_BLOCKED_BY,
+    N_CONFLICT_COLUMNS
 };
 
 typedef struct gis_conflict_texts {

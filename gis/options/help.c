@@ -96,7 +96,8 @@ void gis_help_command(const gis_command *command)
            "Example: sunder %s %s\n",
            command->bit & GIS_LAYERS  ? ", 3 conflicts"
            : command->bit & GIS_ROUTE ? ", 3 no route"
-                                      : "", command->name, command->example);
+                                      : "",
+           command->name, command->example);
 }
 
 void gis_help_program(void)

@@ -133,22 +133,17 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     int n = name_length(option);
     gis_option_id id = option->id;
     switch (option->type) {
-    case GIS_TYPE_FLAG:
-        return true;
-    case GIS_TYPE_LIST:
-        return push(out, id, value, error);
+    case GIS_TYPE_FLAG: return true;
+    case GIS_TYPE_LIST: return push(out, id, value, error);
     case GIS_TYPE_PAIRS:
         if (!strchr(value, '=')) {
             if (in->next >= in->count) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
             if (!join(out, value, in->word[in->next++], &value, error)) return false;
         }
         return push(out, id, value, error);
-    case GIS_TYPE_BOX:
-        return read_box(in, value, out->box, error);
-    case GIS_TYPE_COUNT:
-        return read_count(option, value, &out->number[id], error);
-    case GIS_TYPE_SCALE:
-        return read_scale(value, &out->number[id], error);
+    case GIS_TYPE_BOX: return read_box(in, value, out->box, error);
+    case GIS_TYPE_COUNT: return read_count(option, value, &out->number[id], error);
+    case GIS_TYPE_SCALE: return read_scale(value, &out->number[id], error);
     case GIS_TYPE_LENGTH: {
         const char *why;
         if (!gis_length_parse(value, strlen(value), &out->length[id], &why))
@@ -196,8 +191,10 @@ static bool unknown_option(const gis_command *command, const char *word, size_t 
         }
     }
     if (elsewhere)
-        return gis_fail_usage(error, "unknown option %.*s: it belongs to other commands than %s; `sunder %s --help` "
-                              "lists them", (int)n, word, command->name, command->name);
+        return gis_fail_usage(error,
+                              "unknown option %.*s: it belongs to other commands than %s; `sunder %s --help` "
+                              "lists them",
+                              (int)n, word, command->name, command->name);
     if (spelling)
         return gis_fail_usage(error, "unknown option %.*s; did you mean %.*s? `sunder %s --help` lists them", (int)n,
                               word, (int)strcspn(spelling, " "), spelling, command->name);
@@ -243,7 +240,7 @@ static bool finish(gis_options *out, gis_error *error)
     if (out->given[OPT_OGR_OVERWRITE]) out->given[OPT_UPDATE] = out->given[OPT_OVERWRITE_LAYER] = true;
     if (out->given[OPT_OVERWRITE] && out->given[OPT_UPDATE])
         return gis_fail_usage(error, "--overwrite replaces the whole dataset, --update adds to it: give one of them "
-                              "(--update --overwrite-layer replaces layers)");
+                                     "(--update --overwrite-layer replaces layers)");
     if (out->given[OPT_OVERWRITE_LAYER] && !out->given[OPT_UPDATE])
         return gis_fail_usage(error, "--overwrite-layer needs --update");
     if (out->given[OPT_INPUT_LAYER] && out->given[OPT_SQL])

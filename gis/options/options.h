@@ -19,6 +19,7 @@ enum {
     GIS_ALL = GIS_LAYERS | GIS_SHAPES | GIS_BUFFER | GIS_ROUTE
 };
 
+/* clang-format off */
 typedef enum gis_option_id {
     OPT_GAP, OPT_MAX_SHIFT, OPT_WEIGHT, OPT_WEIGHT_FIELD, OPT_FIXED_WHERE, OPT_IGNORE_WHERE, OPT_TOUCH_TOLERANCE,
     OPT_BLOCK_FIELD, OPT_NO_BLOCKS, OPT_CONTAINED, OPT_SYMBOL, OPT_SYMBOL_FIELD, OPT_ID_FIELD, OPT_LIST_INSIDE,
@@ -33,18 +34,19 @@ typedef enum gis_option_id {
     OPT_THREADS, OPT_PROGRESS, OPT_QUIET, OPT_STATS, OPT_HELP,
     OPT_N
 } gis_option_id;
+/* clang-format on */
 
 typedef enum gis_option_type {
     GIS_TYPE_FLAG,
     GIS_TYPE_TEXT,
-    GIS_TYPE_LIST,     /* repeatable text */
-    GIS_TYPE_PAIRS,    /* repeatable K=V; also as two arguments, K V, as older GDAL takes --config */
-    GIS_TYPE_CHOICE,   /* one of metavar's words, parted by | */
-    GIS_TYPE_LENGTH,   /* gis_length, >= 0 */
-    GIS_TYPE_COUNT,    /* an integer >= 0 */
-    GIS_TYPE_SCALE,    /* N or 1:N, > 0 */
-    GIS_TYPE_BOX,      /* four numbers with commas, or, as -spat has them, four arguments */
-    GIS_TYPE_OPTIONAL  /* alone, or with =metavar */
+    GIS_TYPE_LIST,    /* repeatable text */
+    GIS_TYPE_PAIRS,   /* repeatable K=V; also as two arguments, K V, as older GDAL takes --config */
+    GIS_TYPE_CHOICE,  /* one of metavar's words, parted by | */
+    GIS_TYPE_LENGTH,  /* gis_length, >= 0 */
+    GIS_TYPE_COUNT,   /* an integer >= 0 */
+    GIS_TYPE_SCALE,   /* N or 1:N, > 0 */
+    GIS_TYPE_BOX,     /* four numbers with commas, or, as -spat has them, four arguments */
+    GIS_TYPE_OPTIONAL /* alone, or with =metavar */
 } gis_option_type;
 
 /* Sections of --help. What is peculiar to the commands gets a line each; the rest is known from ogr2ogr. */
@@ -80,7 +82,7 @@ typedef struct gis_command {
     const char *operands; /* as in the usage line */
     size_t least, most;   /* how many operands */
     const char *summary;
-    const char *example; /* operands and options of a usual call */
+    const char *example;                    /* operands and options of a usual call */
     int (*run)(const gis_options *options); /* prints its own errors; returns the exit status */
 } gis_command;
 
@@ -93,9 +95,9 @@ struct gis_options {
     const char *text[OPT_N]; /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
     const char **list[OPT_N]; /* of LIST and PAIRS: NULL-terminated, or NULL */
     gis_length length[OPT_N];
-    double number[OPT_N];     /* of COUNT, SCALE */
+    double number[OPT_N]; /* of COUNT, SCALE */
     double box[4];
-    const char *operand[3];   /* NULL where not given */
+    const char *operand[3]; /* NULL where not given */
     size_t n_operands;
     char **owned; /* texts made here (K=V from two arguments) */
     size_t n_owned;

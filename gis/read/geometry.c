@@ -38,10 +38,7 @@ static unsigned contents_of(OGRGeometryH geometry)
 gis_content gis_geometry_content(OGRGeometryH geometry)
 {
     unsigned found = geometry ? contents_of(geometry) : 0;
-    return !found                ? GIS_NOTHING
-           : found & HAS_POLYGON ? GIS_POLYGONS
-           : found == HAS_POINT  ? GIS_POINTS
-                                 : GIS_OTHER;
+    return !found ? GIS_NOTHING : found & HAS_POLYGON ? GIS_POLYGONS : found == HAS_POINT ? GIS_POINTS : GIS_OTHER;
 }
 
 bool gis_geometry_is_finite(OGRGeometryH geometry)

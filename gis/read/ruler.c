@@ -61,7 +61,8 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
     double factor = cos(parallel * degree) / cos(latitude * degree);
     if (isfinite(factor) && factor > 0)
         gis_say_warning("%s: on this Mercator projection lengths are about %.4g times those on the ground (at latitude "
-                        "%.2f); reproject for lengths in true units", layer, factor, latitude);
+                        "%.2f); reproject for lengths in true units",
+                        layer, factor, latitude);
     else
         gis_say_warning("%s: on a Mercator projection lengths are not those on the ground; reproject for true units",
                         layer);
@@ -72,7 +73,8 @@ void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *b
     if (!gis_crs_is_known(crs)) return;
     if (OSRIsGeographic(crs))
         gis_say_warning("%s: the coordinates are degrees; distances and moves are measured in them, which are no "
-                        "lengths on the ground", layer);
+                        "lengths on the ground",
+                        layer);
     else
         warn_mercator(crs, layer, box);
 }

@@ -52,9 +52,10 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
         if (VSIStatExL(request->path, &status, VSI_STAT_EXISTS_FLAG) != 0 && !strchr(request->path, ':'))
             gis_fail(error, "%s: no such file", request->path);
         else if (gis_sqlite_has_journal(request->path))
-            gis_fail(error, "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls "
-                     "it back once a program opens the database that may write, such as sqlite3", request->path,
-                     request->path);
+            gis_fail(error,
+                     "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls "
+                     "it back once a program opens the database that may write, such as sqlite3",
+                     request->path, request->path);
         else
             gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,
                      gis_listener_reason(&listener, "no driver knows it"));
@@ -84,8 +85,7 @@ static bool execute(gis_source *source, const gis_source_request *request, gis_e
     source->is_result = source->layer != NULL;
     if (box) OGR_G_DestroyGeometry(box);
     if (!source->layer)
-        gis_fail(error, "%s: --sql: %s", request->path,
-                 gis_listener_reason(&listener, "the statement gives no layer"));
+        gis_fail(error, "%s: --sql: %s", request->path, gis_listener_reason(&listener, "the statement gives no layer"));
     gis_listener_clear(&listener);
     return source->layer != NULL;
 }
@@ -102,8 +102,7 @@ static bool select_features(gis_source *source, const gis_source_request *reques
     OGRErr status = OGR_L_SetAttributeFilter(source->layer, request->where);
     gis_listen_end();
     if (status != OGRERR_NONE)
-        gis_fail_usage(error, "--where \"%s\": %s", request->where,
-                       gis_listener_reason(&listener, "not understood"));
+        gis_fail_usage(error, "--where \"%s\": %s", request->where, gis_listener_reason(&listener, "not understood"));
     gis_listener_clear(&listener);
     return status == OGRERR_NONE;
 }
@@ -220,8 +219,8 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
     return gis_layer_fits(source->layer, source->name, request->takes, error) &&
-           select_features(source, request, error) && choose_crs(source, request, error) &&
-           read_all(source, error) && look_at_fids(source, error);
+           select_features(source, request, error) && choose_crs(source, request, error) && read_all(source, error) &&
+           look_at_fids(source, error);
 }
 
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)

@@ -70,8 +70,8 @@ static const char *without_dot(const char *path)
 bool gis_path_lies_in(const char *path, const char *file)
 {
     char *of_path = real_file(path), *of_file = real_file(file);
-    bool same = strcmp(path, file) == 0 ||
-                (of_path && of_file && same_file(without_dot(of_path), without_dot(of_file)));
+    bool same =
+        strcmp(path, file) == 0 || (of_path && of_file && same_file(without_dot(of_path), without_dot(of_file)));
     CPLFree(of_path);
     CPLFree(of_file);
     return same;

@@ -1,7 +1,7 @@
 /* source_layer.c: which layer of a dataset is meant, and whether it can hold what a command needs. Nothing is guessed:
  * of several that fit none is taken, and they are listed. */
-#include "read/source.h"
 #include "read/source_layer.h"
+#include "read/source.h"
 
 #include <stdio.h>
 #include <string.h>

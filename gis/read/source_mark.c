@@ -91,8 +91,8 @@ bool gis_source_mark(const gis_source *source, const char *where, bool *marks, g
     bool done = in_place ? mark_by_filter(source, where, marks, error) : mark_in_memory(source, where, marks, error);
     gis_listen_end();
     if (!done || listener.failures || gis_interrupted())
-        done = gis_fail_usage(error, "the expression \"%s\": %s", where,
-                              gis_listener_reason(&listener, "not understood"));
+        done =
+            gis_fail_usage(error, "the expression \"%s\": %s", where, gis_listener_reason(&listener, "not understood"));
     gis_listener_clear(&listener);
     return done;
 }

@@ -81,7 +81,7 @@ static bool read_point(reader *in)
     if (in->dimension == 0 && in->tagged == 0) in->dimension = n;
     if (n != (in->tagged ? in->tagged : in->dimension))
         return wrong(in, n < (in->tagged ? in->tagged : in->dimension) ? "another number: points differ in dimension"
-                                                                         : "fewer numbers: points differ in dimension");
+                                                                       : "fewer numbers: points differ in dimension");
     return gis_polygons_vertex(in->out, value[0], value[1], in->error);
 }
 
@@ -152,8 +152,8 @@ bool gis_wkt_looks_like(const char *text)
     bool blank = isspace((unsigned char)*text);
     while (isspace((unsigned char)*text)) text++;
     size_t tag = word_length(text);
-    if (blank && (is_word(text, tag, "Z") || is_word(text, tag, "M") || is_word(text, tag, "ZM") ||
-                  is_word(text, tag, "EMPTY")))
+    if (blank &&
+        (is_word(text, tag, "Z") || is_word(text, tag, "M") || is_word(text, tag, "ZM") || is_word(text, tag, "EMPTY")))
         return true;
     return *text == '(';
 }

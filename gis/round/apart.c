@@ -314,7 +314,7 @@ bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *
     for (int round = 0; again; round++) {
         if (round == GIS_APART_ROUNDS)
             return gis_fail(error, "rounded to doubles the polygons are no longer apart; `sunder sum --exact` gives "
-                            "exact ones as JSON");
+                                   "exact ones as JSON");
         if (!part_once(rounded, round, suspects, &again, error)) return false;
     }
     return true;

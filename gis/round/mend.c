@@ -299,8 +299,7 @@ static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *erro
         gis_polygons again = {0};
         double now = 0;
         for (size_t p = 0; ok && p < work.polygons; p++)
-            ok = mend_once(&work, p ? work.poly_end[p - 1] : 0, work.poly_end[p], round, set, &again, &now,
-                           error);
+            ok = mend_once(&work, p ? work.poly_end[p - 1] : 0, work.poly_end[p], round, set, &again, &now, error);
         gis_polygons_clear(&work);
         work = again;
         total += now;

@@ -69,7 +69,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
         return gis_core_failed(error, NULL, &why);
     if (!isfinite(*deviation))
         return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
-                        "`sunder sum --exact` gives it as JSON");
+                               "`sunder sum --exact` gives it as JSON");
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
         if (m > 0 && gis_same_vertex(xy + 2 * (m - 1), xy + 2 * i)) continue;

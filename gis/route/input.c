@@ -84,8 +84,8 @@ static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry
         gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
                         rings->linearised);
     if (arcs) gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
-    return !rings->set.polygons || gis_shape_of_feature(&rings->set, input->request->invalid, who, "", &input->shape[i],
-                                                        &invalid, error);
+    return !rings->set.polygons ||
+           gis_shape_of_feature(&rings->set, input->request->invalid, who, "", &input->shape[i], &invalid, error);
 }
 
 static bool read_layer(gis_route_input *input, gis_error *error)
@@ -199,8 +199,7 @@ bool gis_route_input_read(const gis_route_request *request, gis_route_input *out
         !gis_optional_length_in_layer_units(&request->gap, &out->rule, "--gap", &out->gap, error))
         return false;
     for (size_t i = 0; i < out->n; i++)
-        out->obstacle[i] =
-            (sunder_obstacle){out->shape[i], out->lines[i].xy, out->lines[i].end, out->lines[i].lines};
+        out->obstacle[i] = (sunder_obstacle){out->shape[i], out->lines[i].xy, out->lines[i].end, out->lines[i].lines};
     return true;
 }
 

@@ -33,8 +33,8 @@ typedef struct gis_route_input {
     gis_ruler rule;
     OGRSpatialReferenceH crs; /* borrowed, or NULL */
     size_t n;
-    sunder_shape **shape;     /* [n] NULL: no polygons */
-    gis_lines *lines;         /* [n] */
+    sunder_shape **shape;      /* [n] NULL: no polygons */
+    gis_lines *lines;          /* [n] */
     sunder_obstacle *obstacle; /* [n] borrows the two */
     sunder_shape *robot;
     double gap;

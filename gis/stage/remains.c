@@ -151,8 +151,10 @@ static bool settle(remains *found, const char *name, gis_list *said, gis_error *
     if (half && !bring_back(found, error)) return false;
     clear_away(found);
     if (half)
-        gis_list_add(said, "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
-                     "been brought back", found->directory, name);
+        gis_list_add(said,
+                     "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
+                     "been brought back",
+                     found->directory, name);
     return true;
 }
 
@@ -166,8 +168,10 @@ static bool look_at(remains *found, const char *name, gis_list *said, gis_error 
     } else if (lock >= 0 && errno != EWOULDBLOCK) {
         read_record(found);
         if (found->main && strcmp(found->main, name) == 0)
-            gis_list_add(said, "%s is in use, or left of a run that was killed while it put its files in place; the "
-                         "former ones are in %s/%s: move them back", found->inside, found->inside, GIS_STAGE_OLD);
+            gis_list_add(said,
+                         "%s is in use, or left of a run that was killed while it put its files in place; the "
+                         "former ones are in %s/%s: move them back",
+                         found->inside, found->inside, GIS_STAGE_OLD);
     }
     if (lock >= 0) close(lock);
     return done;

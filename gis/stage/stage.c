@@ -16,7 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-
 char *gis_join(const char *directory, const char *name) { return CPLStrdup(CPLSPrintf("%s/%s", directory, name)); }
 
 bool gis_there(const char *path)
@@ -205,8 +204,8 @@ bool gis_stage_put(gis_stage *stage, const char *name, const void *bytes, size_t
 bool gis_stage_put_directory(gis_stage *stage, const char *name, gis_error *error)
 {
     char *to = gis_stage_inside(stage, name);
-    bool done = mkdir(to, 0777) == 0 ||
-                gis_fail(error, "%s/%s: cannot be made: %s", stage->directory, name, strerror(errno));
+    bool done =
+        mkdir(to, 0777) == 0 || gis_fail(error, "%s/%s: cannot be made: %s", stage->directory, name, strerror(errno));
     CPLFree(to);
     return done;
 }

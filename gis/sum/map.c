@@ -35,8 +35,7 @@ static bool is_side(const sunder_map *map, uint32_t half)
 static uint32_t next_side(const sunder_map *map, uint32_t half)
 {
     uint32_t face = sunder_map_face(map, half), next = sunder_map_twin(half);
-    do
-        next = sunder_map_turn(map, next);
+    do next = sunder_map_turn(map, next);
     while (sunder_map_face(map, next) != face || !is_side(map, next));
     return next;
 }
@@ -49,8 +48,7 @@ static bool append_ring(map_run *run, uint32_t start, gis_error *error)
     do {
         const double *xy = vertex(run, half);
         const double *last = run->face.vertices > first ? run->face.xy + 2 * (run->face.vertices - 1) : NULL;
-        if ((!last || last[0] != xy[0] || last[1] != xy[1]) &&
-            !gis_polygons_vertex(&run->face, xy[0], xy[1], error))
+        if ((!last || last[0] != xy[0] || last[1] != xy[1]) && !gis_polygons_vertex(&run->face, xy[0], xy[1], error))
             return false;
         run->done[half] = true;
         half = next_side(run->map, half);
@@ -171,7 +169,8 @@ static bool write_layers(gis_sink *sink, map_run *run, OGRSpatialReferenceH crs,
 
 bool gis_write_map(gis_sink *sink, const sunder_map *map, OGRSpatialReferenceH crs, gis_error *error)
 {
-    map_run run = {.map = map, .xy = malloc((sunder_map_vertices(map) + 1) * 2 * sizeof *run.xy),
+    map_run run = {.map = map,
+                   .xy = malloc((sunder_map_vertices(map) + 1) * 2 * sizeof *run.xy),
                    .done = calloc(2 * sunder_map_edges(map) + 1, sizeof *run.done)};
     bool ok = (run.xy && run.done) || gis_no_memory(error);
     ok = ok && place_vertices(&run, error) && write_layers(sink, &run, crs, error);

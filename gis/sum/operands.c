@@ -30,8 +30,8 @@ bool gis_operands_read(const gis_operands_request *request, gis_operands *out, g
     read.rule = gis_ruler_of(read.crs, request->scale);
     for (int i = 0; ok && i < 2; i++)
         if (!*source[i])
-            ok = gis_shape_from_text(request->text[i], names[i], &read.rule, request->invalid, shape[i],
-                                     &read.building, error);
+            ok = gis_shape_from_text(request->text[i], names[i], &read.rule, request->invalid, shape[i], &read.building,
+                                     error);
     if (ok)
         *out = read;
     else

@@ -8,8 +8,8 @@
 
 /* Where results go, and what is read besides, lest one replace the other. Strings are borrowed. */
 typedef struct gis_destinations {
-    const char *output; /* NULL: none */
-    const char *stats;  /* --stats: a file, or "-" for standard output; NULL: nowhere */
+    const char *output;   /* NULL: none */
+    const char *stats;    /* --stats: a file, or "-" for standard output; NULL: nowhere */
     const char *input[2]; /* the operands that are read: data sources, texts, @FILEs; NULL after the last */
     const char *shape[3]; /* the SHAPEs of options, any of them NULL */
 } gis_destinations;
@@ -20,9 +20,9 @@ typedef struct gis_destinations {
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error);
 
 typedef struct gis_delivery {
-    const char *stats_path; /* as above */
-    gis_sink *sink;        /* finished (gis_sink_finish); NULL: there is no output */
-    const gis_json *stats; /* what goes there, if anywhere */
+    const char *stats_path;                           /* as above */
+    gis_sink *sink;                                   /* finished (gis_sink_finish); NULL: there is no output */
+    const gis_json *stats;                            /* what goes there, if anywhere */
     bool (*print)(const void *run, gis_error *error); /* what else goes to standard output, by stdio; NULL: nothing */
     const void *run;
 } gis_delivery;

@@ -12,6 +12,7 @@ typedef struct facts {
     bool keeps_fids, keeps_doubles, keeps_values, keeps_order, reprojects, one_layer;
 } facts;
 
+/* clang-format off */
 static const facts known[] = {
     /*                  FIDs   doubles values order reprojects one layer */
     {"GPKG",            true,  true,  true,  true,  false, false},
@@ -33,6 +34,7 @@ static const facts known[] = {
     {"DXF",             false, false, false, true,  false, true},
     {"GML",             false, false, false, true,  false, false},
 };
+/* clang-format on */
 
 static const char *const texts[] = {"GeoJSON", "GeoJSONSeq", "CSV", "GML", "KML", NULL};
 
@@ -66,9 +68,9 @@ static const char *extension_of(const char *path)
 static GDALDriverH driver_for(const char *path)
 {
     /* Endings that several drivers claim, or that GDAL's own list lacks. */
-    static const char *const first[][2] = {{"json", "GeoJSON"},        {"shz", "ESRI Shapefile"},
+    static const char *const first[][2] = {{"json", "GeoJSON"},           {"shz", "ESRI Shapefile"},
                                            {"shp.zip", "ESRI Shapefile"}, {"db", "SQLite"},
-                                           {"sqlite", "SQLite"},       {"gdb", "OpenFileGDB"}};
+                                           {"sqlite", "SQLite"},          {"gdb", "OpenFileGDB"}};
     char extension[32];
     CPLStrlcpy(extension, extension_of(path), sizeof extension);
     for (size_t i = 0; i < sizeof first / sizeof *first; i++)

@@ -138,8 +138,8 @@ bool gis_rtree_add(gis_boxes *boxes, OGRFeatureH feature, gis_error *error)
     if (!gis_array_reserve(&boxes->at, &boxes->capacity, boxes->n + 1, sizeof *boxes->at)) return gis_no_memory(error);
     OGREnvelope box;
     OGR_G_GetEnvelope(geometry, &box);
-    boxes->at[boxes->n++] = (struct gis_box){
-        OGR_F_GetFID(feature), {below(box.MinX), above(box.MaxX), below(box.MinY), above(box.MaxY)}};
+    boxes->at[boxes->n++] =
+        (struct gis_box){OGR_F_GetFID(feature), {below(box.MinX), above(box.MaxX), below(box.MinY), above(box.MaxY)}};
     return true;
 }
 
@@ -257,8 +257,8 @@ static bool write_node(packing *all, const struct gis_box *cells, size_t n, bool
             made->side[k] = k % 2 ? fmaxf(made->side[k], cells[i].side[k]) : fminf(made->side[k], cells[i].side[k]);
         }
         char link[64];
-        int length = snprintf(link, sizeof link, "(%" PRId64 ",%" PRId64 "),", (int64_t)cells[i].fid,
-                              (int64_t)made->fid);
+        int length =
+            snprintf(link, sizeof link, "(%" PRId64 ",%" PRId64 "),", (int64_t)cells[i].fid, (int64_t)made->fid);
         if (!add_row(leaf ? &all->leaves : &all->parents, link, (size_t)length, error)) return false;
     }
     size_t unused = 2 * CELL * (all->capacity - n);

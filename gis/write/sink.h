@@ -18,14 +18,14 @@
 /* Where and how; zeroed members mean "not given". Strings and lists are borrowed until gis_sink_free(). */
 typedef struct gis_sink_request {
     const char *path;
-    const char *format;                /* --of; NULL: from the name */
-    const char *const *layer_options;  /* --lco */
+    const char *format;                 /* --of; NULL: from the name */
+    const char *const *layer_options;   /* --lco */
     const char *const *dataset_options; /* --co, -dsco */
-    const char *main_layer;            /* name of the main layer: --output-layer, else gis_source_name() ("sum") */
-    const char *const *suffixes;       /* of the layers that will be added besides the main one: checked at once */
+    const char *main_layer;             /* name of the main layer: --output-layer, else gis_source_name() ("sum") */
+    const char *const *suffixes;        /* of the layers that will be added besides the main one: checked at once */
     bool overwrite, update, overwrite_layer;
-    bool strict;                       /* any loss is an error */
-    bool allow_inexact;                /* --allow-inexact-output */
+    bool strict;        /* any loss is an error */
+    bool allow_inexact; /* --allow-inexact-output */
     bool no_styles;
 } gis_sink_request;
 
@@ -42,9 +42,9 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
 bool gis_sink_takes_more(const gis_sink *sink);
 
 typedef struct gis_field {
-    const char *name; /* at most 10 characters */
+    const char *name;  /* at most 10 characters */
     OGRFieldType type; /* OFTInteger64, OFTReal, OFTString */
-    int width;        /* for texts; 0: as the format likes */
+    int width;         /* for texts; 0: as the format likes */
 } gis_field;
 
 /* Styles that a GeoPackage layer can carry. */
@@ -58,15 +58,15 @@ typedef enum gis_style {
 } gis_style;
 
 typedef struct gis_sink_layer_request {
-    const char *suffix;      /* "" for the main layer; "displacement": the layer is MAIN_displacement, the file of a
+    const char *suffix;       /* "" for the main layer; "displacement": the layer is MAIN_displacement, the file of a
                                 one-layer format OUT_displacement.shp */
-    bool like_source;        /* all fields of the source's layer come first, with their constraints; FIDs are kept */
-    bool as_source;          /* and its geometry type and column names, identifier, description: the main layer */
-    OGRwkbGeometryType type; /* if not as_source */
+    bool like_source;         /* all fields of the source's layer come first, with their constraints; FIDs are kept */
+    bool as_source;           /* and its geometry type and column names, identifier, description: the main layer */
+    OGRwkbGeometryType type;  /* if not as_source */
     OGRSpatialReferenceH crs; /* if there is no source; NULL: none */
-    const gis_field *fields; /* the program's own; one of the same name in the source is replaced, with a warning */
+    const gis_field *fields;  /* the program's own; one of the same name in the source is replaced, with a warning */
     size_t n_fields;
-    OGRFieldDefnH copied;    /* NULL, or one field of the source, which comes after those, if not like_source */
+    OGRFieldDefnH copied; /* NULL, or one field of the source, which comes after those, if not like_source */
     gis_style style;
 } gis_sink_layer_request;
 

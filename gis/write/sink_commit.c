@@ -33,8 +33,8 @@ static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
 bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_error *error)
 {
     const gis_sink *sink = layer->sink;
-    bool some_empty = layer->request.like_source && sink->source &&
-                      gis_source_content_count(sink->source, GIS_NOTHING) > 0;
+    bool some_empty =
+        layer->request.like_source && sink->source && gis_source_content_count(sink->source, GIS_NOTHING) > 0;
     return gis_fail(error, "%s, layer %s: %zu features were written, but %zu read back%s", sink->request.path,
                     layer->name, layer->written, read_back,
                     some_empty ? "; the format may have no place for features without geometry" : "");
@@ -57,11 +57,13 @@ static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_err
     if (layer->written == 0 && may_be_empty)
         return true; /* some formats have nothing to say of a layer without features */
     if (!sink->format.only_written)
-        return gis_fail(error, "%s: layer %s cannot be read back after writing; is the disk full?",
-                        sink->request.path, layer->name);
+        return gis_fail(error, "%s: layer %s cannot be read back after writing; is the disk full?", sink->request.path,
+                        layer->name);
     if (!sink->request.allow_inexact)
-        return gis_fail(error, "%s: %s is only written, so that nothing could be said of the written features; write "
-                        "another format, or give --allow-inexact-output", sink->request.path, sink->format.name);
+        return gis_fail(error,
+                        "%s: %s is only written, so that nothing could be said of the written features; write "
+                        "another format, or give --allow-inexact-output",
+                        sink->request.path, sink->format.name);
     result->exact = false;
     result->deviation = INFINITY;
     result->unread = true;
@@ -121,9 +123,8 @@ static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
     bool done = true, again;
     gis_listener listener = {0}; /* what a reader grumbles about is not our user's business */
     gis_listen_begin(&listener);
-    GDALDatasetH common = sink->format.one_layer && sink->n_layers && sink->layers[0]->file
-                              ? NULL
-                              : reopen(sink, sink->main_file);
+    GDALDatasetH common =
+        sink->format.one_layer && sink->n_layers && sink->layers[0]->file ? NULL : reopen(sink, sink->main_file);
     for (size_t i = 0; done && i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
         done = layer->file ? inspect_file(layer, result, error) : inspect_layer(layer, common, result, &again, error);
@@ -218,8 +219,8 @@ static bool publish_memory(gis_sink *sink, gis_error *error)
     int n = CSLCount(files);
     bool done = true;
     if (sink->to_stdout && n > 1)
-        done = gis_fail(error, "%s: %s makes several files, which cannot go to the standard output",
-                        sink->request.path, sink->format.name);
+        done = gis_fail(error, "%s: %s makes several files, which cannot go to the standard output", sink->request.path,
+                        sink->format.name);
     char *base = CPLStrdup(CPLGetPath(sink->request.path));
     int copied = 0;
     for (int i = 0; done && i < n; i++) {

@@ -7,10 +7,10 @@
  * of the journal stays as it is, and so does SQLite's syncing: an interrupted transaction is rolled back by whoever
  * opens the database next. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
-#include "write/sql.h"
 #include "sqlite/calls.h"
 #include "sqlite/lock.h"
 #include "write/sink_internal.h"
+#include "write/sql.h"
 #include "write/style.h"
 
 #include <cpl_conv.h>
@@ -104,8 +104,10 @@ static char *locking_statement(const gis_sink *sink)
 
 static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *error)
 {
-    return gis_fail(error, "%s is in use by another program, which did not let go of it within %g s (%s); nothing was "
-                    "changed", sink->request.path, gis_sqlite_patience() / 1000., reason);
+    return gis_fail(error,
+                    "%s is in use by another program, which did not let go of it within %g s (%s); nothing was "
+                    "changed",
+                    sink->request.path, gis_sqlite_patience() / 1000., reason);
 }
 
 /* ---- Nothing outside the transaction ----------------------------------------------------------------------------- */
@@ -150,10 +152,10 @@ static bool begin_locked(gis_sink *sink, gis_error *error)
 {
     char *sql = locking_statement(sink);
     gis_error reason;
-    bool done = !sql ? fail_locked(sink, "its tables cannot be read", error)
-                     : gis_sink_begin_transaction(sink, error) &&
-                           (gis_sql_run(sink->dataset, sql, "the database", &reason) ||
-                            fail_locked(sink, reason.message, error));
+    bool done =
+        !sql ? fail_locked(sink, "its tables cannot be read", error)
+             : gis_sink_begin_transaction(sink, error) && (gis_sql_run(sink->dataset, sql, "the database", &reason) ||
+                                                           fail_locked(sink, reason.message, error));
     CPLFree(sql);
     return done && guard(sink, error);
 }
@@ -206,8 +208,10 @@ bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
     for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
         if (!EQUAL(OGR_L_GetName(GDALDatasetGetLayer(sink->dataset, i)), name)) continue;
         if (!sink->request.overwrite_layer)
-            return gis_fail(error, "%s has a layer %s by now: --overwrite-layer replaces it, --output-layer names "
-                            "another", sink->request.path, name);
+            return gis_fail(error,
+                            "%s has a layer %s by now: --overwrite-layer replaces it, --output-layer names "
+                            "another",
+                            sink->request.path, name);
         if (sink->format.geopackage && !gis_styles_forget(sink->dataset, name, error)) return false;
         gis_listener listener = {0};
         gis_listen_begin(&listener);

@@ -116,9 +116,9 @@ bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *erro
     }
     if (!sink->dataset) {
         if (!sink->updating) supersede_existing(sink, sink->main_file, sink->request.overwrite);
-        if (!(sink->updating ? open_for_update(sink, error)
-                             : create(sink, sink->main_file, &sink->dataset, error) &&
-                                   gis_sink_begin_transaction(sink, error)))
+        if (!(sink->updating
+                  ? open_for_update(sink, error)
+                  : create(sink, sink->main_file, &sink->dataset, error) && gis_sink_begin_transaction(sink, error)))
             return false;
     }
     layer->dataset = sink->dataset;
@@ -150,8 +150,8 @@ static bool end_last_line(const gis_sink *sink, const char *file, gis_error *err
                (last == '\n' || (VSIFSeekL(text, 0, SEEK_END) == 0 && VSIFWriteL("\n", 1, 1, text) == 1));
     if (text && VSIFCloseL(text) != 0) done = false;
     CPLFree(path);
-    return done || gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path,
-                            file);
+    return done ||
+           gis_fail(error, "%s: the last line of %s cannot be written; is the disk full?", sink->request.path, file);
 }
 
 bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)

@@ -105,8 +105,8 @@ static bool digest(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
     *out = (gis_digest){START, START};
     if (all->with_fid) out->place = mix(out->place, (uint64_t)fid);
     for (size_t i = 0; i < all->n_fields; i++)
-        out->values = mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent,
-                                &all->fields[i]);
+        out->values =
+            mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent, &all->fields[i]);
     /* What value stood where is told, too: the values of two features that changed places are not as they were. */
     bool done = mix_geometry(OGR_F_GetGeometryRef(feature), all, &out->place);
     out->values = mix(out->values, out->place);
@@ -193,9 +193,10 @@ static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, 
 {
     size_t count = 0;
     for (size_t i = 0, k = 0; i < n;) {
-        int way = k == n ? -1 : sent[i].place != read[k].place ? (sent[i].place < read[k].place ? -1 : 1)
-                                : values                       ? order(&sent[i], &read[k])
-                                                               : 0;
+        int way = k == n                           ? -1
+                  : sent[i].place != read[k].place ? (sent[i].place < read[k].place ? -1 : 1)
+                  : values                         ? order(&sent[i], &read[k])
+                                                   : 0;
         count += way < 0;
         i += way <= 0;
         k += way >= 0;

@@ -15,10 +15,10 @@
 #define GIS_SINK_INTERNAL_H
 
 #include "base/interrupt.h"
+#include "stage/stage.h"
 #include "write/format.h"
 #include "write/rtree.h"
 #include "write/sink.h"
-#include "stage/stage.h"
 
 /* One feature as it was sent, so that it can be compared: a source feature and its move, or a geometry of its own. */
 typedef struct gis_sent {
@@ -30,8 +30,8 @@ typedef struct gis_sent {
 
 /* What became of the values of one field of the source. */
 typedef struct gis_change {
-    int index;    /* of the field as written; -1: not there */
-    size_t count; /* values that read back as others */
+    int index;     /* of the field as written; -1: not there */
+    size_t count;  /* values that read back as others */
     GIntBig first; /* the first feature with one */
 } gis_change;
 

@@ -42,8 +42,7 @@ static bool has_domain(GDALDatasetH dataset, OGRFieldDefnH field)
     return name && name[0] && (!dataset || GDALDatasetGetFieldDomain(dataset, name));
 }
 
-static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept,
-                          const gis_change *change)
+static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept, const gis_change *change)
 {
     parts lost = {""};
     const char *name = OGR_Fld_GetNameRef(sent);

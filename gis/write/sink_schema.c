@@ -11,9 +11,8 @@
 
 static OGRFeatureDefnH source_definition(const gis_sink_layer *layer)
 {
-    return layer->request.like_source && layer->sink->source
-               ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))
-               : NULL;
+    return layer->request.like_source && layer->sink->source ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))
+                                                             : NULL;
 }
 
 static bool is_own(const gis_sink_layer *layer, const char *name)
@@ -28,8 +27,7 @@ static bool is_own(const gis_sink_layer *layer, const char *name)
 
 static char **offer(const gis_sink_layer *layer, char **options, const char *name, const char *value)
 {
-    if (value && value[0] && !CSLFetchNameValue(options, name) &&
-        gis_format_has_option(&layer->sink->format, name))
+    if (value && value[0] && !CSLFetchNameValue(options, name) && gis_format_has_option(&layer->sink->format, name))
         options = CSLSetNameValue(options, name, value);
     return options;
 }
@@ -101,8 +99,8 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
     options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid));
     if (OGR_FD_GetGeomFieldCount(definition) > 0) {
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
-        options = offer(layer, options, "GEOMETRY_NAME",
-                        free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
+        options =
+            offer(layer, options, "GEOMETRY_NAME", free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
         /* What is made of a geometry may be null where that was not. */
         if (layer->request.as_source && !OGR_GFld_IsNullable(geometry))
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
@@ -206,8 +204,8 @@ static void create_source_fields(gis_sink_layer *layer)
                              OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
         }
         int to = layer->field_map[i];
-        layer->created = CSLAddString(layer->created,
-                                      to < 0 ? "" : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, to)));
+        layer->created =
+            CSLAddString(layer->created, to < 0 ? "" : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, to)));
     }
 }
 

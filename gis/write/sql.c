@@ -14,8 +14,7 @@ bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_er
     gis_listen_end();
     bool done = !listener.failures;
     if (!done)
-        gis_fail(error, "%s cannot be written: %s", what,
-                 gis_listener_reason(&listener, "GDAL gives no reason"));
+        gis_fail(error, "%s cannot be written: %s", what, gis_listener_reason(&listener, "GDAL gives no reason"));
     gis_listener_clear(&listener);
     return done;
 }

@@ -64,8 +64,9 @@ typedef struct row {
 
 static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_error *error)
 {
-    const char *texts[] = {OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), style->name, style->qml,
-                           style->sld,           style->description,             style->owner};
+    const char *texts[] = {
+        OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), style->name, style->qml, style->sld, style->description,
+        style->owner};
     char *values[sizeof texts / sizeof *texts];
     size_t length = 400, n = sizeof texts / sizeof *texts;
     for (size_t i = 0; i < n; i++) {

@@ -48,8 +48,8 @@ static sunder_status grow(const bench_set *set, const sunder_shape *by, output *
 {
     sunder_shape *shape = NULL;
     sunder_sum *sum = NULL;
-    sunder_status status =
-        sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_STRICT, &shape, err);
+    sunder_status status = sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons,
+                                                   SUNDER_VALIDITY_STRICT, &shape, err);
     if (!status) status = sunder_minkowski_sum(shape, by, NULL, &sum, err);
     if (!status) status = take_rings(sum, o, err);
     sunder_sum_free(sum);

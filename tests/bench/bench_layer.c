@@ -129,8 +129,7 @@ static void add_lanes(layout *l, size_t n)
         add_box(l, x, 5000000, 10, 10 + random_unit(l))->max_shift = 1;
         add_box(l, x + 9.5, 5000000 - 40, 10, 90)->fixed = true;
     }
-    for (size_t k = 0; k + 1 < n; k++)
-        add_box(l, 400000 + 19.5 * (double)k + 4, 5000000 + 9.5, 20, 6)->max_shift = 1;
+    for (size_t k = 0; k + 1 < n; k++) add_box(l, 400000 + 19.5 * (double)k + 4, 5000000 + 9.5, 20, 6)->max_shift = 1;
 }
 
 static void add_rounds(layout *l, size_t n)
@@ -180,8 +179,8 @@ int main(int argc, char **argv)
     sunder_layer_summary s;
     sunder_report_summary(report, &s);
     printf("%-8s %7s %8zu features  %7zu -> %5zu conflicts  cost %14.3f  max %9.3f  %8.2f s\n", argv[1], argv[2], l.n,
-           s.before.overlap + s.before.too_close + s.before.contained, s.after.overlap + s.after.too_close + s.after.contained,
-           s.cost, s.max, seconds);
+           s.before.overlap + s.before.too_close + s.before.contained,
+           s.after.overlap + s.after.too_close + s.after.contained, s.cost, s.max, seconds);
     sunder_report_free(report);
     sunder_layer_free(layer);
     for (size_t k = 0; k < l.n; k++) sunder_shape_free((sunder_shape *)l.feature[k].shape);

@@ -11,8 +11,11 @@ static sunder_status pass(const bench_set *set, size_t pairs, double *total, sun
         const bench_set *p = &set[2 * i], *q = p + 1;
         sunder_shape *a = NULL, *b = NULL;
         sunder_separation s;
-        sunder_status status = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_STRICT, &a, err);
-        if (!status) status = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_STRICT, &b, err);
+        sunder_status status =
+            sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_STRICT, &a, err);
+        if (!status)
+            status =
+                sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_STRICT, &b, err);
         if (!status) status = sunder_pair_separate(a, b, 0, &s, err);
         if (!status) {
             *total += s.distance;

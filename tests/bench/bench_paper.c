@@ -17,8 +17,8 @@ typedef struct pieces {
     double decompose, subsums;
 } pieces;
 
-static sunder_status add_pieces(sunder_i_lattice *lattice, const sunder_i_decomposition *p, const sunder_i_decomposition *q,
-                                pieces *out)
+static sunder_status add_pieces(sunder_i_lattice *lattice, const sunder_i_decomposition *p,
+                                const sunder_i_decomposition *q, pieces *out)
 {
     sunder_i_arena arena;
     bool ok = true;
@@ -118,8 +118,9 @@ static sunder_status in_order(const sunder_shape *p, const sunder_shape *q, cons
         u.subsums = u.p.pieces * u.q.pieces;
         status = unite(&placed, &u, &edges, &done);
         if (!status)
-            printf("%s,%u,%zu,%llu,%llu,%llu,%.9f\n", by->name, (unsigned)u.subsums, edges, (unsigned long long)done.comparisons,
-                   (unsigned long long)done.orientation_tests, (unsigned long long)done.segment_intersections, bench_now() - start);
+            printf("%s,%u,%zu,%llu,%llu,%llu,%.9f\n", by->name, (unsigned)u.subsums, edges,
+                   (unsigned long long)done.comparisons, (unsigned long long)done.orientation_tests,
+                   (unsigned long long)done.segment_intersections, bench_now() - start);
         fflush(stdout);
         sunder_i_decomposition_clear(&u.p);
         sunder_i_decomposition_clear(&u.q);
@@ -159,8 +160,10 @@ int main(int argc, char **argv)
         fprintf(stderr, "usage: bench_paper FILE pieces|orders\n");
         return 2;
     }
-    sunder_status status = sunder_shape_from_rings(p.xy, p.ring_end, p.poly_end, p.polygons, SUNDER_VALIDITY_STRICT, &a, &err);
-    if (!status) status = sunder_shape_from_rings(q.xy, q.ring_end, q.poly_end, q.polygons, SUNDER_VALIDITY_STRICT, &b, &err);
+    sunder_status status =
+        sunder_shape_from_rings(p.xy, p.ring_end, p.poly_end, p.polygons, SUNDER_VALIDITY_STRICT, &a, &err);
+    if (!status)
+        status = sunder_shape_from_rings(q.xy, q.ring_end, q.poly_end, q.polygons, SUNDER_VALIDITY_STRICT, &b, &err);
     if (!status) status = orders ? all_orders(a, b) : all_pieces(a, b);
     if (status) fprintf(stderr, "bench_paper: %s %s\n", sunder_status_string(status), err.message);
     sunder_shape_free(a);

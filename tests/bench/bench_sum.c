@@ -4,13 +4,16 @@
 #include "sunder.h"
 #include "wkt_input.h"
 
-static sunder_status once(const bench_set *p, const bench_set *q, double *seconds, sunder_sum_size *counts, sunder_error *err)
+static sunder_status once(const bench_set *p, const bench_set *q, double *seconds, sunder_sum_size *counts,
+                          sunder_error *err)
 {
     sunder_shape *a = NULL, *b = NULL;
     sunder_sum *sum = NULL;
     const double start = bench_now();
-    sunder_status status = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_STRICT, &a, err);
-    if (!status) status = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_STRICT, &b, err);
+    sunder_status status =
+        sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_STRICT, &a, err);
+    if (!status)
+        status = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_STRICT, &b, err);
     if (!status) status = sunder_minkowski_sum(a, b, NULL, &sum, err);
     *seconds = bench_now() - start;
     if (!status) sunder_sum_get_size(sum, counts);

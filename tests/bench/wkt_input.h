@@ -39,8 +39,10 @@ static inline int bench_set_read(bench_set *s, const char *text)
     s->xy = (double *)bench_alloc(2 * commas * sizeof(double));
     s->ring_end = (size_t *)bench_alloc(commas * sizeof(size_t));
     s->poly_end = (size_t *)bench_alloc(commas * sizeof(size_t));
-    if (strncmp(text, "MULTIPOLYGON", 12) == 0) base = 2;
-    else if (strncmp(text, "POLYGON", 7) != 0) return 0;
+    if (strncmp(text, "MULTIPOLYGON", 12) == 0)
+        base = 2;
+    else if (strncmp(text, "POLYGON", 7) != 0)
+        return 0;
     const char *c = strchr(text, '(');
     size_t first = 0;
     while (c && *c && *c != '\n') {
@@ -52,7 +54,8 @@ static inline int bench_set_read(bench_set *s, const char *text)
             const double *xy = s->xy;
             if (depth == base + 1) {
                 const size_t n = s->vertices;
-                if (n > first + 1 && xy[2 * first] == xy[2 * n - 2] && xy[2 * first + 1] == xy[2 * n - 1]) s->vertices--;
+                if (n > first + 1 && xy[2 * first] == xy[2 * n - 2] && xy[2 * first + 1] == xy[2 * n - 1])
+                    s->vertices--;
                 s->ring_end[s->rings++] = s->vertices;
             } else if (depth == base) {
                 s->poly_end[s->polygons++] = s->rings;

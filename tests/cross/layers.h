@@ -61,7 +61,12 @@ static inline char *layers_path(const char *name)
 }
 
 /* Whether a question could be asked. What is there has to be readable, if anything is. */
-typedef enum layers_answer { LAYERS_MISSING = -2, LAYERS_UNREADABLE = -1, LAYERS_WRONG = 0, LAYERS_RIGHT = 1 } layers_answer;
+typedef enum layers_answer {
+    LAYERS_MISSING = -2,
+    LAYERS_UNREADABLE = -1,
+    LAYERS_WRONG = 0,
+    LAYERS_RIGHT = 1
+} layers_answer;
 
 typedef struct layers_tally {
     size_t asked, unreadable, wrong;
@@ -109,9 +114,10 @@ static inline bool geometries_add(geometries *g, const char *hex, size_t n)
 static inline bool layers_read(const char *path, const char *layer, const char *condition, geometries *out)
 {
     /* Shapefiles name the geometry's column otherwise than GeoPackages: the condition and the query do not. */
-    char *command = test_format("ogr2ogr -f CSV /vsistdout/ '%s' -dialect SQLite -sql \"SELECT hex(ST_AsBinary(%s)) AS w FROM "
-                                "\\\"%s\\\" WHERE %s\" 2>/dev/null",
-                                path, strstr(path, ".zip") ? "geometry" : "geom", layer, condition);
+    char *command =
+        test_format("ogr2ogr -f CSV /vsistdout/ '%s' -dialect SQLite -sql \"SELECT hex(ST_AsBinary(%s)) AS w FROM "
+                    "\\\"%s\\\" WHERE %s\" 2>/dev/null",
+                    path, strstr(path, ".zip") ? "geometry" : "geom", layer, condition);
     FILE *f = popen(command, "r");
     free(command);
     char *line = NULL;
@@ -134,10 +140,11 @@ static inline json *layers_buffer(const char *path, const char *layer, const cha
 {
     const char *sunder = getenv("SUNDER");
     char *stats = test_format("%s/stats.json", layers_scratch);
-    char *command = test_format("'%s' buffer --quiet --overwrite --dialect SQLite --sql 'SELECT * FROM \"%s\" WHERE ST_IsValid(%s)' "
-                                "%s --stats '%s' '%s' '%s/%s' 2>'%s/err'",
-                                sunder, layer, strstr(path, ".zip") ? "geometry" : "geom", options, stats, path,
-                                layers_scratch, output, layers_scratch);
+    char *command = test_format(
+        "'%s' buffer --quiet --overwrite --dialect SQLite --sql 'SELECT * FROM \"%s\" WHERE ST_IsValid(%s)' "
+        "%s --stats '%s' '%s' '%s/%s' 2>'%s/err'",
+        sunder, layer, strstr(path, ".zip") ? "geometry" : "geom", options, stats, path, layers_scratch, output,
+        layers_scratch);
     json *summary = NULL;
     if (system(command) != 0) {
         char *err = test_format("%s/err", layers_scratch), *text = test_read_file(err);
@@ -154,6 +161,9 @@ static inline json *layers_buffer(const char *path, const char *layer, const cha
     return summary;
 }
 
-static inline double json_number(const json *object, const char *key) { return strtod(json_text(json_get(object, key)), NULL); }
+static inline double json_number(const json *object, const char *key)
+{
+    return strtod(json_text(json_get(object, key)), NULL);
+}
 
 #endif

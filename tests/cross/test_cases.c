@@ -35,7 +35,8 @@ static bool read_case(const char *folder, const char *file, known *out)
 {
     const size_t stem = strlen(file) - 4;
     char *path = test_format("%s/%s", folder, file), *text = test_read_file(path);
-    char *record_path = test_format("%s/%.*s.expect.json", folder, (int)stem, file), *record = test_read_file(record_path);
+    char *record_path = test_format("%s/%.*s.expect.json", folder, (int)stem, file),
+         *record = test_read_file(record_path);
     const char *end;
     bool ok = text && record && polyset_read_wkt(&out->p, text, &end);
     ok = ok && polyset_read_wkt(&out->q, end, NULL) && (out->record = json_read(record)) != NULL;
@@ -54,8 +55,7 @@ static int read_cases(void **state)
     char *folder = test_format("%s/../shared/cases", source ? source : SUNDER_SOURCE);
     DIR *dir = opendir(folder);
     int bad = 0;
-    if (!dir)
-        print_message("no %s: the exact cases are skipped\n", folder);
+    if (!dir) print_message("no %s: the exact cases are skipped\n", folder);
     for (struct dirent *e; dir && (e = readdir(dir));) {
         const size_t n = strlen(e->d_name);
         if (n < 5 || strcmp(e->d_name + n - 4, ".wkt")) continue;
@@ -145,7 +145,8 @@ static char *compare_pair(const known *k)
         if (!same_rational(s.distance_squared_text, known2))
             complaint = test_format("squared length %s, not %s", s.distance_squared_text, known2);
         else if (one && json_count(mtv) == 2 &&
-                 !(same_rational(s.dx_text, json_text(&mtv->item[0])) && same_rational(s.dy_text, json_text(&mtv->item[1]))))
+                 !(same_rational(s.dx_text, json_text(&mtv->item[0])) &&
+                   same_rational(s.dy_text, json_text(&mtv->item[1]))))
             complaint = test_format("vector %s %s, not %s %s", s.dx_text, s.dy_text, json_text(&mtv->item[0]),
                                     json_text(&mtv->item[1]));
         sunder_separation_clear(&s);

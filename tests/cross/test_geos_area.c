@@ -54,8 +54,10 @@ static GEOSGeometry *triangle_sum(const double *a, const double *b)
     double out[14];
     size_t i = 0, j = 0, low[2] = {0, 0}, n = 0;
     for (size_t k = 1; k < 3; k++) {
-        if (a[2 * k + 1] < a[2 * low[0] + 1] || (a[2 * k + 1] == a[2 * low[0] + 1] && a[2 * k] < a[2 * low[0]])) low[0] = k;
-        if (b[2 * k + 1] < b[2 * low[1] + 1] || (b[2 * k + 1] == b[2 * low[1] + 1] && b[2 * k] < b[2 * low[1]])) low[1] = k;
+        if (a[2 * k + 1] < a[2 * low[0] + 1] || (a[2 * k + 1] == a[2 * low[0] + 1] && a[2 * k] < a[2 * low[0]]))
+            low[0] = k;
+        if (b[2 * k + 1] < b[2 * low[1] + 1] || (b[2 * k + 1] == b[2 * low[1] + 1] && b[2 * k] < b[2 * low[1]]))
+            low[1] = k;
     }
     while (i < 3 || j < 3) {
         const double *p = a + 2 * ((low[0] + i) % 3), *q = b + 2 * ((low[1] + j) % 3);
@@ -65,9 +67,12 @@ static GEOSGeometry *triangle_sum(const double *a, const double *b)
         out[2 * n + 1] = p[1] + q[1];
         n++;
         const double c = cross(u, v);
-        if (j == 3 || (i < 3 && c > 0)) i++;
-        else if (i == 3 || c < 0) j++;
-        else i++, j++;
+        if (j == 3 || (i < 3 && c > 0))
+            i++;
+        else if (i == 3 || c < 0)
+            j++;
+        else
+            i++, j++;
     }
     return polygon(out, n);
 }
@@ -147,9 +152,9 @@ static void test_families(void **state)
 static void test_shared_families(void **state)
 {
     (void)state;
-    static const char *const names[] = {"comb_50", "fork_20",  "forkt_20",    "cfork_20",   "star_20",
-                                        "star_50", "random_20", "random_50",  "randmap_50", "robot_20",
-                                        "robot_50", "fatgrid_20", "fatcover_20", "tight_0", "tight_1", "tight_2"};
+    static const char *const names[] = {"comb_50",     "fork_20",   "forkt_20",   "cfork_20", "star_20",  "star_50",
+                                        "random_20",   "random_50", "randmap_50", "robot_20", "robot_50", "fatgrid_20",
+                                        "fatcover_20", "tight_0",   "tight_1",    "tight_2"};
     const char *source = getenv("SUNDER_SOURCE");
     size_t found = 0, bad = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {

@@ -57,7 +57,8 @@ static void put_feature(geometries *out, const GEOSGeometry *feature, const brus
         out->at = test_resize(out->at, out->n + 1, sizeof *out->at);
         out->at[out->n++] = GEOSGeom_clone_r(geos, p);
         put_ring(out, GEOSGetExteriorRing_r(geos, p), by);
-        for (int h = 0; h < GEOSGetNumInteriorRings_r(geos, p); h++) put_ring(out, GEOSGetInteriorRingN_r(geos, p, h), by);
+        for (int h = 0; h < GEOSGetNumInteriorRings_r(geos, p); h++)
+            put_ring(out, GEOSGetInteriorRingN_r(geos, p, h), by);
     }
 }
 
@@ -92,9 +93,12 @@ static double geos_area(const geometries *features, const brush *by)
 static const struct {
     const char *file, *layer;
     const brush *by;
-} dissolved[] = {{"krems_2013.gpkg", "buildings", &square},       {"krems_2013.gpkg", "buildings", &octagon},
-                 {"saint_jean_la_poterie.gpkg", "buildings", &octagon}, {"neuss_2026.gpkg", "buildings", &regular},
-                 {"baltimore_2015_shp.zip", "buildings", &octagon}, {"paris_cite_2014.gpkg", "buildings", &square}};
+} dissolved[] = {{"krems_2013.gpkg", "buildings", &square},
+                 {"krems_2013.gpkg", "buildings", &octagon},
+                 {"saint_jean_la_poterie.gpkg", "buildings", &octagon},
+                 {"neuss_2026.gpkg", "buildings", &regular},
+                 {"baltimore_2015_shp.zip", "buildings", &octagon},
+                 {"paris_cite_2014.gpkg", "buildings", &square}};
 
 static layers_answer same_area(const char *file, const char *layer, const brush *by)
 {
@@ -155,8 +159,8 @@ static layers_answer all_valid(const char *file, const char *layer, const brush 
         geometries_free(&probe);
         for (size_t k = 0; k < 4; k++) {
             if (!(wanted >> k & 1)) continue;
-            char *options = test_format("%s --operation %s --output-layer grown --shape %s", dissolve ? "--dissolve" : "",
-                                        operations[k], by->text);
+            char *options = test_format("%s --operation %s --output-layer grown --shape %s",
+                                        dissolve ? "--dissolve" : "", operations[k], by->text);
             json *summary = layers_buffer(path, layer, options, "grown.gpkg");
             size_t polygons = 0;
             const long invalid = summary ? count_invalid("grown.gpkg", &polygons) : -1;

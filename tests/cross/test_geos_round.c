@@ -92,7 +92,8 @@ static void bracket(const GEOSGeometry *feature, double radius, unsigned segment
     sunder_shape *shape = shape_of(feature);
     assert_non_null(shape);
     const double inside = our_area(shape, radius, segments, true), around = our_area(shape, radius, segments, false);
-    const double low = geos_area(feature, radius * (1 - slack) * k), high = geos_area(feature, radius * (1 + slack) / (k * c));
+    const double low = geos_area(feature, radius * (1 - slack) * k),
+                 high = geos_area(feature, radius * (1 + slack) / (k * c));
     const double below = geos_area(feature, radius), above = geos_area(feature, radius / c);
     sunder_shape_free(shape);
     t->features++;
@@ -102,8 +103,9 @@ static void bracket(const GEOSGeometry *feature, double radius, unsigned segment
     t->above += above;
     if (low <= inside && inside <= above && below <= around && around <= high) return;
     t->bad++;
-    print_message("by %g, %u segments: GEOS %.12g <= inside %.12g <= GEOS %.12g; GEOS %.12g <= around %.12g <= GEOS %.12g\n",
-                  radius, segments, low, inside, above, below, around, high);
+    print_message(
+        "by %g, %u segments: GEOS %.12g <= inside %.12g <= GEOS %.12g; GEOS %.12g <= around %.12g <= GEOS %.12g\n",
+        radius, segments, low, inside, above, below, around, high);
 }
 
 static layers_answer bracket_layer(const char *file, const char *condition, double radius)
@@ -116,8 +118,8 @@ static layers_answer bracket_layer(const char *file, const char *condition, doub
     for (size_t k = 0; there && k < sizeof segments / sizeof *segments; k++) {
         tally t = {0};
         for (size_t i = 0; i < features.n; i++) bracket(features.at[i], radius, segments[k], &t);
-        print_message("%s by %g, %zu features, %u segments: %.8g inside, %.8g to %.8g the true one, %.8g around\n", file, radius,
-                      t.features, segments[k], t.inside, t.below, t.above, t.around);
+        print_message("%s by %g, %zu features, %u segments: %.8g inside, %.8g to %.8g the true one, %.8g around\n",
+                      file, radius, t.features, segments[k], t.inside, t.below, t.above, t.around);
         if (t.bad) answer = LAYERS_WRONG;
     }
     geometries_free(&features);

@@ -14,11 +14,11 @@
  * with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename,
  * link, unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To
  * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line to file
- * descriptor 3: "COUNT BYTES STATUS NAME SHOWN WRITES". STATUS is the exit status, or 128 + the signal; NAME the call that
- * was struck, or -; SHOWN the place of the first call that could change what others see as the output: a rename, or a
- * write into a file that is neither a journal nor in a hidden directory; WRITES how many calls could be short. strike
- * itself exits with 0 if the program ended, whatever came of it. SIGALRM never comes to the program: what it would do
- * then, it must do without.
+ * descriptor 3: "COUNT BYTES STATUS NAME SHOWN WRITES". STATUS is the exit status, or 128 + the signal; NAME the call
+ * that was struck, or -; SHOWN the place of the first call that could change what others see as the output: a rename,
+ * or a write into a file that is neither a journal nor in a hidden directory; WRITES how many calls could be short.
+ * strike itself exits with 0 if the program ended, whatever came of it. SIGALRM never comes to the program: what it
+ * would do then, it must do without.
  *
  * ptrace needs no privilege and no other program. Registers are read and written for x86-64 and AArch64. */
 #define _GNU_SOURCE
@@ -60,7 +60,11 @@ static uint64_t argument(const registers *r, int i)
 }
 static void set_third(registers *r, uint64_t value) { r->rdx = value; }
 static void set_result(registers *r, long value) { r->rax = (unsigned long long)value; }
-static void skip_call(pid_t pid, registers *r) { (void)pid; r->orig_rax = (unsigned long long)-1; }
+static void skip_call(pid_t pid, registers *r)
+{
+    (void)pid;
+    r->orig_rax = (unsigned long long)-1;
+}
 #else
 #include <asm/ptrace.h>
 #include <elf.h>
@@ -115,13 +119,10 @@ static thread *thread_of(pid_t pid)
 {
     thread *free_one = NULL;
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
-        if (threads[i].pid == pid)
-            return &threads[i];
-        if (!threads[i].pid && !free_one)
-            free_one = &threads[i];
+        if (threads[i].pid == pid) return &threads[i];
+        if (!threads[i].pid && !free_one) free_one = &threads[i];
     }
-    if (!free_one)
-        exit(3);
+    if (!free_one) exit(3);
     *free_one = (thread){.pid = pid};
     return free_one;
 }
@@ -147,8 +148,7 @@ static bool path_is_under(pid_t pid, uint64_t at)
 {
     char path[PATH_MAX], whole[2 * PATH_MAX], link[64], cwd[PATH_MAX];
     read_text(pid, at, path, sizeof path);
-    if (path[0] == '/')
-        return is_under(path);
+    if (path[0] == '/') return is_under(path);
     snprintf(link, sizeof link, "/proc/%d/cwd", (int)pid);
     ssize_t n = readlink(link, cwd, sizeof cwd - 1);
     cwd[n > 0 ? n : 0] = '\0';
@@ -179,10 +179,8 @@ static bool file_is_written(pid_t pid, uint64_t file)
 static bool shows(pid_t pid, const registers *r, const char *name)
 {
     char link[64], path[PATH_MAX];
-    if (strcmp(name, "rename") == 0)
-        return true;
-    if (strncmp(name, "write", 5) != 0 && strcmp(name, "pwrite") != 0)
-        return false;
+    if (strcmp(name, "rename") == 0) return true;
+    if (strncmp(name, "write", 5) != 0 && strcmp(name, "pwrite") != 0) return false;
     snprintf(link, sizeof link, "/proc/%d/fd/%d", (int)pid, (int)argument(r, 0));
     ssize_t n = readlink(link, path, sizeof path - 1);
     path[n > 0 ? n : 0] = '\0';
@@ -247,8 +245,7 @@ static void shorten(thread *it, registers *r, uint64_t bytes, const char *name)
 static void strike_full(thread *it, registers *r, const call *at)
 {
     uint64_t bytes = argument(r, 2);
-    if (!at->writes)
-        return;
+    if (!at->writes) return;
     if (written >= place)
         replace(it, r, -ENOSPC, at->name);
     else if (written + bytes > place)
@@ -259,14 +256,12 @@ static void strike_by_signal(const registers *r, const call *at, pid_t main_pid)
 {
     catches = catches || (call_of(r) == SYS_rt_sigaction && argument(r, 0) == SIGTERM && argument(r, 1));
     count += catches;
-    if (way == CALLS || count < place)
-        return;
+    if (way == CALLS || count < place) return;
     if (count == place) {
         snprintf(struck, sizeof struck, "%s:%ld", at->name ? at->name : "call", call_of(r));
         kill(main_pid, SIGTERM);
     }
-    if (way == SIGNALS && count == place + again)
-        kill(main_pid, SIGINT);
+    if (way == SIGNALS && count == place + again) kill(main_pid, SIGINT);
 }
 
 static void call_starts(thread *it, pid_t main_pid)
@@ -275,14 +270,11 @@ static void call_starts(thread *it, pid_t main_pid)
     get_registers(it->pid, &r);
     call at = call_at(it->pid, &r);
     bool by_signal = way == SIGNAL || way == SIGNALS || way == CALLS;
-    if (by_signal)
-        strike_by_signal(&r, &at, main_pid);
-    if (!at.name)
-        return;
+    if (by_signal) strike_by_signal(&r, &at, main_pid);
+    if (!at.name) return;
     count += !by_signal;
     writes += at.writes && argument(&r, 2) > 1;
-    if (!shown && shows(it->pid, &r, at.name))
-        shown = count;
+    if (!shown && shows(it->pid, &r, at.name)) shown = count;
     if (by_signal) {
         return;
     } else if (way == FULL) {
@@ -295,15 +287,13 @@ static void call_starts(thread *it, pid_t main_pid)
     } else if (way == SHORT && at.writes && argument(&r, 2) > 1 && writes == place) {
         shorten(it, &r, argument(&r, 2) / 2, at.name);
     }
-    if (at.writes && !it->replaced)
-        written += argument(&r, 2);
+    if (at.writes && !it->replaced) written += argument(&r, 2);
 }
 
 static void call_ends(thread *it)
 {
     registers r;
-    if (!it->replaced)
-        return;
+    if (!it->replaced) return;
     it->replaced = false;
     get_registers(it->pid, &r);
     set_result(&r, it->result);
@@ -319,8 +309,7 @@ static int follow(pid_t main_pid)
         thread *it = thread_of(pid);
         int signal = 0;
         if (WIFEXITED(status) || WIFSIGNALED(status)) {
-            if (pid == main_pid)
-                ended = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+            if (pid == main_pid) ended = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
             it->pid = 0;
             continue;
         }

@@ -71,7 +71,7 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     sunder_validity validity = plan & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;
     for (size_t r = 0; r < wanted; ++r) {
         size_t count = fuzz_byte(bytes) % 11; /* rings of none, one and two vertices too */
-        if (plan & 16) { /* a rectangle: the one ring that strict validity likes without luck */
+        if (plan & 16) {                      /* a rectangle: the one ring that strict validity likes without luck */
             double x0 = fuzz_coordinate(bytes, scale), y0 = fuzz_coordinate(bytes, scale);
             double x1 = fuzz_coordinate(bytes, scale), y1 = fuzz_coordinate(bytes, scale);
             const double corners[8] = {x0, y0, x1, y0, x1, y1, x0, y1};

@@ -477,9 +477,9 @@ static void test_repaired(void **state)
         }
         polyset_end_polygon(&set);
         sunder_shape *shape = NULL;
-        assert_int_equal(
-            sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_VALIDITY_EVEN_ODD, &shape, NULL),
-            SUNDER_OK);
+        assert_int_equal(sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons,
+                                                 SUNDER_VALIDITY_EVEN_ODD, &shape, NULL),
+                         SUNDER_OK);
         if (sunder_shape_is_empty(shape))
             sunder_shape_free(shape);
         else

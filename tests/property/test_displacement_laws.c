@@ -2,8 +2,8 @@
  *
  * Without a proof of its optimum a search can only be good, so three of them are counted, not demanded:
  *
- *   (a) a looser limit leaves no more conflicts and, where none are left, costs no more; overlaps come first, then pairs,
- *       so an overlap less may cost two that are too near (counted aside)
+ *   (a) a looser limit leaves no more conflicts and, where none are left, costs no more; overlaps come first, then
+ *       pairs, so an overlap less may cost two that are too near (counted aside)
  *   (c) a smaller gap costs no more where none are left
  *   (g) features shifted by what all coordinates hold exactly have the same conflicts, and costs within 1 %
  *
@@ -331,8 +331,8 @@ static void test_far_feature(void **state)
         u.n = t.n + 3;
         separate(&u, run + 1);
         if (memcmp(run->move, run[1].move + 2 * before, 2 * t.n * sizeof *run->move))
-            fail_msg("seed %llu, case %zu: features out of reach make a difference",
-                     (unsigned long long)test_seed(), i);
+            fail_msg("seed %llu, case %zu: features out of reach make a difference", (unsigned long long)test_seed(),
+                     i);
     }
     free(run);
 }
@@ -403,8 +403,8 @@ static void test_order(void **state)
         for (size_t k = 0; k < t.n; k++)
             same = same && memcmp(run->move + 2 * k, run[1].move + 2 * to[k], 2 * sizeof *run->move) == 0;
         if (!same && !has_twins(&t))
-            fail_msg("seed %llu, case %zu: features in another order have other moves",
-                     (unsigned long long)test_seed(), i);
+            fail_msg("seed %llu, case %zu: features in another order have other moves", (unsigned long long)test_seed(),
+                     i);
     }
     free(run);
 }
@@ -431,7 +431,8 @@ static bool same_conflicts(const outcome *p, const outcome *q, const size_t root
     for (size_t k = 0; k < p->conflicts; k++) {
         if (root[p->conflict[2 * k]] != group) continue;
         while (at < q->conflicts && root[q->conflict[2 * at]] != group) at++;
-        if (at == q->conflicts || memcmp(p->conflict + 2 * k, q->conflict + 2 * at, 2 * sizeof *p->conflict)) return false;
+        if (at == q->conflicts || memcmp(p->conflict + 2 * k, q->conflict + 2 * at, 2 * sizeof *p->conflict))
+            return false;
         at++;
     }
     while (at < q->conflicts && root[q->conflict[2 * at]] != group) at++;
@@ -455,9 +456,10 @@ static void agree(agreement *sum, size_t i, const town *t, const outcome *p, con
     bound_groups(t, q, root, qb);
     for (size_t k = 0; k < t->n; k++) {
         if (root[k] != k || (a[k].cost == 0 && b[k].cost == 0 && a[k].conflicts + b[k].conflicts == 0)) continue;
-        const double off = fabs(a[k].cost - b[k].cost), hair = 1e-9 * fmax(a[k].cost, b[k].cost) + slack(t, p) + slack(t, q);
-        const bool proved = a[k].conflicts + b[k].conflicts == 0 &&
-                            (a[k].cost - pb[k] <= hair || b[k].cost - qb[k] <= hair);
+        const double off = fabs(a[k].cost - b[k].cost),
+                     hair = 1e-9 * fmax(a[k].cost, b[k].cost) + slack(t, p) + slack(t, q);
+        const bool proved =
+            a[k].conflicts + b[k].conflicts == 0 && (a[k].cost - pb[k] <= hair || b[k].cost - qb[k] <= hair);
         const bool same = same_conflicts(p, q, root, k);
         sum->groups++;
         sum->proved += proved;
@@ -509,8 +511,8 @@ static void test_place(void **state)
 int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_limits), cmocka_unit_test(test_gaps),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_limits),      cmocka_unit_test(test_gaps),
                                        cmocka_unit_test(test_far_feature), cmocka_unit_test(test_scale),
-                                       cmocka_unit_test(test_order), cmocka_unit_test(test_place)};
+                                       cmocka_unit_test(test_order),       cmocka_unit_test(test_place)};
     return cmocka_run_group_tests_name("laws over whole layers", tests, NULL, NULL);
 }

@@ -33,7 +33,8 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h)
     sunder_shape *shape = NULL;
     sunder_error err;
     sunder_feature *f = &t->feature[t->n++];
-    if (sunder_shape_from_rings(xy, &ring_end, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(xy, &ring_end, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err))
+        fail_msg("%s", err.message);
     *f = (sunder_feature){.shape = shape, .weight = 1, .max_shift = INFINITY, .block = -1};
     return f;
 }

@@ -37,7 +37,8 @@ static sunder_feature *add(town *t, const double *xy, size_t corners, double lim
     sunder_error err;
     double *own = t->xy[t->n];
     memcpy(own, xy, 2 * corners * sizeof *own);
-    if (sunder_shape_from_rings(own, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(own, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err))
+        fail_msg("%s", err.message);
     t->plain[t->n] = (proof_feature){own, corners, limit, limit == 0};
     t->feature[t->n] = (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .block = -1};
     return &t->feature[t->n++];
@@ -352,8 +353,7 @@ static void check_two_lanes(void **state)
     const sunder_conflict *c = sunder_report_conflicts(report, &n);
     for (size_t k = 0; k < n; k++) {
         if (c[k].reason != SUNDER_REASON_NO_ROOM) continue;
-        for (size_t b = 0; b < c[k].n_blocked_by && c[k].b < 6; b++)
-            assert_true(c[k].blocked_by[b] / 3 == c[k].a / 3);
+        for (size_t b = 0; b < c[k].n_blocked_by && c[k].b < 6; b++) assert_true(c[k].blocked_by[b] / 3 == c[k].a / 3);
     }
     sunder_report_free(report);
     free_town(&t);

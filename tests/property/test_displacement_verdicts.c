@@ -124,10 +124,9 @@ static double plant_symbol(layer *l, rng *r, double x, double y)
 {
     const double a = eighths(r, 2, 12), b = a + eighths(r, 4, 16), c = a + b;
     plot *p = add_plot(l);
-    polyset_polygon(&p->solved,
-                    (double[]){x + a, y, x + b, y, x + c, y + a, x + c, y + b, x + b, y + c, x + a, y + c, x, y + b, x,
-                               y + a},
-                    8);
+    polyset_polygon(
+        &p->solved,
+        (double[]){x + a, y, x + b, y, x + c, y + a, x + c, y + b, x + b, y + c, x + a, y + c, x, y + b, x, y + a}, 8);
     return c;
 }
 
@@ -147,15 +146,9 @@ static void lay_out(layer *l, rng *r, double tolerance)
             }
             x += plant_yard(l, r, x, y);
             break;
-        case 2:
-            x += plant_yard(l, r, x, y);
-            break;
-        case 3:
-            x += plant_block(l, r, x, y);
-            break;
-        case 4:
-            x += plant_symbol(l, r, x, y);
-            break;
+        case 2: x += plant_yard(l, r, x, y); break;
+        case 3: x += plant_block(l, r, x, y); break;
+        case 4: x += plant_symbol(l, r, x, y); break;
         default: {
             const double w = eighths(r, 8, 60);
             add_house(l, r, x, y, w, eighths(r, 8, 60));

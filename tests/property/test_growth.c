@@ -29,8 +29,8 @@ static growth grow(const char *family, size_t m, size_t n, unsigned seed)
     growth g = {.m = sunder_shape_vertices(a), .n = sunder_shape_vertices(b)};
     sunder_sum_get_size(sum, &g.out);
     sunder_sum_get_counts(sum, &g.counts);
-    print_message("%-40s %zu + %zu: %zu vertices, %zu holes, %llu crossings\n", arguments, g.m, g.n, g.out.vertices, g.out.holes,
-                  (unsigned long long)g.counts.segment_intersections);
+    print_message("%-40s %zu + %zu: %zu vertices, %zu holes, %llu crossings\n", arguments, g.m, g.n, g.out.vertices,
+                  g.out.holes, (unsigned long long)g.counts.segment_intersections);
     sunder_sum_free(sum);
     sunder_shape_free(a);
     sunder_shape_free(b);
@@ -83,7 +83,8 @@ static void test_fork(void **state)
             const growth g = grow(names[slanted], n, n, 1);
             assert_true(g.out.holes >= (teeth * teeth - 1) * (teeth * teeth - 1));
             assert_true(g.out.vertices <= g.m * g.m * g.n * g.n);
-            if (n > 32) assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more while the forks are short */
+            if (n > 32)
+                assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more while the forks are short */
             if (n > 32) assert_ratio(before.counts.segment_intersections, g.counts.segment_intersections, 8, 40);
             before = g;
         }
@@ -161,9 +162,10 @@ static void test_committed(void **state)
 /* Status 2 and nothing on standard output for what is no family, no size, no seed. */
 static void test_refused(void **state)
 {
-    static const char *const wrong[] = {"",          "spoon",          "fork --size",           "fork --size 7",
-                                        "fork comb", "fork --size -9", "fork --size 1e3",       "fork --seed x",
-                                        "fork --map", "fork --size ''", "fork --coordinates km", "fork --size 99999999999999999999"};
+    static const char *const wrong[] = {
+        "",           "spoon",          "fork --size",           "fork --size 7",
+        "fork comb",  "fork --size -9", "fork --size 1e3",       "fork --seed x",
+        "fork --map", "fork --size ''", "fork --coordinates km", "fork --size 99999999999999999999"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         int status;
         char *text = generated_text(wrong[i], &status);
@@ -176,10 +178,9 @@ static void test_refused(void **state)
 int main(void)
 {
     if (!generated_available()) return SKIPPED;
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_convex),       cmocka_unit_test(test_comb),
-                                       cmocka_unit_test(test_fork),         cmocka_unit_test(test_covered_fork),
-                                       cmocka_unit_test(test_fat),          cmocka_unit_test(test_tight),
-                                       cmocka_unit_test(test_committed),
-                                       cmocka_unit_test(test_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_convex),    cmocka_unit_test(test_comb),
+                                       cmocka_unit_test(test_fork),      cmocka_unit_test(test_covered_fork),
+                                       cmocka_unit_test(test_fat),       cmocka_unit_test(test_tight),
+                                       cmocka_unit_test(test_committed), cmocka_unit_test(test_refused)};
     return cmocka_run_group_tests_name("growth", tests, NULL, NULL);
 }

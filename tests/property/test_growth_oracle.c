@@ -14,14 +14,15 @@
 
 #define SKIPPED 77
 
-static const char *const families[] = {"convex", "comb", "fork", "slanted-fork", "covered-fork", "star",
-                                       "random", "robot", "fat-grid", "fat-cover", "tight"};
+static const char *const families[] = {"convex", "comb",  "fork",     "slanted-fork", "covered-fork", "star",
+                                       "random", "robot", "fat-grid", "fat-cover",    "tight"};
 
 /* Compares and frees. */
 static bool expect(const char *arguments, const char *who, char *got, const char *want)
 {
     const bool same = got && strcmp(got, want) == 0;
-    if (!same) print_message("sunder-families %s: %s says\n  %s\nnot\n  %s\n", arguments, who, got ? got : "nothing", want);
+    if (!same)
+        print_message("sunder-families %s: %s says\n  %s\nnot\n  %s\n", arguments, who, got ? got : "nothing", want);
     free(got);
     return same;
 }

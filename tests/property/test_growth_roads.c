@@ -19,8 +19,11 @@ typedef struct work {
 static work done(const char *family, size_t n, sunder_algorithm algorithm, sunder_order order)
 {
     char *arguments = test_format("%s --size %zu", family, n);
-    const sunder_sum_options options = {
-        .algorithm = algorithm, .decomposition = SUNDER_DECOMPOSITION_ANGLE_BISECTOR, .order = order, .seed = 1, .keep_map = true};
+    const sunder_sum_options options = {.algorithm = algorithm,
+                                        .decomposition = SUNDER_DECOMPOSITION_ANGLE_BISECTOR,
+                                        .order = order,
+                                        .seed = 1,
+                                        .keep_map = true};
     polyset p, q;
     generated_pair(&p, &q, arguments);
     sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
@@ -34,11 +37,12 @@ static work done(const char *family, size_t n, sunder_algorithm algorithm, sunde
     sunder_sum_get_method(sum, &method);
     w.subsums = method.pieces_p * method.pieces_q;
     w.map_edges = sunder_map_edges(sunder_sum_map(sum));
-    print_message("%-24s %-12s %-6s %6zu subsums, map %7zu edges, out %6zu vertices; %8llu comparisons, %8llu orientation tests, %7llu "
+    print_message("%-24s %-12s %-6s %6zu subsums, map %7zu edges, out %6zu vertices; %8llu comparisons, %8llu "
+                  "orientation tests, %7llu "
                   "crossings\n",
-                  arguments, sunder_algorithm_string(algorithm), sunder_order_string(order), w.subsums, w.map_edges, w.out.vertices,
-                  (unsigned long long)w.unite.comparisons, (unsigned long long)w.unite.orientation_tests,
-                  (unsigned long long)w.unite.segment_intersections);
+                  arguments, sunder_algorithm_string(algorithm), sunder_order_string(order), w.subsums, w.map_edges,
+                  w.out.vertices, (unsigned long long)w.unite.comparisons,
+                  (unsigned long long)w.unite.orientation_tests, (unsigned long long)w.unite.segment_intersections);
     sunder_sum_free(sum);
     sunder_shape_free(a);
     sunder_shape_free(b);

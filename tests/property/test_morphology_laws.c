@@ -80,7 +80,8 @@ static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, c
     morphology_complement(&c, p, MORPHOLOGY_FRAME);
     polyset_copy(&turned, b);
     polyset_negate(&turned);
-    sunder_sum *closed = morphology_answer(&c, &turned, SUNDER_OPERATION_CLOSE), *eroded = morphology_answer(p, b, SUNDER_OPERATION_ERODE);
+    sunder_sum *closed = morphology_answer(&c, &turned, SUNDER_OPERATION_CLOSE),
+               *eroded = morphology_answer(p, b, SUNDER_OPERATION_ERODE);
     const long ko = morphology_scale(opened), kc = morphology_scale(closed), ke = morphology_scale(eroded),
                k = ko * kc * ke;
     bool ok = true;
@@ -187,7 +188,8 @@ static bool is_adjoint(const polyset *y, const polyset *b, rng *r, size_t *fits)
     polyset_init(&x);
     const double at[2] = {(double)rng_int(r, 0, 5), (double)rng_int(r, 0, 5)};
     polyset_rectangle(&x, at[0], at[1], at[0] + (double)rng_int(r, 1, 2), at[1] + (double)rng_int(r, 1, 2));
-    sunder_sum *dilated = morphology_answer(&x, b, SUNDER_OPERATION_DILATE), *eroded = morphology_answer(y, b, SUNDER_OPERATION_ERODE);
+    sunder_sum *dilated = morphology_answer(&x, b, SUNDER_OPERATION_DILATE),
+               *eroded = morphology_answer(y, b, SUNDER_OPERATION_ERODE);
     const long k = morphology_scale(dilated), m = morphology_scale(eroded);
     bool ok = true;
     if (k && m) {
@@ -220,7 +222,8 @@ static void test_laws(void **state)
         rng r = rng_start(test_seed() + 79, i);
         polyset p, b;
         morphology_case(&p, &b, &r);
-        sunder_sum *opened = morphology_answer(&p, &b, SUNDER_OPERATION_OPEN), *closed = morphology_answer(&p, &b, SUNDER_OPERATION_CLOSE);
+        sunder_sum *opened = morphology_answer(&p, &b, SUNDER_OPERATION_OPEN),
+                   *closed = morphology_answer(&p, &b, SUNDER_OPERATION_CLOSE);
         assert_non_null(opened);
         assert_non_null(closed);
         const long k = morphology_scale(opened), m = morphology_scale(closed);

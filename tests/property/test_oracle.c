@@ -26,7 +26,8 @@ static bool members_agree(const polyset *p, const polyset *q, const char *text, 
     oracle *o = oracle_new(p, q);
     bool agree = true;
     for (int k = 0; k < 12 && agree; k++) {
-        const size_t i = (size_t)rng_int(r, 0, (int64_t)p->vertices - 1), j = (size_t)rng_int(r, 0, (int64_t)q->vertices - 1);
+        const size_t i = (size_t)rng_int(r, 0, (int64_t)p->vertices - 1),
+                     j = (size_t)rng_int(r, 0, (int64_t)q->vertices - 1);
         double xy[2];
         for (int d = 0; d < 2; d++)
             xy[d] = p->xy[2 * i + (size_t)d] + q->xy[2 * j + (size_t)d] + (double)rng_int(r, -2, 2) / 2;

@@ -1,8 +1,8 @@
 /* Which vertices an edge may meet, and whether a subsum of many sides holds a point: what sectors of directions and a
  * fan of triangles say, against every vertex in rationals, and every side. */
 #include "generate.h"
-#include "separation/obstacle/cones.h"
 #include "separation/obstacle/carrier.h"
+#include "separation/obstacle/cones.h"
 
 #include <gmp.h>
 #include <math.h>

@@ -77,12 +77,13 @@ static double rational_walls(polyset *p, polyset *q, rng *r)
     const double k = (double)rng_int(r, 1, 8), m = (double)rng_int(r, 1, 8), e = offset(r);
     /* A valley down to the origin, or a wedge up to it. */
     if (rng_once_in(r, 2)) {
-        const double xy[] = {-k * t.x - 9, -99, m * u.x + 9, -99, m * u.x + 9, m * u.y, m * u.x, m * u.y + offset(r),
-                             e,            0,   -k * t.x,    k * t.y, -k * t.x - 9, k * t.y};
+        const double xy[] = {-k * t.x - 9,        -99, m * u.x + 9, -99,      m * u.x + 9, m * u.y,      m * u.x,
+                             m * u.y + offset(r), e,   0,           -k * t.x, k * t.y,     -k * t.x - 9, k * t.y};
         polyset_polygon(p, xy, 7);
     } else {
-        const double xy[] = {-k * t.x - 1, -k * t.y - 99, m * u.x + 1, -m * u.y - 99, m * u.x + 1, -m * u.y - 1,
-                             e,            0,             -k * t.x - 1, -k * t.y - 1 + offset(r)};
+        const double xy[] = {
+            -k * t.x - 1, -k * t.y - 99,           m * u.x + 1, -m * u.y - 99, m * u.x + 1, -m * u.y - 1, e, 0,
+            -k * t.x - 1, -k * t.y - 1 + offset(r)};
         polyset_polygon(p, xy, 5);
     }
     const double x = (double)rng_int(r, -3, 3) + offset(r), y = (double)rng_int(r, -3, 3) + offset(r);

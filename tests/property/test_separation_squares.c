@@ -6,8 +6,8 @@
 #include "failing.h"
 #include "generate.h"
 #include "separation/least.h"
-#include "separation/separation.h"
 #include "separation/penetration/search.h"
+#include "separation/separation.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -294,7 +294,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_kinds),     cmocka_unit_test(test_large),
                                        cmocka_unit_test(test_even),      cmocka_unit_test(test_gap_kinds),
-                                       cmocka_unit_test(test_gap_large),
-                                       cmocka_unit_test(test_memory)};
+                                       cmocka_unit_test(test_gap_large), cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("square by square", tests, NULL, NULL);
 }

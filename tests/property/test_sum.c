@@ -54,7 +54,8 @@ static void test_kind(void **state)
     size_t bad = 0;
     for (size_t i = 0; i < n; i++)
         if (!agree(kind, seed, i, bad < SHOWN)) bad++;
-    print_message("%-14s SUNDER_SEED=%llu: %zu of %zu agree\n", pair_kind_string(kind), (unsigned long long)seed, n - bad, n);
+    print_message("%-14s SUNDER_SEED=%llu: %zu of %zu agree\n", pair_kind_string(kind), (unsigned long long)seed,
+                  n - bad, n);
     assert_int_equal(bad, 0);
 }
 

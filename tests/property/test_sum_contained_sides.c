@@ -24,8 +24,10 @@ static void random_member(polyset *p, rng *r, bool map)
     switch (rng_int(r, 0, map ? 1 : 4)) {
     case 0:
     case 1:
-        if (map) random_building(&one, r);
-        else polyset_rectangle(&one, 0, 0, (double)rng_int(r, 1, 9), (double)rng_int(r, 1, 9));
+        if (map)
+            random_building(&one, r);
+        else
+            polyset_rectangle(&one, 0, 0, (double)rng_int(r, 1, 9), (double)rng_int(r, 1, 9));
         break;
     case 2: random_simple(&one, r, (int)rng_int(r, 3, 7), 10); break;
     case 3: random_star(&one, r, (int)rng_int(r, 4, 8), 9); break;
@@ -57,7 +59,8 @@ static bool same_texts(const polyset *p, const polyset *q, bool with_oracle)
     const bool same = ours && other && strcmp(ours, other) == 0;
     if (!same) {
         char *x = polyset_wkt(p), *y = polyset_wkt(q);
-        print_message("%s\n%s\n  ours  %.2000s\n  other %.2000s\n", x, y, ours ? ours : "failed", other ? other : "failed");
+        print_message("%s\n%s\n  ours  %.2000s\n  other %.2000s\n", x, y, ours ? ours : "failed",
+                      other ? other : "failed");
         free(x);
         free(y);
     }

@@ -17,8 +17,8 @@
 
 typedef enum subject { SIMPLE, STAR, COMB, FORK, BUILDING, BOARD, PATCHES, SLANTED, SUBJECTS } subject;
 
-static const char *const subject_name[SUBJECTS] = {"simple polygons", "stars",     "combs",          "forks",
-                                                   "buildings",       "boards",    "half squares",   "slanted boards"};
+static const char *const subject_name[SUBJECTS] = {"simple polygons", "stars",  "combs",        "forks",
+                                                   "buildings",       "boards", "half squares", "slanted boards"};
 
 static void random_subject(polyset *p, rng *r, subject kind)
 {
@@ -110,8 +110,8 @@ static int trace_one(subject kind, uint64_t seed, size_t i)
         verdict = strcmp(ours, expected) == 0 ? 1 : -1;
         if (verdict < 0) {
             char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
-            print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  traced %.2000s\n  oracle %.2000s\n", subject_name[kind],
-                          (unsigned long long)seed, i, a, b, ours, expected);
+            print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  traced %.2000s\n  oracle %.2000s\n",
+                          subject_name[kind], (unsigned long long)seed, i, a, b, ours, expected);
             free(a);
             free(b);
         }
@@ -158,7 +158,8 @@ static void test_cases(void **state)
          "POLYGON ((-2 -2, 2 -2, 2 2, -2 2))", false},
         /* a courtyard that remains, and one into which the shape's box would go */
         {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 12 29, 30 30, 28 11))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
-        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", false}};
+        {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))",
+         false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         polyset p, q;
         assert_true(polyset_read_wkt(&p, cases[i].p, NULL) && polyset_read_wkt(&q, cases[i].q, NULL));

@@ -82,8 +82,10 @@ static void test_other_roads(void **state)
         deep_layer(&p, (deep_kind)(i % DEEP_KINDS), (int)rng_int(&r, 8, i % 4 ? 40 : 90), &r);
         random_grower(&q, &r);
         char *ours = library_sum_text(&p, &q);
-        const sunder_sum_options how = {
-            .algorithm = SUNDER_ALGORITHM_INCREMENTAL, .decomposition = SUNDER_DECOMPOSITION_VERTICAL, .order = SUNDER_ORDER_FAT, .seed = seed};
+        const sunder_sum_options how = {.algorithm = SUNDER_ALGORITHM_INCREMENTAL,
+                                        .decomposition = SUNDER_DECOMPOSITION_VERTICAL,
+                                        .order = SUNDER_ORDER_FAT,
+                                        .seed = seed};
         assert_non_null(ours);
         if (!road_agrees(&p, &q, &how, false, ours, true)) {
             print_message("SUNDER_SEED=%llu, case %zu, %s\n", (unsigned long long)seed, i, kind_name[i % DEEP_KINDS]);
@@ -188,8 +190,8 @@ static size_t memory_for(deep_kind kind, use how, int n, uint64_t seed)
 }
 
 /* Four times the members: linear is 4, all pairs of members is 16. Tables double, which is worth another factor of up
- * to 2 between two sizes. Left out is the union of squares that are turned and not grown: near their corners, all on one
- * circle, what covers a side is others together, ever more of them. */
+ * to 2 between two sizes. Left out is the union of squares that are turned and not grown: near their corners, all on
+ * one circle, what covers a side is others together, ever more of them. */
 static void test_memory(void **state)
 {
     (void)state;

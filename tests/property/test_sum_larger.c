@@ -20,8 +20,8 @@ static bool agree(family_kind kind, uint64_t seed, size_t i)
     const bool same = ours && strcmp(ours, expected) == 0;
     if (!same) {
         char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
-        print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  library %.3000s\n  oracle  %.3000s\n", family_kind_string(kind),
-                      (unsigned long long)seed, i, a, b, ours ? ours : "failed", expected);
+        print_message("%s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n  library %.3000s\n  oracle  %.3000s\n",
+                      family_kind_string(kind), (unsigned long long)seed, i, a, b, ours ? ours : "failed", expected);
         free(a);
         free(b);
     }

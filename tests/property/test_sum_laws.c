@@ -153,8 +153,8 @@ static bool holds(law check, pair_kind kind, uint64_t seed, size_t i)
     c.sum = library_sum_text(&c.p, &c.q);
     const bool ok = c.sum && check(&c);
     if (!ok)
-        print_message("kind %s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n", pair_kind_string(kind), (unsigned long long)seed, i, p,
-                      q);
+        print_message("kind %s, SUNDER_SEED=%llu, case %zu\n%s\n%s\n", pair_kind_string(kind), (unsigned long long)seed,
+                      i, p, q);
     free(p);
     free(q);
     free(c.sum);
@@ -178,10 +178,11 @@ static void test_law(void **state)
 
 int main(void)
 {
-    static law laws[] = {commutes, translates, translates_far, scales, adds_hulls, measures_area, ignores_dress, reflects};
-    static const char *const names[] = {"P + Q = Q + P", "translation", "translation far out", "scaling by powers of two",
-                                        "hulls add",      "area",         "the same set said otherwise",
-                                        "reflection"};
+    static law laws[] = {commutes,   translates,    translates_far, scales,
+                         adds_hulls, measures_area, ignores_dress,  reflects};
+    static const char *const names[] = {
+        "P + Q = Q + P", "translation", "translation far out",         "scaling by powers of two",
+        "hulls add",     "area",        "the same set said otherwise", "reflection"};
     struct CMUnitTest tests[8];
     for (int i = 0; i < 8; i++) tests[i] = (struct CMUnitTest){names[i], test_law, NULL, NULL, &laws[i]};
     return cmocka_run_group_tests_name("laws of sums", tests, NULL, NULL);

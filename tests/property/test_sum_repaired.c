@@ -69,11 +69,15 @@ static char *even_odd_sum(const polyset *p, const polyset *q)
     sunder_sum *sum = NULL;
     sunder_error err = {0};
     char *text = NULL;
-    sunder_status s = sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_EVEN_ODD, &a, &err);
-    if (!s) s = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_EVEN_ODD, &b, &err);
+    sunder_status s =
+        sunder_shape_from_rings(p->xy, p->ring_end, p->poly_end, p->polygons, SUNDER_VALIDITY_EVEN_ODD, &a, &err);
+    if (!s)
+        s = sunder_shape_from_rings(q->xy, q->ring_end, q->poly_end, q->polygons, SUNDER_VALIDITY_EVEN_ODD, &b, &err);
     if (!s) s = sunder_minkowski_sum(a, b, NULL, &sum, &err);
-    if (!s) text = sum_text(sum);
-    else print_message("%s\n", err.message);
+    if (!s)
+        text = sum_text(sum);
+    else
+        print_message("%s\n", err.message);
     if (a && !sunder_shape_repaired(a)) print_message("not repaired\n");
     sunder_sum_free(sum);
     sunder_shape_free(a);
@@ -110,8 +114,8 @@ static bool agree(uint64_t seed, size_t i)
     const bool same = ours && strcmp(ours, expected) == 0;
     if (!same) {
         char *a = polyset_wkt(&p), *b = polyset_wkt(&q);
-        print_message("SUNDER_SEED=%llu, case %zu, times %ld\n%s\n%s\n  library %s\n  oracle  %s\n", (unsigned long long)seed, i,
-                      (long)k, a, b, ours ? ours : "failed", expected);
+        print_message("SUNDER_SEED=%llu, case %zu, times %ld\n%s\n%s\n  library %s\n  oracle  %s\n",
+                      (unsigned long long)seed, i, (long)k, a, b, ours ? ours : "failed", expected);
         free(a);
         free(b);
     }

@@ -1,6 +1,6 @@
-/* Operands repaired by the even-odd rule, of every kind: the rungs of the ladder (plain numbers and filters; all numbers
- * in the pool) and the roads to the sum give the same bytes, sums commute, a translation in exact doubles is one, and
- * least translations do not depend on the rung either. */
+/* Operands repaired by the even-odd rule, of every kind: the rungs of the ladder (plain numbers and filters; all
+ * numbers in the pool) and the roads to the sum give the same bytes, sums commute, a translation in exact doubles is
+ * one, and least translations do not depend on the rung either. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "separation/least.h"
@@ -38,8 +38,10 @@ static void open_pair(pair *p, uint64_t seed, size_t i)
     for (int k = 0; k < 2; k++) {
         polyset_init(&p->set[k]);
         const invalid_kind kind = (invalid_kind)(k ? (size_t)rng_int(&r, 0, INVALID_KINDS - 1) : i % INVALID_KINDS);
-        if (k && rng_once_in(&r, 3)) random_simple(&p->set[k], &r, (int)rng_int(&r, 3, 5), 5);
-        else random_invalid(&p->set[k], &r, kind, k ? 8 : 14);
+        if (k && rng_once_in(&r, 3))
+            random_simple(&p->set[k], &r, (int)rng_int(&r, 3, 5), 5);
+        else
+            random_invalid(&p->set[k], &r, kind, k ? 8 : 14);
         p->shape[k] = even_odd(&p->set[k]);
     }
 }
@@ -119,7 +121,8 @@ static void test_least(void **state)
                 strcmp(a.distance_squared_text, b.distance_squared_text))
                 differ(&p, "another rung, another translation");
             /* A bound is rounded down; short numbers may lose another ulp. */
-            if (!(fabs(a.lower_bound - b.lower_bound) <= 0x1p-52 * b.lower_bound)) differ(&p, "another rung, another bound");
+            if (!(fabs(a.lower_bound - b.lower_bound) <= 0x1p-52 * b.lower_bound))
+                differ(&p, "another rung, another bound");
             sunder_separation_clear(&a);
             sunder_separation_clear(&b);
         }

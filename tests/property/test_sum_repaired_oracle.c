@@ -1,7 +1,7 @@
-/* Operands repaired by the even-odd rule, of every kind, against exact brute force (even_odd.h, oracle.h): sums; whether
- * the interiors meet; least translations without a gap, to the digit; those with a gap, by the brute force for gaps, on
- * the operands times a number that makes integers of their corners; what obstacles are to a robot, and that a route past
- * them stays free. */
+/* Operands repaired by the even-odd rule, of every kind, against exact brute force (even_odd.h, oracle.h): sums;
+ * whether the interiors meet; least translations without a gap, to the digit; those with a gap, by the brute force for
+ * gaps, on the operands times a number that makes integers of their corners; what obstacles are to a robot, and that a
+ * route past them stays free. */
 #include "even_odd.h"
 #include "gap_oracle.h"
 #include "generate.h"
@@ -39,8 +39,10 @@ static void open_case(repaired *c, rng *r, invalid_kind kind, int most_p, int mo
     polyset_init(&c->p);
     polyset_init(&c->q);
     random_invalid(&c->p, r, kind, most_p);
-    if (rng_once_in(r, 2)) random_invalid(&c->q, r, rng_once_in(r, 2) ? kind : INVALID_SCRIBBLE, most_q);
-    else random_simple(&c->q, r, (int)rng_int(r, 3, 4), 5);
+    if (rng_once_in(r, 2))
+        random_invalid(&c->q, r, rng_once_in(r, 2) ? kind : INVALID_SCRIBBLE, most_q);
+    else
+        random_simple(&c->q, r, (int)rng_int(r, 3, 4), 5);
     if (near) bring_together(&c->p, &c->q, r);
     c->a = even_odd_shape(&c->p);
     c->b = even_odd_shape(&c->q);
@@ -147,8 +149,10 @@ static const char *ask_least(const repaired *c, size_t i)
         mpq_set_si(least, -1, 1);
         nearest_of(least, sum);
         free(sum);
-        if (!overlap) what = "the interiors meet";
-        else if (oracle_covers(o, s.dx_text, s.dy_text)) what = "they still meet";
+        if (!overlap)
+            what = "the interiors meet";
+        else if (oracle_covers(o, s.dx_text, s.dy_text))
+            what = "they still meet";
     } else if (overlap) {
         what = "the interiors do not meet";
     }
@@ -166,7 +170,8 @@ static const char *judge(const polyset *p, const polyset *q, double gap, double 
 {
     mpq_t x, y, square, k;
     mpq_inits(x, y, square, k, NULL);
-    if (mpq_set_str(x, s->dx_text, 10) || mpq_set_str(y, s->dy_text, 10) || mpq_set_str(square, s->distance_squared_text, 10))
+    if (mpq_set_str(x, s->dx_text, 10) || mpq_set_str(y, s->dy_text, 10) ||
+        mpq_set_str(square, s->distance_squared_text, 10))
         abort();
     mpq_set_d(k, times);
     mpq_mul(x, x, k);
@@ -175,7 +180,8 @@ static const char *judge(const polyset *p, const polyset *q, double gap, double 
     mpq_mul(square, square, k);
     double length;
     const char *what = NULL;
-    if (!gap_oracle_keeps(p, q, gap * times, x, y)) what = "the gap is not kept";
+    if (!gap_oracle_keeps(p, q, gap * times, x, y))
+        what = "the gap is not kept";
     else if (gap_oracle_judge(p, q, gap * times, square, s->lower_bound * times * (1 - 0x1p-52), &length) != GAP_FINE)
         what = "something free is nearer";
     mpq_clears(x, y, square, k, NULL);

@@ -34,7 +34,8 @@ static uint64_t number_of(const char *name)
 static bool too_many(const sunder_sum_options *how)
 {
     return how->algorithm == SUNDER_ALGORITHM_ARRANGEMENT &&
-           (how->decomposition == SUNDER_DECOMPOSITION_TRIANGULATION || how->decomposition == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN);
+           (how->decomposition == SUNDER_DECOMPOSITION_TRIANGULATION ||
+            how->decomposition == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN);
 }
 
 static void compare(tally *t, const char *name, const polyset *p, const polyset *q)
@@ -120,8 +121,8 @@ static void test_shared_families(void **state)
 
 static void test_generated(void **state)
 {
-    static const char *const family[] = {"convex", "comb", "fork", "slanted-fork", "covered-fork", "star", "random",
-                                         "robot", "fat-grid", "fat-cover", "tight"};
+    static const char *const family[] = {"convex", "comb",  "fork",     "slanted-fork", "covered-fork", "star",
+                                         "random", "robot", "fat-grid", "fat-cover",    "tight"};
     static const unsigned size[] = {8, 20, 30, 100};
     tally t = {0, 0, 0};
     if (!generated_available()) skip();

@@ -1,5 +1,5 @@
-/* All edges of a member are cut where they meet, pieces that lie on one another an even number of times are dropped, and
- * of those that are left each has the set on one side: that to which a ray meets an odd number of the others. */
+/* All edges of a member are cut where they meet, pieces that lie on one another an even number of times are dropped,
+ * and of those that are left each has the set on one side: that to which a ray meets an odd number of the others. */
 #include "even_odd.h"
 
 #include <stdlib.h>
@@ -177,7 +177,8 @@ static bool set_is_left(const cutter *c, const piece *p)
 
 /* ---- Rings ---- */
 
-/* Going clockwise from direction 0 (of `from`), is u met before v? All are directions from `at`; u and v are not from's. */
+/* Going clockwise from direction 0 (of `from`), is u met before v? All are directions from `at`; u and v are not
+ * from's. */
 static bool sooner(const spot *at, const spot *from, const spot *u, const spot *v)
 {
     /* Half a turn: 0 for what lies right of `from`, 1 for straight on, 2 for left of it. */

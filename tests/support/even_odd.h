@@ -23,8 +23,8 @@ void even_odd_open(even_odd *e, const polyset *set);
 void even_odd_close(even_odd *e);
 /* factor = the least common multiple of it and all denominators. */
 void even_odd_denominator(const even_odd *e, mpz_t factor);
-/* The set times factor: a polygon for each member that encloses anything, its rings in no order. False if doubles do not
- * hold its corners. */
+/* The set times factor: a polygon for each member that encloses anything, its rings in no order. False if doubles do
+ * not hold its corners. */
 bool even_odd_times(const even_odd *e, const mpz_t factor, polyset *out);
 
 #endif

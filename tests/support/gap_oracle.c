@@ -80,7 +80,7 @@ static bool plainly_near(const figure *f, double x, double y, double spare)
 
 typedef struct judging {
     figure f;
-    double size, limit; /* of the figure; places farther than this do not matter */
+    double size, limit;  /* of the figure; places farther than this do not matter */
     mpf_t answer, bound; /* squares: of the answer less 1e-9 of it, and of the bound */
     numbers work[2];
     mpf_t x[2], y[2], square;

@@ -177,7 +177,10 @@ size_t add_tracks(const figure *f, track *t)
     for (size_t i = 0; i < f->n; i++)
         for (size_t j = 0; j < f->m; j++) {
             const side *a = &f->a[i], *b = &f->b[j];
-            const track corner = {.circle = true, .x = a->ax - b->ax, .y = a->ay - b->ay, .gap = f->gap,
+            const track corner = {.circle = true,
+                                  .x = a->ax - b->ax,
+                                  .y = a->ay - b->ay,
+                                  .gap = f->gap,
                                   .corner = {a->ax, a->ay, b->ax, b->ay}};
             t[n++] = corner;
             for (int k = 0; k < 4; k++) {

@@ -7,8 +7,8 @@
 /* ---- Boards of triangles ---- */
 
 typedef struct side {
-    int from, to;  /* corners of the board, column + row * (columns + 1) */
-    int part;      /* edge-connected part of its triangle */
+    int from, to; /* corners of the board, column + row * (columns + 1) */
+    int part;     /* edge-connected part of its triangle */
     bool done;
 } side;
 
@@ -147,12 +147,18 @@ static void lines(double *v, int n, rng *r, spacing kind, double base)
     for (int i = 0, k = 0; i <= n; i++) {
         switch (kind) {
         case SPACING_UNIT: v[i] = i; break;
-        case SPACING_SMALL: v[i] = at; at += (double)rng_int(r, 1, 3); break;
+        case SPACING_SMALL:
+            v[i] = at;
+            at += (double)rng_int(r, 1, 3);
+            break;
         case SPACING_MAP:
             v[i] = rint((base + at) * 1000) / 1000;
             at += rng_once_in(r, 2) ? 4 : (double)rng_int(r, 500, 30000) / 1000;
             break;
-        case SPACING_RAGGED: v[i] = at - 3; at += 0.1 + rng_unit(r); break;
+        case SPACING_RAGGED:
+            v[i] = at - 3;
+            at += 0.1 + rng_unit(r);
+            break;
         case SPACING_HUGE:
             k += (int)rng_int(r, 0, 11 - n + i - k);
             v[i] = huge[k++];

@@ -53,23 +53,23 @@ void random_building(polyset *set, rng *r);
 /* ---- Pairs of operands, by kind of trouble ---- */
 
 typedef enum pair_kind {
-    PAIR_SQUARES,       /* parts of a unit grid: every direction repeated, exact fits by chance */
-    PAIR_STEPS,         /* the same with steps of 1, 2 or 3 */
-    PAIR_TRIANGLES,     /* half squares: vertices on edges, rings that touch */
+    PAIR_SQUARES,   /* parts of a unit grid: every direction repeated, exact fits by chance */
+    PAIR_STEPS,     /* the same with steps of 1, 2 or 3 */
+    PAIR_TRIANGLES, /* half squares: vertices on edges, rings that touch */
     PAIR_TRIANGLE_STEPS,
-    PAIR_PEG,           /* an exact fit: P has a pocket of the shape of -Q */
-    PAIR_SLIDE,         /* a pocket as high as the peg, and longer */
-    PAIR_SLANTED,       /* boards under a linear map: repeated slanted directions */
-    PAIR_SIMPLE,        /* small simple polygons */
-    PAIR_MEMBERS,       /* several simple polygons that overlap and touch */
-    PAIR_BOARDS,        /* several boards that overlap, touch and share walls */
-    PAIR_HOLES,         /* holes on both sides, rings that touch themselves */
-    PAIR_ROOMS,         /* P on a grid twice as wide as Q's: rooms, passages, corridors exactly as wide */
-    PAIR_MAP,           /* boards at map coordinates with three decimals */
-    PAIR_BUILDINGS,     /* turned buildings at map coordinates */
-    PAIR_RAGGED,        /* boards with 53-bit spacing */
-    PAIR_SELF,          /* Q is P, or -P */
-    PAIR_HUGE,          /* coordinates from 1e-300 to 1e300 */
+    PAIR_PEG,       /* an exact fit: P has a pocket of the shape of -Q */
+    PAIR_SLIDE,     /* a pocket as high as the peg, and longer */
+    PAIR_SLANTED,   /* boards under a linear map: repeated slanted directions */
+    PAIR_SIMPLE,    /* small simple polygons */
+    PAIR_MEMBERS,   /* several simple polygons that overlap and touch */
+    PAIR_BOARDS,    /* several boards that overlap, touch and share walls */
+    PAIR_HOLES,     /* holes on both sides, rings that touch themselves */
+    PAIR_ROOMS,     /* P on a grid twice as wide as Q's: rooms, passages, corridors exactly as wide */
+    PAIR_MAP,       /* boards at map coordinates with three decimals */
+    PAIR_BUILDINGS, /* turned buildings at map coordinates */
+    PAIR_RAGGED,    /* boards with 53-bit spacing */
+    PAIR_SELF,      /* Q is P, or -P */
+    PAIR_HUGE,      /* coordinates from 1e-300 to 1e300 */
     PAIR_KINDS
 } pair_kind;
 

@@ -6,8 +6,8 @@
 
 const char *invalid_kind_string(invalid_kind kind)
 {
-    static const char *const name[] = {"scribble", "ragged", "round",    "house", "track",   "members", "scaled",
-                                       "touching", "holes", "doubled", "spikes"};
+    static const char *const name[] = {"scribble", "ragged",   "round", "house",   "track", "members",
+                                       "scaled",   "touching", "holes", "doubled", "spikes"};
     return name[kind];
 }
 
@@ -144,38 +144,19 @@ void random_invalid(polyset *set, rng *r, invalid_kind kind, int most)
     const int n = (int)rng_int(r, 4, most < VERTICES_MAX ? most : VERTICES_MAX);
     switch (kind) {
     case INVALID_SCRIBBLE:
-    case INVALID_RAGGED:
-        scribble(set, r, n, kind == INVALID_RAGGED, 1);
-        return;
-    case INVALID_ROUND:
-        round_outline(set, r, n < 6 ? 6 : n);
-        return;
-    case INVALID_HOUSE:
-        house(set, r);
-        return;
-    case INVALID_TRACK:
-        track(set, r, n);
-        return;
+    case INVALID_RAGGED: scribble(set, r, n, kind == INVALID_RAGGED, 1); return;
+    case INVALID_ROUND: round_outline(set, r, n < 6 ? 6 : n); return;
+    case INVALID_HOUSE: house(set, r); return;
+    case INVALID_TRACK: track(set, r, n); return;
     case INVALID_MEMBERS:
         scribble(set, r, (n + 4) / 2, false, 1);
         scribble(set, r, (n + 4) / 2, false, 1);
         return;
-    case INVALID_SCALED:
-        scribble(set, r, n, rng_once_in(r, 2), scale[rng_int(r, 0, 3)]);
-        return;
-    case INVALID_TOUCHING:
-        touching(set, r, n < 6 ? 6 : n);
-        return;
-    case INVALID_HOLES:
-        holes(set, r, n < 7 ? 7 : n);
-        return;
-    case INVALID_DOUBLED:
-        doubled(set, r, n);
-        return;
-    case INVALID_SPIKES:
-        spikes(set, r, n);
-        return;
-    case INVALID_KINDS:
-        return;
+    case INVALID_SCALED: scribble(set, r, n, rng_once_in(r, 2), scale[rng_int(r, 0, 3)]); return;
+    case INVALID_TOUCHING: touching(set, r, n < 6 ? 6 : n); return;
+    case INVALID_HOLES: holes(set, r, n < 7 ? 7 : n); return;
+    case INVALID_DOUBLED: doubled(set, r, n); return;
+    case INVALID_SPIKES: spikes(set, r, n); return;
+    case INVALID_KINDS: return;
     }
 }

@@ -27,7 +27,8 @@ const char *nearly_kind_string(nearly_kind kind)
 
 static stand random_stand(rng *r)
 {
-    static const double at[][3] = {{0, 0, 1}, {451234.567, 5411234.567, 18}, {0.1, 0.7, 0x1p-20}, {3e5, -2e5, 1e6}, {16, 16, 8}};
+    static const double at[][3] = {
+        {0, 0, 1}, {451234.567, 5411234.567, 18}, {0.1, 0.7, 0x1p-20}, {3e5, -2e5, 1e6}, {16, 16, 8}};
     static const double off[] = {0, 0, 1e-12, 1e-9, 1e-6, 1e-4, 1e-2};
     const double *a = at[rng_int(r, 0, 4)], turn = rng_once_in(r, 3) ? 0 : 6.283185307179586 * rng_unit(r);
     return (stand){a[0], a[1], a[2], cos(turn), sin(turn), off[rng_int(r, 0, 6)]};
@@ -77,7 +78,8 @@ static void heap(polyset *set, rng *r, stand t, int members)
 {
     if (!(t.off > 0)) t.off = 1e-13;
     for (int i = 0; i < members; i++) {
-        const double turn = t.off * rng_unit(r), c = t.c - t.s * turn, s = t.s + t.c * turn; /* not quite a unit vector */
+        const double turn = t.off * rng_unit(r), c = t.c - t.s * turn,
+                     s = t.s + t.c * turn; /* not quite a unit vector */
         stand one = t;
         one.c = c;
         one.s = s;
@@ -95,8 +97,14 @@ static void edges(polyset *set, rng *r, const stand *t, int members)
     for (int i = 0; i < members; i++) {
         const double from = (double)rng_int(r, 0, 6), to = from + (double)rng_int(r, 1, 6);
         const double side = (double)rng_int(r, 1, 3) * (rng_once_in(r, 2) ? 1 : -1);
-        double xy[] = {from * d[0], from * d[1], to * d[0], to * d[1], to * d[0] - side * d[1], to * d[1] + side * d[0],
-                       from * d[0] - side * d[1], from * d[1] + side * d[0]};
+        double xy[] = {from * d[0],
+                       from * d[1],
+                       to * d[0],
+                       to * d[1],
+                       to * d[0] - side * d[1],
+                       to * d[1] + side * d[0],
+                       from * d[0] - side * d[1],
+                       from * d[1] + side * d[0]};
         stand one = *t;
         one.size = 1;
         for (int k = 0; k < 8; k++) xy[k] = rng_once_in(r, 8) ? unit * nearly(r, &one, xy[k]) : unit * xy[k];

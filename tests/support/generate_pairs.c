@@ -6,8 +6,8 @@
 const char *pair_kind_string(pair_kind kind)
 {
     static const char *const names[PAIR_KINDS] = {
-        "squares", "steps",  "triangles", "triangle steps", "peg", "slide",     "slanted", "simple",
-        "members", "boards", "holes", "rooms",    "map",            "buildings", "ragged", "self",    "huge"};
+        "squares", "steps", "triangles", "triangle steps", "peg",    "slide", "slanted", "simple", "members", "boards",
+        "holes",   "rooms", "map",       "buildings",      "ragged", "self",  "huge"};
     return names[kind];
 }
 
@@ -69,10 +69,22 @@ void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind)
     polyset_init(p);
     polyset_init(q);
     switch (kind) {
-    case PAIR_SQUARES: board(p, r, 4, SPACING_UNIT, false, 65); board(q, r, 3, SPACING_UNIT, false, 65); break;
-    case PAIR_STEPS: board(p, r, 4, SPACING_SMALL, false, 65); board(q, r, 2, SPACING_SMALL, false, 65); break;
-    case PAIR_TRIANGLES: board(p, r, 3, SPACING_UNIT, true, 65); board(q, r, 2, SPACING_UNIT, true, 65); break;
-    case PAIR_TRIANGLE_STEPS: board(p, r, 3, SPACING_SMALL, true, 65); board(q, r, 2, SPACING_SMALL, true, 65); break;
+    case PAIR_SQUARES:
+        board(p, r, 4, SPACING_UNIT, false, 65);
+        board(q, r, 3, SPACING_UNIT, false, 65);
+        break;
+    case PAIR_STEPS:
+        board(p, r, 4, SPACING_SMALL, false, 65);
+        board(q, r, 2, SPACING_SMALL, false, 65);
+        break;
+    case PAIR_TRIANGLES:
+        board(p, r, 3, SPACING_UNIT, true, 65);
+        board(q, r, 2, SPACING_UNIT, true, 65);
+        break;
+    case PAIR_TRIANGLE_STEPS:
+        board(p, r, 3, SPACING_SMALL, true, 65);
+        board(q, r, 2, SPACING_SMALL, true, 65);
+        break;
     case PAIR_PEG: fit(p, q, r, 0); break;
     case PAIR_SLIDE: fit(p, q, r, (int)rng_int(r, 1, 2)); break;
     case PAIR_SLANTED:
@@ -84,24 +96,46 @@ void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind)
         random_simple(p, r, (int)rng_int(r, 3, 7), (int)rng_int(r, 3, 9));
         random_simple(q, r, (int)rng_int(r, 3, 6), (int)rng_int(r, 3, 9));
         break;
-    case PAIR_MEMBERS: several(p, r, false); several(q, r, false); break;
-    case PAIR_BOARDS: several(p, r, true); several(q, r, true); break;
-    case PAIR_HOLES: board(p, r, 5, SPACING_UNIT, rng_once_in(r, 2), 75); board(q, r, 3, SPACING_UNIT, false, 85); break;
+    case PAIR_MEMBERS:
+        several(p, r, false);
+        several(q, r, false);
+        break;
+    case PAIR_BOARDS:
+        several(p, r, true);
+        several(q, r, true);
+        break;
+    case PAIR_HOLES:
+        board(p, r, 5, SPACING_UNIT, rng_once_in(r, 2), 75);
+        board(q, r, 3, SPACING_UNIT, false, 85);
+        break;
     case PAIR_ROOMS:
         board(p, r, 6, SPACING_SMALL, rng_once_in(r, 2), 65);
         polyset_scale(p, 2, 2);
         board(q, r, 2, SPACING_UNIT, rng_once_in(r, 2), 65);
         if (rng_once_in(r, 2)) random_map(p, q, r);
         break;
-    case PAIR_MAP: board(p, r, 3, SPACING_MAP, true, 65); board(q, r, 2, SPACING_MAP, true, 65); break;
-    case PAIR_BUILDINGS: random_building(p, r); random_building(q, r); polyset_negate(q); break;
-    case PAIR_RAGGED: board(p, r, 3, SPACING_RAGGED, true, 65); board(q, r, 2, SPACING_RAGGED, true, 65); break;
+    case PAIR_MAP:
+        board(p, r, 3, SPACING_MAP, true, 65);
+        board(q, r, 2, SPACING_MAP, true, 65);
+        break;
+    case PAIR_BUILDINGS:
+        random_building(p, r);
+        random_building(q, r);
+        polyset_negate(q);
+        break;
+    case PAIR_RAGGED:
+        board(p, r, 3, SPACING_RAGGED, true, 65);
+        board(q, r, 2, SPACING_RAGGED, true, 65);
+        break;
     case PAIR_SELF:
         board(p, r, 3, rng_once_in(r, 2) ? SPACING_UNIT : SPACING_RAGGED, true, 65);
         polyset_append(q, p);
         if (rng_once_in(r, 2)) polyset_negate(q);
         break;
-    case PAIR_HUGE: board(p, r, 2, SPACING_HUGE, true, 70); board(q, r, 2, SPACING_HUGE, true, 70); break;
+    case PAIR_HUGE:
+        board(p, r, 2, SPACING_HUGE, true, 70);
+        board(q, r, 2, SPACING_HUGE, true, 70);
+        break;
     case PAIR_KINDS: break;
     }
 }
@@ -141,8 +175,7 @@ static void dress_ring(polyset *out, rng *r, const double *xy, size_t n)
         polyset_vertex(out, a[0], a[1]);
         if (repeat && rng_once_in(r, 3)) polyset_vertex(out, a[0], a[1]);
         const double m[2] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
-        if (halve && small(a) && small(b))
-            polyset_vertex(out, m[0], m[1]);
+        if (halve && small(a) && small(b)) polyset_vertex(out, m[0], m[1]);
     }
     if (rng_once_in(r, 2)) polyset_vertex(out, first[0], first[1]);
     polyset_end_ring(out);

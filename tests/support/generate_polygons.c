@@ -1,4 +1,5 @@
-/* Random polygons with slopes: small ones by trial, large ones of the kinds that the benchmarks of the literature use. */
+/* Random polygons with slopes: small ones by trial, large ones of the kinds that the benchmarks of the literature
+ * use. */
 #include "generate.h"
 
 #include <math.h>
@@ -71,7 +72,8 @@ void random_comb(polyset *set, rng *r, int teeth, double size, bool slanted)
         const double top = rint(size * (0.8 + 0.2 * rng_unit(r)));
         polyset_vertex(set, rint(x + step * (slanted ? 0.9 : 0.7)), rint(size / 100 * rng_unit(r)));
         polyset_vertex(set, rint(x + step * (slanted ? 0.55 : 0.7)) + (slanted ? jitter : 0), top);
-        polyset_vertex(set, rint(x + step * (slanted ? 0.45 : 0.3)) - (slanted ? jitter : 0), top + (slanted ? jitter : 0));
+        polyset_vertex(set, rint(x + step * (slanted ? 0.45 : 0.3)) - (slanted ? jitter : 0),
+                       top + (slanted ? jitter : 0));
         polyset_vertex(set, rint(x + step * (slanted ? 0.1 : 0.3)), rint(size / 100 * rng_unit(r)));
     }
     polyset_vertex(set, 0, -size / 8);
@@ -121,7 +123,8 @@ void random_building(polyset *set, rng *r)
                                          {.3, 0, .7, 0, .7, .6, 1, .6, 1, 1, 0, 1, 0, .6, .3, .6}};
     static const int corners[4] = {4, 6, 8, 8};
     const int kind = (int)rng_int(r, 0, 3);
-    const double angle = rng_once_in(r, 3) ? 0 : 2 * PI * rng_unit(r), w = 5 + 20 * rng_unit(r), h = 5 + 15 * rng_unit(r);
+    const double angle = rng_once_in(r, 3) ? 0 : 2 * PI * rng_unit(r), w = 5 + 20 * rng_unit(r),
+                 h = 5 + 15 * rng_unit(r);
     const double x0 = 451234.567 + 30 * rng_unit(r), y0 = 5411234.567 + 30 * rng_unit(r);
     for (int i = 0; i < corners[kind]; i++) {
         const double u = w * shapes[kind][2 * i], v = h * shapes[kind][2 * i + 1];

@@ -39,9 +39,12 @@ static char *read_string(reader *r)
         char c = *r->s++;
         if (c == '\\' && *r->s) {
             c = *r->s++;
-            if (c == 'n') c = '\n';
-            else if (c == 't') c = '\t';
-            else if (c == 'u') text[n++] = '\\';
+            if (c == 'n')
+                c = '\n';
+            else if (c == 't')
+                c = '\t';
+            else if (c == 'u')
+                text[n++] = '\\';
         }
         text[n++] = c;
     }
@@ -58,7 +61,8 @@ static bool read_items(reader *r, json *out, char close)
     for (space(r); *r->s != close; space(r)) {
         if (out->n && *r->s++ != ',') return false;
         space(r);
-        if ((out->n & (out->n - 1)) == 0) out->item = test_resize(out->item, out->n ? 2 * out->n : 1, sizeof *out->item);
+        if ((out->n & (out->n - 1)) == 0)
+            out->item = test_resize(out->item, out->n ? 2 * out->n : 1, sizeof *out->item);
         json *item = &out->item[out->n++];
         memset(item, 0, sizeof *item);
         char *name = NULL;

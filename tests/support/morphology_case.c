@@ -250,9 +250,7 @@ void morphology_case(polyset *p, polyset *b, rng *r)
             polyset_rectangle(b, 0, 0, w, h);
             break;
         }
-        case 1:
-            random_simple(b, r, (int)rng_int(r, 3, 5), 3);
-            break;
+        case 1: random_simple(b, r, (int)rng_int(r, 3, 5), 3); break;
         default:
             random_cells(&small, r, (int)rng_int(r, 1, 3), (int)rng_int(r, 1, 3), kind, rng_once_in(r, 4), 70);
             cells_outline(b, &small, true, true);

@@ -202,12 +202,10 @@ static uint32_t crossing(builder *w, const zsegment *s, const zsegment *t)
     return point_number(w, &p);
 }
 
-static bool between(const zpoint *p, const zsegment *s)
-{
-    return zpoint_cmp(&s->a, p) < 0 && zpoint_cmp(p, &s->b) < 0;
-}
+static bool between(const zpoint *p, const zsegment *s) { return zpoint_cmp(&s->a, p) < 0 && zpoint_cmp(p, &s->b) < 0; }
 
-/* Puts what s and t have in common on both: a crossing, ends of one inside the other. Common ends are on both anyway. */
+/* Puts what s and t have in common on both: a crossing, ends of one inside the other. Common ends are on both
+ * anyway. */
 static void meet(builder *w, zsegment *s, zsegment *t)
 {
     const oracle *o = w->o;

@@ -83,9 +83,9 @@ typedef struct oracle_map {
     size_t points;
     oracle_edge *boundary; /* one side covered */
     size_t boundaries;
-    oracle_edge *thin;     /* both sides covered, itself not: pieces of degenerate segments; from < to lexicographically */
+    oracle_edge *thin; /* both sides covered, itself not: pieces of degenerate segments; from < to lexicographically */
     size_t thins;
-    uint32_t *lone;        /* degenerate points */
+    uint32_t *lone; /* degenerate points */
     size_t lones;
 } oracle_map;
 

@@ -29,8 +29,8 @@ int zpoint_cmp(const zpoint *a, const zpoint *b)
 int oracle_orient(const oracle *o, const zpoint *a, const zpoint *b, const zpoint *c)
 {
     if (o->small) {
-        const oracle_i128 d = (oracle_i128)(b->sx - a->sx) * (c->sy - a->sy) -
-                              (oracle_i128)(b->sy - a->sy) * (c->sx - a->sx);
+        const oracle_i128 d =
+            (oracle_i128)(b->sx - a->sx) * (c->sy - a->sy) - (oracle_i128)(b->sy - a->sy) * (c->sx - a->sx);
         return (d > 0) - (d < 0);
     }
     mpz_t u, v, s, t;
@@ -256,7 +256,7 @@ static void triangulate_member(const oracle *o, zset *z, size_t m)
     }
     g.joined = test_alloc(g.n * g.n, sizeof *g.joined);
     for (size_t i = 0; i < g.n * g.n; i++) g.joined[i] = false;
-#define JOIN(i, j) (g.joined[(i) * g.n + (j)] = g.joined[(j) * g.n + (i)] = true)
+#define JOIN(i, j) (g.joined[(i)*g.n + (j)] = g.joined[(j)*g.n + (i)] = true)
     for (size_t i = 0; i < z->n; i++) {
         if (z->member[i] != m) continue;
         const zpoint *a = &z->v[i], *b = &z->v[z->next[i]];
@@ -281,7 +281,8 @@ static void triangulate_member(const oracle *o, zset *z, size_t m)
             for (size_t k = i + 1; g.joined[i * g.n + j] && k < g.n; k++) {
                 const size_t t[3] = {i, j, k};
                 if (!g.joined[i * g.n + k] || !g.joined[j * g.n + k]) continue;
-                if (oracle_orient(o, &z->v[g.at[i]], &z->v[g.at[j]], &z->v[g.at[k]]) <= 0 || !is_face(&g, m, t)) continue;
+                if (oracle_orient(o, &z->v[g.at[i]], &z->v[g.at[j]], &z->v[g.at[k]]) <= 0 || !is_face(&g, m, t))
+                    continue;
                 z->triangle = test_resize(z->triangle, 3 * (z->triangles + 1), sizeof *z->triangle);
                 for (int c = 0; c < 3; c++) z->triangle[3 * z->triangles + (size_t)c] = g.at[t[c]];
                 z->triangles++;

@@ -228,8 +228,8 @@ sunder_shape *polyset_shape(const polyset *set)
 {
     sunder_shape *shape = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_STRICT, &shape, &err) !=
-        SUNDER_OK) {
+    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_STRICT, &shape,
+                                &err) != SUNDER_OK) {
         char *wkt = polyset_wkt(set);
         fprintf(stderr, "no shape: %s\n  %s\n", err.message, wkt);
         free(wkt);

@@ -49,7 +49,8 @@ static void sum_lost(const checking *c, const sunder_proof_node *leaf, mpq_t los
         for (size_t k = 0; k < leaf->forces; k++) {
             const sunder_proof_force *force = &c->proof->force[leaf->force + k];
             const sunder_proof_node *node = &c->proof->node[force->node];
-            const int sign = (proof_same_block(c, b, node->b) - proof_same_block(c, b, node->a)) * (force->behind ? -1 : 1);
+            const int sign =
+                (proof_same_block(c, b, node->b) - proof_same_block(c, b, node->a)) * (force->behind ? -1 : 1);
             if (sign == 0) continue;
             vec_set_d(&n, c->proof->way[force->way].n);
             mpq_set_d(f, sign * force->force);

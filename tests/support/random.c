@@ -32,10 +32,7 @@ uint64_t rng_next(rng *r)
 }
 
 /* The modulus is biased by less than 2^-32 for the spans in use. */
-int64_t rng_int(rng *r, int64_t low, int64_t high)
-{
-    return low + (int64_t)(rng_next(r) % (uint64_t)(high - low + 1));
-}
+int64_t rng_int(rng *r, int64_t low, int64_t high) { return low + (int64_t)(rng_next(r) % (uint64_t)(high - low + 1)); }
 
 bool rng_once_in(rng *r, int n) { return rng_int(r, 1, n) == 1; }
 

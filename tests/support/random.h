@@ -1,4 +1,5 @@
-/* A small generator of pseudo-random numbers (splitmix64), the same everywhere; and the two knobs of the random tests. */
+/* A small generator of pseudo-random numbers (splitmix64), the same everywhere; and the two knobs of the random
+ * tests. */
 #ifndef SUNDER_TESTS_RANDOM_H
 #define SUNDER_TESTS_RANDOM_H
 

@@ -37,7 +37,8 @@ static bool honest(const sunder_sum *sum, const sunder_sum_options *how)
         total.segment_intersections += phase.segment_intersections;
         total.exact_fallbacks += phase.exact_fallbacks;
     }
-    const bool may_fall = how->decomposition == SUNDER_DECOMPOSITION_OPTIMAL || how->decomposition == SUNDER_DECOMPOSITION_MIXED;
+    const bool may_fall =
+        how->decomposition == SUNDER_DECOMPOSITION_OPTIMAL || how->decomposition == SUNDER_DECOMPOSITION_MIXED;
     const bool fell = may_fall && method.decomposition == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN;
     return method.algorithm == how->algorithm && method.order == how->order &&
            (fell || method.decomposition == how->decomposition) && same_operations(&all, &total);

@@ -4,7 +4,7 @@
 
 #include "polyset.h"
 
-#define ROAD_ALGORITHMS 3     /* that unite subsums */
+#define ROAD_ALGORITHMS 3 /* that unite subsums */
 #define ROAD_DECOMPOSITIONS 6
 #define ROAD_ORDERS 3
 #define ROADS (ROAD_ALGORITHMS * ROAD_DECOMPOSITIONS * ROAD_ORDERS)

@@ -5,7 +5,8 @@
 #include "polyset.h"
 
 /* The same text as oracle_sum_text() gives, through the public getters only. Checks on the way that the counts agree
- * with what the getters give, and that the vertices as doubles are the nearest to the exact ones. Freed by the caller. */
+ * with what the getters give, and that the vertices as doubles are the nearest to the exact ones. Freed by the
+ * caller. */
 char *sum_text(const sunder_sum *sum);
 
 /* Canonical text of the library's P + Q; NULL, with the reason on stderr, where anything fails. */

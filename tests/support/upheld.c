@@ -4,7 +4,10 @@
 
 #include <stdlib.h>
 
-static bool is_within(sunder_conflict_kind kind) { return kind == SUNDER_CONFLICT_CONTAINED || kind == SUNDER_CONFLICT_DUPLICATE; }
+static bool is_within(sunder_conflict_kind kind)
+{
+    return kind == SUNDER_CONFLICT_CONTAINED || kind == SUNDER_CONFLICT_DUPLICATE;
+}
 
 /* The kinds of pairs are asked of a check of the layer as it was given: that much of src/ is believed here. Nobody
  * stops it. */

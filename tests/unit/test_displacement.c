@@ -238,7 +238,8 @@ static void check_courtyard(void **state)
     end(&s);
 }
 
-/* A yard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than before. */
+/* A yard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than
+ * before. */
 static void check_narrow_yard(void **state)
 {
     scene s;
@@ -461,7 +462,8 @@ static void check_way_inside(void **state)
     end(&s);
 }
 
-/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: nobody moves for the hut. */
+/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: nobody moves for the
+ * hut. */
 static void check_nothing_worse(void **state)
 {
     scene s;
@@ -615,16 +617,15 @@ static void check_within(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_nothing),       cmocka_unit_test(check_two_squares),
-        cmocka_unit_test(check_weights),       cmocka_unit_test(check_fixed),
-        cmocka_unit_test(check_limits),        cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_courtyard),     cmocka_unit_test(check_narrow_yard),
-        cmocka_unit_test(check_blocks),
-        cmocka_unit_test(check_inside_blocks), cmocka_unit_test(check_contained),
-        cmocka_unit_test(check_kept_inside),
-        cmocka_unit_test(check_way_inside),    cmocka_unit_test(check_nothing_worse),
-        cmocka_unit_test(check_duplicates),    cmocka_unit_test(check_ignored),
-        cmocka_unit_test(check_arguments),     cmocka_unit_test(check_cancel),
+        cmocka_unit_test(check_nothing),         cmocka_unit_test(check_two_squares),
+        cmocka_unit_test(check_weights),         cmocka_unit_test(check_fixed),
+        cmocka_unit_test(check_limits),          cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_courtyard),       cmocka_unit_test(check_narrow_yard),
+        cmocka_unit_test(check_blocks),          cmocka_unit_test(check_inside_blocks),
+        cmocka_unit_test(check_contained),       cmocka_unit_test(check_kept_inside),
+        cmocka_unit_test(check_way_inside),      cmocka_unit_test(check_nothing_worse),
+        cmocka_unit_test(check_duplicates),      cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_arguments),       cmocka_unit_test(check_cancel),
         cmocka_unit_test(check_cancel_anywhere), cmocka_unit_test(check_within),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

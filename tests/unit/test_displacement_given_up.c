@@ -1,5 +1,5 @@
-/* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is helped
- * in whatever crowd. */
+/* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is
+ * helped in whatever crowd. */
 #include "displacement/layer/model.h"
 
 #include "random.h"
@@ -41,8 +41,8 @@ static void expect_same(const sunder_i_relaxations *p, const sunder_i_relaxation
 }
 
 /* All relaxations, or those that are not among `without`. */
-static void index_all(const sunder_i_model *model, const sunder_i_relaxation *relaxation, size_t n, const sunder_i_restored *without,
-                      size_t without_n, sunder_i_relaxations *out)
+static void index_all(const sunder_i_model *model, const sunder_i_relaxation *relaxation, size_t n,
+                      const sunder_i_restored *without, size_t without_n, sunder_i_relaxations *out)
 {
     for (size_t k = 0; k < n; k++) {
         const sunder_i_restored key = sunder_i_restored_of(model, &relaxation[k]);
@@ -102,7 +102,8 @@ static void add_box(sunder_feature *out, double x, double y, double w, double h,
     const size_t corners = 4, rings = 1;
     sunder_shape *shape = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(xy, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) fail_msg("%s", err.message);
+    if (sunder_shape_from_rings(xy, &corners, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err))
+        fail_msg("%s", err.message);
     *out = (sunder_feature){.shape = shape, .weight = 1, .max_shift = 1, .block = -1, .fixed = fixed};
 }
 
@@ -134,8 +135,8 @@ static void check_rows(void **state)
     check_row(MOST);
 }
 
-/* Two houses in a quarter: from the one limits let nothing part it, the other comes out if the quarter goes half of the way.
- * The first is then deeper inside, which is no worse. */
+/* Two houses in a quarter: from the one limits let nothing part it, the other comes out if the quarter goes half of the
+ * way. The first is then deeper inside, which is no worse. */
 static void check_inside(void **state)
 {
     (void)state;

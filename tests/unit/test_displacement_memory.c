@@ -29,7 +29,8 @@ static bool make(street *s)
     const size_t ring_end = 4, poly_end = 1;
     for (size_t k = 0; k < HOUSES; k++) {
         const double x = at[k][0], y = at[k][1], xy[8] = {x, y, x + 10, y, x + 10, y + 10, x, y + 10};
-        if (sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s->shape[k], NULL)) return false;
+        if (sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s->shape[k], NULL))
+            return false;
     }
     return true;
 }

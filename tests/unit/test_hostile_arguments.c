@@ -138,8 +138,9 @@ static void test_sizes(void **state)
                 sunder_separation_clear(&s);
                 answers++;
             }
-            if (!right) print_message("case %zu: %g x %g and %g at %g, gap %g: %s\n", i, a, height, b, at, gap,
-                                      sunder_status_string(status));
+            if (!right)
+                print_message("case %zu: %g x %g and %g at %g, gap %g: %s\n", i, a, height, b, at, gap,
+                              sunder_status_string(status));
             bad += !right;
         }
         sunder_shape_free(p);

@@ -1,5 +1,5 @@
-/* Real memory running out, in a process of its own: huge operands under a limit of the address space. Whatever the limit,
- * a function says what is the matter, or succeeds; no library beneath us ends the process. */
+/* Real memory running out, in a process of its own: huge operands under a limit of the address space. Whatever the
+ * limit, a function says what is the matter, or succeeds; no library beneath us ends the process. */
 #include "polyset.h"
 #include "random.h"
 
@@ -105,8 +105,8 @@ static int under_limit(size_t bytes, uint64_t seed)
     }
     int how;
     assert_true(waitpid(child, &how, 0) == child);
-    if (!WIFEXITED(how)) fail_msg("SUNDER_SEED=%llu: ended by signal %d with %zu bytes", (unsigned long long)seed,
-                                  WTERMSIG(how), bytes);
+    if (!WIFEXITED(how))
+        fail_msg("SUNDER_SEED=%llu: ended by signal %d with %zu bytes", (unsigned long long)seed, WTERMSIG(how), bytes);
     return WEXITSTATUS(how);
 }
 

@@ -89,8 +89,8 @@ static void test_rational(void **state)
 /* Gaps as wide as the square are closed, wider ones are not. */
 static void test_gap(void **state)
 {
-    expect_text("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14 0, 20 0, 20 10, 14 10)))", SQUARE, SUNDER_OPERATION_CLOSE,
-                RECTANGLE("0", "0", "20", "10"));
+    expect_text("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14 0, 20 0, 20 10, 14 10)))", SQUARE,
+                SUNDER_OPERATION_CLOSE, RECTANGLE("0", "0", "20", "10"));
     sunder_shape *p = shape_of("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14.000000000000002 0, 20 0, 20 10, "
                                "14.000000000000002 10)))"),
                  *b = shape_of(SQUARE);
@@ -110,7 +110,8 @@ static void test_places(void **state)
     const double bow[10] = {0, 0, 3, 3, 3, 0, 0, 3, 0, 0};
     const size_t ring_end = 5, poly_end = 1;
     sunder_shape *p, *b = shape_of("POLYGON ((0 0, 0.5 0, 0 0.5))");
-    assert_int_equal(sunder_shape_from_rings(bow, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &p, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(bow, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &p, NULL),
+                     SUNDER_OK);
     for (int op = SUNDER_OPERATION_ERODE; op <= SUNDER_OPERATION_CLOSE; op++) {
         sunder_shape *moved;
         sunder_sum *here, *there;
@@ -249,7 +250,8 @@ static void test_stopping_a_union(void **state)
         poly_end[i] = i + 1;
     }
     sunder_shape *p;
-    assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_VALIDITY_STRICT, &p, NULL), SUNDER_OK);
+    assert_int_equal(sunder_shape_from_rings(xy[0], ring_end, poly_end, MEMBERS, SUNDER_VALIDITY_STRICT, &p, NULL),
+                     SUNDER_OK);
     stopping now = {0, 0};
     const sunder_sum_options how = {.progress = stop_at, .progress_user = &now};
     sunder_sum *sum = NULL;

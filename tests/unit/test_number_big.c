@@ -73,7 +73,8 @@ static void test_double(void **state)
     assert_int_equal(sunder_i_big_sign(sunder_i_big_double(&w.arena, 0, &e)), 0);
     assert_int_equal(e, 0);
     assert_int_equal(sunder_i_big_sign(sunder_i_big_double(&w.arena, -0.0, &e)), 0);
-    static const double values[] = {1, -1, 0.1, -6, 1e300, -1e-300, 0x1p-1074, 0x1.fffffffffffffp1023, 0x1p-1022, 451234.567};
+    static const double values[] = {1,         -1,        0.1, -6, 1e300, -1e-300, 0x1p-1074, 0x1.fffffffffffffp1023,
+                                    0x1p-1022, 451234.567};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) {
         const sunder_i_big m = sunder_i_big_double(&w.arena, values[i], &e);
         mpz_from_big(w.r, m);
@@ -157,8 +158,10 @@ static void exact_ratio(mpq_t r, const work *w, long exponent)
     mpz_set(mpq_numref(r), w->a);
     mpz_set(mpq_denref(r), w->b);
     mpq_canonicalize(r);
-    if (exponent >= 0) mpq_mul_2exp(r, r, (mp_bitcnt_t)exponent);
-    else mpq_div_2exp(r, r, (mp_bitcnt_t)-exponent);
+    if (exponent >= 0)
+        mpq_mul_2exp(r, r, (mp_bitcnt_t)exponent);
+    else
+        mpq_div_2exp(r, r, (mp_bitcnt_t)-exponent);
 }
 
 /* d is the largest double <= r (d may be -infinity below all of them, and is the largest finite one above). */
@@ -248,7 +251,8 @@ static void test_ratio_edges(void **state)
     (void)state;
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    const sunder_i_big zero = sunder_i_big_i64(&arena, 0), one = sunder_i_big_i64(&arena, 1), three = sunder_i_big_i64(&arena, 3);
+    const sunder_i_big zero = sunder_i_big_i64(&arena, 0), one = sunder_i_big_i64(&arena, 1),
+                       three = sunder_i_big_i64(&arena, 3);
     assert_true(sunder_i_big_ratio(&arena, zero, three, 900) == 0);
     assert_true(sunder_i_big_ratio(&arena, one, one, -1074) == 0x1p-1074);
     assert_true(sunder_i_big_ratio(&arena, one, one, -1075) == 0);           /* a tie goes to the even one */
@@ -277,7 +281,8 @@ static void test_text(void **state)
         if (mpz_sgn(w.b) == 0) mpz_set_ui(w.b, 1);
         exact_ratio(r, &w, exponent);
         char *want = mpq_get_str(NULL, 10, r);
-        char *got = sunder_i_big_ratio_text(&w.arena, big_from_mpz(&w.arena, w.a), big_from_mpz(&w.arena, w.b), exponent);
+        char *got =
+            sunder_i_big_ratio_text(&w.arena, big_from_mpz(&w.arena, w.a), big_from_mpz(&w.arena, w.b), exponent);
         assert_non_null(got);
         assert_string_equal(got, want);
         sunder_i_free(got);
@@ -295,7 +300,8 @@ static bool big_run(void *context)
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
     sunder_i_big a = sunder_i_big_i64(&arena, 3);
-    for (int i = 0; i < 10; i++) a = sunder_i_big_mul(&arena, a, sunder_i_big_add(&arena, a, sunder_i_big_i64(&arena, 1)));
+    for (int i = 0; i < 10; i++)
+        a = sunder_i_big_mul(&arena, a, sunder_i_big_add(&arena, a, sunder_i_big_i64(&arena, 1)));
     const sunder_i_big g = sunder_i_big_gcd(&arena, a, sunder_i_big_shl(&arena, a, 70));
     sunder_i_big_ratio(&arena, a, sunder_i_big_i64(&arena, 7), -900);
     sunder_i_big_sqrt_floor(&arena, g);
@@ -315,9 +321,9 @@ static void test_out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_conversions), cmocka_unit_test(test_double),      cmocka_unit_test(test_arithmetic),
-        cmocka_unit_test(test_division_and_root), cmocka_unit_test(test_ratio), cmocka_unit_test(test_ratio_edges),
-        cmocka_unit_test(test_text),        cmocka_unit_test(test_out_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_conversions), cmocka_unit_test(test_double),
+                                       cmocka_unit_test(test_arithmetic),  cmocka_unit_test(test_division_and_root),
+                                       cmocka_unit_test(test_ratio),       cmocka_unit_test(test_ratio_edges),
+                                       cmocka_unit_test(test_text),        cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests_name("number/big", tests, NULL, NULL);
 }

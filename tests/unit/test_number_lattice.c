@@ -46,8 +46,10 @@ static void check_value(sunder_i_lattice *l, int64_t n, double origin, double va
     mpq_t x, y;
     mpq_inits(x, y, NULL);
     mpz_from_big(mpq_numref(x), sunder_i_lattice_get(l, n));
-    if (l->exponent >= 0) mpq_mul_2exp(x, x, (mp_bitcnt_t)l->exponent);
-    else mpq_div_2exp(x, x, (mp_bitcnt_t)-l->exponent);
+    if (l->exponent >= 0)
+        mpq_mul_2exp(x, x, (mp_bitcnt_t)l->exponent);
+    else
+        mpq_div_2exp(x, x, (mp_bitcnt_t)-l->exponent);
     mpq_set_d(y, origin);
     mpq_add(x, x, y);
     mpq_set_d(y, value);
@@ -55,7 +57,8 @@ static void check_value(sunder_i_lattice *l, int64_t n, double origin, double va
     mpq_clears(x, y, NULL);
 }
 
-static void check_lattice(const double *p, size_t n, const double *q, size_t m, bool relative, bool wide, int expect_narrow)
+static void check_lattice(const double *p, size_t n, const double *q, size_t m, bool relative, bool wide,
+                          int expect_narrow)
 {
     sunder_i_extent e[2] = {{0}, {0}};
     double origin[2][2];
@@ -107,7 +110,8 @@ static void check_all(const double *p, size_t n, const double *q, size_t m, int 
 static void test_values(void **state)
 {
     (void)state;
-    const double integers[] = {0, 0, 5, -7, 1e6, 3}, map[] = {451234.567, 5411234.567, 451240.123, 5411250.001, 451230, 5411233.5};
+    const double integers[] = {0, 0, 5, -7, 1e6, 3},
+                 map[] = {451234.567, 5411234.567, 451240.123, 5411250.001, 451230, 5411233.5};
     const double huge[] = {1e300, -1e300, 1e-300, 1, -3e-300, 2}, tiny[] = {0x1p-1074, 0x3p-1070, -0x1p-1060, 0};
     const double top[] = {0x1.fffffffffffffp1023, -0x1.fffffffffffffp1023, 0x1.ffffffffffffep1023, 0};
     const double zeros[] = {0, 0, 0, 0}, far[] = {1e15, 1e15, 1e15 + 0.125, 1e15 + 0.25};
@@ -185,8 +189,7 @@ static bool lattice_run(void *context)
     sunder_i_extent_add(&e, xy, 2);
     sunder_i_lattice_init(&l, &e, 1, true, origin, false);
     sunder_i_point v = {sunder_i_lattice_int(&l, xy[0], origin[0][0]), 0};
-    for (int i = 0; i < 60; i++)
-        v = sunder_i_point_sub(&l, v, (sunder_i_point){sunder_i_lattice_int(&l, xy[3], 0), 0});
+    for (int i = 0; i < 60; i++) v = sunder_i_point_sub(&l, v, (sunder_i_point){sunder_i_lattice_int(&l, xy[3], 0), 0});
     sunder_i_approx(&l, v.x);
     const bool ok = !l.arena.failed;
     sunder_i_lattice_free(&l);
@@ -201,8 +204,8 @@ static void test_out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_low_bit),       cmocka_unit_test(test_extent),
-                                       cmocka_unit_test(test_values),        cmocka_unit_test(test_random_values),
-                                       cmocka_unit_test(test_arithmetic),    cmocka_unit_test(test_out_of_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_low_bit),    cmocka_unit_test(test_extent),
+                                       cmocka_unit_test(test_values),     cmocka_unit_test(test_random_values),
+                                       cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_out_of_memory)};
     return cmocka_run_group_tests_name("number/lattice", tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* number/memory and number/sort: the hooks, growing arrays, arenas, errors; sorting on memory of our own. */
-#include "failing.h"
 #include "base/memory.h"
 #include "base/sort.h"
+#include "failing.h"
 #include "random.h"
 
 #include <setjmp.h>
@@ -136,8 +136,8 @@ static void test_words(void **state)
     static const char *const contact[] = {"none", "edge", "vertex", "arc", "degenerate_segment", "degenerate_point"};
     static const char *const status[] = {"unmoved", "moved", "fixed", "blocked", "skipped"};
     static const char *const kind[] = {"overlap", "too_close", "barrier", "contained", "duplicate"};
-    static const char *const reason[] = {"",     "max_shift", "fixed",      "side",
-                                         "no_room", "same_block", "kept", "unresolved"};
+    static const char *const reason[] = {"",        "max_shift",  "fixed", "side",
+                                         "no_room", "same_block", "kept",  "unresolved"};
     for (int i = 0; i < 6; i++) assert_string_equal(sunder_contact_string((sunder_contact)i), contact[i]);
     for (int i = 0; i < 5; i++) assert_string_equal(sunder_feature_status_string((sunder_feature_status)i), status[i]);
     for (int i = 0; i < 5; i++) assert_string_equal(sunder_conflict_kind_string((sunder_conflict_kind)i), kind[i]);
@@ -211,9 +211,12 @@ static void test_sort_out_of_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hooks),  cmocka_unit_test(test_reserve),
-                                       cmocka_unit_test(test_arena),  cmocka_unit_test(test_errors),
-                                       cmocka_unit_test(test_words),  cmocka_unit_test(test_sort),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_hooks),
+                                       cmocka_unit_test(test_reserve),
+                                       cmocka_unit_test(test_arena),
+                                       cmocka_unit_test(test_errors),
+                                       cmocka_unit_test(test_words),
+                                       cmocka_unit_test(test_sort),
                                        cmocka_unit_test(test_sort_out_of_memory)};
     return cmocka_run_group_tests_name("number/memory, number/sort", tests, NULL, NULL);
 }

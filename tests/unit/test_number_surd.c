@@ -102,8 +102,7 @@ static void signs_agree_with_digits(void **state)
         const sunder_i_surd w = sunder_i_surd_mul(&a, &roots, u, v);
         const sunder_i_big near = sunder_i_surd_scaled(&a, &roots, w, 400);
         const sunder_i_big far = sunder_i_surd_scaled(&a, &roots, w, 17);
-        if (sunder_i_big_bits(near) > 3)
-            assert_int_equal(sunder_i_surd_sign(&a, &roots, w), sunder_i_big_sign(near));
+        if (sunder_i_big_bits(near) > 3) assert_int_equal(sunder_i_surd_sign(&a, &roots, w), sunder_i_big_sign(near));
         assert_int_equal(sunder_i_surd_sign(&a, &roots, w),
                          sunder_i_surd_sign(&a, &roots, u) * sunder_i_surd_sign(&a, &roots, v));
         const sunder_i_big off = sunder_i_big_sub(&a, sunder_i_big_shr(&a, near, 383), far);

@@ -37,7 +37,8 @@ static void test_mul(void **state)
     open_numbers(&n);
     rng g = rng_start(test_seed(), 1);
     for (int i = 0; i < ROUNDS; i++) {
-        const sunder_i_u128 a = sunder_i_i128_abs(random_i128(&g, 127)) << (i & 1), b = sunder_i_i128_abs(random_i128(&g, 127)) << (i & 1);
+        const sunder_i_u128 a = sunder_i_i128_abs(random_i128(&g, 127)) << (i & 1),
+                            b = sunder_i_i128_abs(random_i128(&g, 127)) << (i & 1);
         uint64_t r[4];
         const uint64_t la[2] = {(uint64_t)a, (uint64_t)(a >> 64)}, lb[2] = {(uint64_t)b, (uint64_t)(b >> 64)};
         sunder_i_u128_mul(a, b, r);
@@ -59,7 +60,8 @@ static void test_cmp_products(void **state)
     rng g = rng_start(test_seed(), 2);
     int equal = 0;
     for (int i = 0; i < ROUNDS; i++) {
-        sunder_i_i128 a = random_i128(&g, 127), b = random_i128(&g, 127), c = random_i128(&g, 127), d = random_i128(&g, 127);
+        sunder_i_i128 a = random_i128(&g, 127), b = random_i128(&g, 127), c = random_i128(&g, 127),
+                      d = random_i128(&g, 127);
         if (i % 3 == 0) { /* a * b and b * a, or one off */
             c = b;
             d = a;
@@ -166,8 +168,11 @@ static void test_i256_double(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_signs),   cmocka_unit_test(test_mul),
-                                       cmocka_unit_test(test_cmp_products), cmocka_unit_test(test_mul_add),
-                                       cmocka_unit_test(test_cmp_products_256), cmocka_unit_test(test_i256_double)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_signs),
+                                       cmocka_unit_test(test_mul),
+                                       cmocka_unit_test(test_cmp_products),
+                                       cmocka_unit_test(test_mul_add),
+                                       cmocka_unit_test(test_cmp_products_256),
+                                       cmocka_unit_test(test_i256_double)};
     return cmocka_run_group_tests_name("number/wide", tests, NULL, NULL);
 }

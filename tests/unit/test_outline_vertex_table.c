@@ -1,5 +1,5 @@
-/* outline/vertex_table.h: every point gets the number of its place, however its integers are written, spread out or crowded
- * in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
+/* outline/vertex_table.h: every point gets the number of its place, however its integers are written, spread out or
+ * crowded in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
 #include "failing.h"
 #include "outline/vertex_table.h"
 #include "random.h"

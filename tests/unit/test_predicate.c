@@ -93,8 +93,10 @@ static void product(mpz_t r, spot a, spot b, spot c, spot d, bool dot)
     mpz_mul_si(r, r, dot ? d.x - c.x : d.y - c.y);
     mpz_set_si(u, b.y - a.y);
     mpz_mul_si(u, u, dot ? d.y - c.y : d.x - c.x);
-    if (dot) mpz_add(r, r, u);
-    else mpz_sub(r, r, u);
+    if (dot)
+        mpz_add(r, r, u);
+    else
+        mpz_sub(r, r, u);
     mpz_clear(u);
 }
 
@@ -106,7 +108,8 @@ static void test_points(void **state)
     for (int i = 0; i < ROUNDS; i++) {
         spot p[3];
         random_spots(&b.g, i, p, 3);
-        const int order = p[0].x != p[1].x ? (p[0].x > p[1].x) - (p[0].x < p[1].x) : (p[0].y > p[1].y) - (p[0].y < p[1].y);
+        const int order =
+            p[0].x != p[1].x ? (p[0].x > p[1].x) - (p[0].x < p[1].x) : (p[0].y > p[1].y) - (p[0].y < p[1].y);
         product(b.s, p[0], p[1], p[0], p[2], false);
         for (int k = 0; k < 2; k++) {
             sunder_i_lattice *l = &b.l[k];
@@ -119,7 +122,8 @@ static void test_points(void **state)
             const sunder_i_point sum = sunder_i_point_add(l, a, c), back = sunder_i_point_sub(l, sum, c);
             assert_true(sunder_i_point_equal(l, back, a));
             assert_true(sunder_i_point_equal(l, sunder_i_point_neg(l, sunder_i_point_neg(l, a)), a));
-            assert_true(sunder_i_point_equal(l, sunder_i_point_sub(l, a, c), sunder_i_point_neg(l, sunder_i_point_sub(l, c, a))));
+            assert_true(sunder_i_point_equal(l, sunder_i_point_sub(l, a, c),
+                                             sunder_i_point_neg(l, sunder_i_point_sub(l, c, a))));
             if (k == 0) assert_true(sunder_i_i128_sign(sunder_i_narrow_orient(a, c, d)) == mpz_sgn(b.s));
         }
     }
@@ -276,7 +280,8 @@ static void test_crossings(void **state)
         if (i % 5 == 0) p[2] = p[0];
         const spot first[2] = {p[0], p[1]}, other[2] = {p[2], p[3]};
         if ((p[0].x == p[1].x && p[0].y == p[1].y) || (p[2].x == p[3].x && p[2].y == p[3].y)) continue;
-        if (!cross_line(&b, i, first, &c[0]) || !cross_line(&b, i, first, &c[1]) || !cross_line(&b, i, other, &c[2])) continue;
+        if (!cross_line(&b, i, first, &c[0]) || !cross_line(&b, i, first, &c[1]) || !cross_line(&b, i, other, &c[2]))
+            continue;
         const int order = sign(mpq_cmp(c[0].t, c[1].t));
         const int px = sign(mpq_cmp(c[0].x, c[2].x)), lex = px ? px : sign(mpq_cmp(c[0].y, c[2].y));
         ties += order == 0;
@@ -360,7 +365,8 @@ static bool predicate_run(void *context)
         p[i] = (sunder_i_point){sunder_i_lattice_big(&l, sunder_i_big_i64(&l.arena, xy[2 * i])),
                                 sunder_i_lattice_big(&l, sunder_i_big_i64(&l.arena, xy[2 * i + 1]))};
     for (int i = 0; i < 20 && !l.arena.failed; i++) {
-        const sunder_i_fraction f = sunder_i_crossing(&l, p[0], p[1], p[2], p[3]), g = sunder_i_foot(&l, p[0], p[1], p[3]);
+        const sunder_i_fraction f = sunder_i_crossing(&l, p[0], p[1], p[2], p[3]),
+                                g = sunder_i_foot(&l, p[0], p[1], p[3]);
         const sunder_i_hpoint h = sunder_i_hpoint_at(&l, p[0], p[1], &f), q = sunder_i_hpoint_at(&l, p[0], p[1], &g);
         if (l.arena.failed) break;
         sunder_i_fraction_cmp(&l, &f, &g);

@@ -78,7 +78,8 @@ static void test_near_collinear(void **state)
 static void test_sizes(void **state)
 {
     (void)state;
-    static const double v[] = {0, -0.0, 1, -1, DBL_MAX, -DBL_MAX, DBL_MIN, 0x1p-1074, -0x1p-1074, 1e300, 1e-300, 0x1p52 + 1, 3, 0.1};
+    static const double v[] = {0,         -0.0,       1,     -1,     DBL_MAX,    -DBL_MAX, DBL_MIN,
+                               0x1p-1074, -0x1p-1074, 1e300, 1e-300, 0x1p52 + 1, 3,        0.1};
     rng g = rng_start(test_seed(), 42);
     const int64_t last = (int64_t)(sizeof v / sizeof *v) - 1;
     tally t = {0, 0};
@@ -124,7 +125,6 @@ static void test_orient_without_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_near_collinear), cmocka_unit_test(test_sizes),
-                                       cmocka_unit_test(test_map),
-                                       cmocka_unit_test(test_orient_without_memory)};
+                                       cmocka_unit_test(test_map), cmocka_unit_test(test_orient_without_memory)};
     return cmocka_run_group_tests_name("predicate/orient", tests, NULL, NULL);
 }

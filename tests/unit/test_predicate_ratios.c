@@ -1,5 +1,5 @@
-/* predicate/ off narrow lattices: the same random questions about lattice points and crossings of lattice segments, with
- * the filters and without (all numbers pooled), and in GMP's rationals. */
+/* predicate/ off narrow lattices: the same random questions about lattice points and crossings of lattice segments,
+ * with the filters and without (all numbers pooled), and in GMP's rationals. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "predicate/predicate.h"
@@ -86,8 +86,10 @@ static void product(mpq_t r, const spot *a, const spot *b, const spot *c, const 
     mpq_sub(p, b->y, a->y);
     mpq_sub(q, dot ? d->y : d->x, dot ? c->y : c->x);
     mpq_mul(p, p, q);
-    if (dot) mpq_add(r, r, p);
-    else mpq_sub(r, r, p);
+    if (dot)
+        mpq_add(r, r, p);
+    else
+        mpq_sub(r, r, p);
     mpq_clears(p, q, NULL);
 }
 
@@ -185,7 +187,8 @@ static void test_points(void **state)
             expect_ratio(l, p->at[k].y, p->y);
             assert_int_equal(sunder_i_point_cmp(l, p->at[k], q->at[k]), lexicographic(p, q));
             assert_int_equal(sunder_i_point_equal(l, p->at[k], q->at[k]), lexicographic(p, q) == 0);
-            const sunder_i_point u = sunder_i_point_sub(l, q->at[k], p->at[k]), v = sunder_i_point_sub(l, s->at[k], r->at[k]);
+            const sunder_i_point u = sunder_i_point_sub(l, q->at[k], p->at[k]),
+                                 v = sunder_i_point_sub(l, s->at[k], r->at[k]);
             mpq_sub(b.t, q->x, p->x);
             expect_ratio(l, u.x, b.t);
             assert_true(sunder_i_point_equal(l, sunder_i_point_add(l, u, p->at[k]), q->at[k]));
@@ -271,8 +274,10 @@ static void squared_distance(bench *b, mpq_t r)
     mpq_inits(foot.x, foot.y, NULL);
     product(b->t, &b->s[1], &b->s[0], &b->s[1], &b->s[2], true);
     product(b->u, &b->s[1], &b->s[2], &b->s[1], &b->s[2], true);
-    if (mpq_sgn(b->u) == 0) mpq_set_si(b->t, 0, 1);
-    else mpq_div(b->t, b->t, b->u);
+    if (mpq_sgn(b->u) == 0)
+        mpq_set_si(b->t, 0, 1);
+    else
+        mpq_div(b->t, b->t, b->u);
     if (mpq_sgn(b->t) < 0) mpq_set_si(b->t, 0, 1);
     if (mpq_cmp_si(b->t, 1, 1) > 0) mpq_set_si(b->t, 1, 1);
     between(&foot, &b->s[1], &b->s[2], b->t);
@@ -322,7 +327,8 @@ static bool run(void *context)
         p[i] = sunder_i_rational_put(&l, v);
     }
     for (int i = 0; i < 10 && !l.arena.failed; i++) {
-        const sunder_i_fraction f = sunder_i_crossing(&l, p[0], p[1], p[2], p[3]), g = sunder_i_foot(&l, p[0], p[1], p[3]);
+        const sunder_i_fraction f = sunder_i_crossing(&l, p[0], p[1], p[2], p[3]),
+                                g = sunder_i_foot(&l, p[0], p[1], p[3]);
         const sunder_i_hpoint h = sunder_i_hpoint_at(&l, p[0], p[1], &f), q = sunder_i_hpoint_at(&l, p[0], p[1], &g);
         sunder_i_fraction_cmp(&l, &f, &g);
         sunder_i_hpoint_cmp(&l, &h, &q);

@@ -101,8 +101,10 @@ static void product(mpz_t r, spot a, spot b, spot c, spot d, bool dot)
     mpz_mul_si(r, r, dot ? d.x - c.x : d.y - c.y);
     mpz_set_si(u, b.y - a.y);
     mpz_mul_si(u, u, dot ? d.y - c.y : d.x - c.x);
-    if (dot) mpz_add(r, r, u);
-    else mpz_sub(r, r, u);
+    if (dot)
+        mpz_add(r, r, u);
+    else
+        mpz_sub(r, r, u);
     mpz_clear(u);
 }
 
@@ -127,7 +129,8 @@ static bool on_closed(spot a, spot b, spot p)
 /* Do they share a point at all? */
 static bool meet(const spot p[4])
 {
-    return (side(p[0], p[1], p[2]) * side(p[0], p[1], p[3]) < 0 && side(p[2], p[3], p[0]) * side(p[2], p[3], p[1]) < 0) ||
+    return (side(p[0], p[1], p[2]) * side(p[0], p[1], p[3]) < 0 &&
+            side(p[2], p[3], p[0]) * side(p[2], p[3], p[1]) < 0) ||
            on_closed(p[0], p[1], p[2]) || on_closed(p[0], p[1], p[3]) || on_closed(p[2], p[3], p[0]) ||
            on_closed(p[2], p[3], p[1]);
 }
@@ -146,7 +149,8 @@ static sunder_i_meeting slow_meeting(const spot p[4])
     }
     if (n == 0) return SUNDER_I_CROSS;
     if (n >= 2) return SUNDER_I_OVERLAP;
-    const bool end_of_first = equal(on[0], p[0]) || equal(on[0], p[1]), end_of_second = equal(on[0], p[2]) || equal(on[0], p[3]);
+    const bool end_of_first = equal(on[0], p[0]) || equal(on[0], p[1]),
+               end_of_second = equal(on[0], p[2]) || equal(on[0], p[3]);
     return end_of_first && end_of_second ? SUNDER_I_ENDS_EQUAL : SUNDER_I_END_INSIDE;
 }
 
@@ -156,8 +160,10 @@ static void distance2(mpq_t r, spot p, spot a, spot b)
     mpz_inits(u, v, w, NULL);
     product(u, a, p, a, b, true);
     product(v, b, p, b, a, true);
-    if (mpz_sgn(u) <= 0) product(mpq_numref(r), a, p, a, p, true), mpz_set_ui(mpq_denref(r), 1);
-    else if (mpz_sgn(v) <= 0) product(mpq_numref(r), b, p, b, p, true), mpz_set_ui(mpq_denref(r), 1);
+    if (mpz_sgn(u) <= 0)
+        product(mpq_numref(r), a, p, a, p, true), mpz_set_ui(mpq_denref(r), 1);
+    else if (mpz_sgn(v) <= 0)
+        product(mpq_numref(r), b, p, b, p, true), mpz_set_ui(mpq_denref(r), 1);
     else {
         product(w, a, b, a, p, false);
         mpz_mul(mpq_numref(r), w, w);
@@ -173,8 +179,10 @@ static void least_distance2(mpq_t r, const spot p[4])
     mpq_init(d);
     mpq_set_ui(r, 0, 1);
     for (int i = 0; i < 4 && !meet(p); i++) {
-        if (i < 2) distance2(d, p[i], p[2], p[3]);
-        else distance2(d, p[i], p[0], p[1]);
+        if (i < 2)
+            distance2(d, p[i], p[2], p[3]);
+        else
+            distance2(d, p[i], p[0], p[1]);
         if (i == 0 || mpq_cmp(d, r) < 0) mpq_set(r, d);
     }
     mpq_clear(d);
@@ -235,8 +243,9 @@ static void test_distances(void **state)
         const int c = mpq_cmp(d, gap2), want = (c > 0) - (c < 0);
         seen[want + 1]++;
         for (int k = 0; k < 2; k++)
-            assert_int_equal(sunder_i_segment_distance_cmp(&lattice[k], at(k, p[0]), at(k, p[1]), at(k, p[2]), at(k, p[3]),
-                                                           number(k, gap)), want);
+            assert_int_equal(sunder_i_segment_distance_cmp(&lattice[k], at(k, p[0]), at(k, p[1]), at(k, p[2]),
+                                                           at(k, p[3]), number(k, gap)),
+                             want);
     }
     assert_true(seen[0] > 500 && seen[1] > 500 && seen[2] > 500);
     assert_false(lattice[0].arena.failed || lattice[1].arena.failed);

@@ -204,8 +204,9 @@ static void lines_inside_the_robot(void **state)
             const size_t corners = i == 3 ? 8 : rings[i][0], n = i == 3 ? 2 : 1;
             for (size_t j = 0; j < 2 * corners; j++) scaled[j] = scale[k] * xy[i][j];
             sunder_shape *q;
-            assert_int_equal(sunder_shape_from_rings(scaled, rings[i], polygons[i], n, SUNDER_VALIDITY_EVEN_ODD, &q, NULL),
-                             SUNDER_OK);
+            assert_int_equal(
+                sunder_shape_from_rings(scaled, rings[i], polygons[i], n, SUNDER_VALIDITY_EVEN_ODD, &q, NULL),
+                SUNDER_OK);
             for (size_t end = 1; end <= 2; end++) {
                 const sunder_obstacle o = {NULL, line, &end, 1};
                 const sunder_place in = at(-scale[k] * inside[i][0], -scale[k] * inside[i][1]);

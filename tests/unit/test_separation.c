@@ -40,8 +40,7 @@ typedef struct known {
  */
 #define NEAR_WALLS                                                                                                     \
     "POLYGON((-4096 -1024,4095.999999999999 -1024,4095.999999999999 0.0001220703125,0 0,-4096 0,-4096 -1024))"
-#define NEAR_POST                                                                                                      \
-    "POLYGON((-1 -1,2.384185791015625e-07 -1,2.384185791015625e-07 9,-1 9,-1 -1))"
+#define NEAR_POST "POLYGON((-1 -1,2.384185791015625e-07 -1,2.384185791015625e-07 9,-1 9,-1 -1))"
 
 static const known KNOWN[] = {
     {"apart", SQUARE, "POLYGON((5 0,6 0,6 1,5 1,5 0))", 0, "0", "0", "0", "none", true},
@@ -84,8 +83,8 @@ static const known KNOWN[] = {
      true},
     {"a gap across a slanted wall", "POLYGON((0 0,40 0,0 30,0 0))", "POLYGON((16 18,99 18,99 99,16 99,16 18))", 5, "3",
      "4", "25", "edge", true},
-    {"a covered foot is not the end", NEAR_WALLS, NEAR_POST, 32, "-3/4194304", "33",
-     "19157890602369033/17592186044416", "vertex", true},
+    {"a covered foot is not the end", NEAR_WALLS, NEAR_POST, 32, "-3/4194304", "33", "19157890602369033/17592186044416",
+     "vertex", true},
     {"a covered foot is not the end, another gap", NEAR_WALLS, NEAR_POST, 31, "-47/67108864", "32",
      "4611686018427390113/4503599627370496", "vertex", true},
 };
@@ -384,14 +383,10 @@ static sunder_status ask(int question, const sunder_shape *p, const sunder_shape
         status = sunder_i_least(p, q, &options, &s, NULL, NULL);
         if (status == SUNDER_OK) sunder_separation_clear(&s);
         return status;
-    case 2:
-        return sunder_pair_overlap(p, q, &answer, NULL);
-    case 3:
-        return sunder_pair_apart(p, q, 1.25, &answer, NULL);
-    case 4:
-        return sunder_i_contained(p, NULL, q, NULL, &answer, NULL);
-    default:
-        return sunder_pair_distance(p, q, &d, a, b, NULL);
+    case 2: return sunder_pair_overlap(p, q, &answer, NULL);
+    case 3: return sunder_pair_apart(p, q, 1.25, &answer, NULL);
+    case 4: return sunder_i_contained(p, NULL, q, NULL, &answer, NULL);
+    default: return sunder_pair_distance(p, q, &d, a, b, NULL);
     }
 }
 
@@ -421,11 +416,10 @@ static void memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_answers),   cmocka_unit_test(translated_alike),  cmocka_unit_test(huge_and_tiny),
-        cmocka_unit_test(beyond_doubles),
-        cmocka_unit_test(rounded_or_not),  cmocka_unit_test(upper_limit),       cmocka_unit_test(bad_arguments),
-        cmocka_unit_test(empty_operands),  cmocka_unit_test(containment),       cmocka_unit_test(distances),
-        cmocka_unit_test(memory_runs_out), cmocka_unit_test(repaired_operands),
+        cmocka_unit_test(known_answers),  cmocka_unit_test(translated_alike), cmocka_unit_test(huge_and_tiny),
+        cmocka_unit_test(beyond_doubles), cmocka_unit_test(rounded_or_not),   cmocka_unit_test(upper_limit),
+        cmocka_unit_test(bad_arguments),  cmocka_unit_test(empty_operands),   cmocka_unit_test(containment),
+        cmocka_unit_test(distances),      cmocka_unit_test(memory_runs_out),  cmocka_unit_test(repaired_operands),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,12 +88,14 @@ static void test_empty_rings(void **state)
         const size_t poly_end[] = {2};
         sunder_shape *s = NULL;
         sunder_error err;
-        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_STRICT, &s, &err), SUNDER_EINVALID);
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_STRICT, &s, &err),
+                         SUNDER_EINVALID);
         assert_int_equal(err.ring, i == 1);
         assert_true(err.vertex == SIZE_MAX);
         assert_string_equal(err.message,
                             i == 1 ? "polygon 0, ring 1: the ring is empty" : "polygon 0, ring 0: the ring is empty");
-        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, &err), SUNDER_OK);
+        assert_int_equal(sunder_shape_from_rings(xy, ends[i], poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, &err),
+                         SUNDER_OK);
         assert_true(sunder_shape_area(s) == (i == 2 ? 0 : 40.5));
         assert_true(sunder_shape_repaired(s));
         sunder_shape_free(s);
@@ -132,9 +134,9 @@ static void test_cleaning(void **state)
 {
     (void)state;
     /* Closed, repeated, collinear vertices, at the seam too; either orientation. */
-    static const char *const square[] = {
-        "POLYGON((0 0,4 0,4 4,0 4,0 0))", "POLYGON((0 0,0 4,4 4,4 0))",
-        "POLYGON((2 0,2 0,4 0,4 0,4 0,4 4,2 4,1 4,0 4,0 0,1 0,2 0,2 0))", "POLYGON((0 2,0 1,0 0,4 0,4 4,0 4,0 3))"};
+    static const char *const square[] = {"POLYGON((0 0,4 0,4 4,0 4,0 0))", "POLYGON((0 0,0 4,4 4,4 0))",
+                                         "POLYGON((2 0,2 0,4 0,4 0,4 0,4 4,2 4,1 4,0 4,0 0,1 0,2 0,2 0))",
+                                         "POLYGON((0 2,0 1,0 0,4 0,4 4,0 4,0 3))"};
     for (size_t i = 0; i < sizeof square / sizeof *square; i++) {
         sunder_shape *s = sound(square[i]);
         assert_int_equal(sunder_shape_vertices(s), 4);
@@ -242,14 +244,14 @@ static void repaired_to(const char *wkt, size_t polygons, size_t vertices, doubl
 static void test_repairs(void **state)
 {
     (void)state;
-    repaired_to("POLYGON((0 0,4 4,4 0,0 4,0 0))", 2, 6, 8, false);           /* bow-tie, a dyadic crossing */
-    repaired_to("POLYGON((0 0,3 3,3 0,0 2,0 0))", 2, 6, 3.9, true);          /* a crossing at 6/5 */
-    repaired_to("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", 1, 4, 16, false);      /* a spike */
-    repaired_to("POLYGON((0 0,1 0,0 0))", 0, 0, 0, false);                   /* nothing */
+    repaired_to("POLYGON((0 0,4 4,4 0,0 4,0 0))", 2, 6, 8, false);      /* bow-tie, a dyadic crossing */
+    repaired_to("POLYGON((0 0,3 3,3 0,0 2,0 0))", 2, 6, 3.9, true);     /* a crossing at 6/5 */
+    repaired_to("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", 1, 4, 16, false); /* a spike */
+    repaired_to("POLYGON((0 0,1 0,0 0))", 0, 0, 0, false);              /* nothing */
     repaired_to("POLYGON((0 0,1 1,2 2,0 0))", 0, 0, 0, false);
     repaired_to("POLYGON((0 0,8 0,8 8,0 8,0 0,8 0,8 8,0 8))", 0, 0, 0, false); /* twice round */
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,8 0,8 8,0 8))", 0, 0, 0, false);
-    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,4 0,4 8,0 8))", 1, 4, 32, false); /* shared edges cancel */
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,4 0,4 8,0 8))", 1, 4, 32, false);   /* shared edges cancel */
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(9 0,10 0,10 1,9 1))", 2, 8, 65, false); /* a hole outside is filled */
     repaired_to("POLYGON((0 0,9 0,9 9,0 9),(1 1,8 1,8 8,1 8),(2 2,3 2,3 3,2 3))", 2, 12, 33, false);
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(5 5,5 5,5 5))", 1, 4, 64, false); /* a hole that is a point */
@@ -398,8 +400,7 @@ static void test_translate(void **state)
     assert_true(exact);
     assert_null(sunder_i_shape_check(t));
     assert_int_equal(t->vertices, s->vertices);
-    for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
-        assert_true(t->xy[k] == s->xy[k] + (k & 1 ? -7.5 : 1024.125));
+    for (size_t k = 0; k < 2 * (size_t)s->vertices; k++) assert_true(t->xy[k] == s->xy[k] + (k & 1 ? -7.5 : 1024.125));
     assert_true(sunder_shape_area(t) == sunder_shape_area(s));
     sunder_shape_free(t);
     /* 0.1 is not a sum of few bits. */
@@ -431,12 +432,10 @@ static void test_translate(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_refusals),  cmocka_unit_test(test_empty_rings),
-                                       cmocka_unit_test(test_not_finite),
-                                       cmocka_unit_test(test_cleaning),  cmocka_unit_test(test_touching),
-                                       cmocka_unit_test(test_repairs),   cmocka_unit_test(test_empty),
-                                       cmocka_unit_test(test_disc),      cmocka_unit_test(test_rectangle),
-                                       cmocka_unit_test(test_check_finds),
-                                       cmocka_unit_test(test_reflect),   cmocka_unit_test(test_translate)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_empty_rings), cmocka_unit_test(test_not_finite),
+        cmocka_unit_test(test_cleaning),    cmocka_unit_test(test_touching),    cmocka_unit_test(test_repairs),
+        cmocka_unit_test(test_empty),       cmocka_unit_test(test_disc),        cmocka_unit_test(test_rectangle),
+        cmocka_unit_test(test_check_finds), cmocka_unit_test(test_reflect),     cmocka_unit_test(test_translate)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

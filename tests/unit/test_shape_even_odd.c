@@ -231,7 +231,8 @@ static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
     sunder_error err;
     polyset_copy(&thin, set);
     polyset_scale(&thin, 0x1p-100, 0x1p100);
-    if (sunder_shape_from_rings(thin.xy, thin.ring_end, thin.poly_end, thin.polygons, SUNDER_VALIDITY_EVEN_ODD, &t, &err))
+    if (sunder_shape_from_rings(thin.xy, thin.ring_end, thin.poly_end, thin.polygons, SUNDER_VALIDITY_EVEN_ODD, &t,
+                                &err))
         explain(set, i, err.message);
     const char *fault = sunder_i_shape_check(t);
     if (fault) explain(set, i, fault);
@@ -248,7 +249,8 @@ static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
 {
     sunder_shape *s = NULL, *t = NULL;
     sunder_error err;
-    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_EVEN_ODD, &s, &err))
+    if (sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_EVEN_ODD, &s,
+                                &err))
         explain(set, i, err.message);
     const char *fault = sunder_i_shape_check(s);
     if (fault) explain(set, i, fault);

@@ -113,8 +113,8 @@ static void test_area_and_anchor_without_memory(void **state)
         polyset set;
         polyset_init(&set);
         cells c;
-        random_cells(&c, &g, (int)rng_int(&g, 1, 4), (int)rng_int(&g, 1, 4), (spacing)rng_int(&g, SPACING_UNIT, SPACING_HUGE),
-                     true, 60);
+        random_cells(&c, &g, (int)rng_int(&g, 1, 4), (int)rng_int(&g, 1, 4),
+                     (spacing)rng_int(&g, SPACING_UNIT, SPACING_HUGE), true, 60);
         cells_outline(&set, &c, false, false);
         sunder_shape *s = polyset_shape(&set);
         double anchor[2];
@@ -181,7 +181,8 @@ static void test_copies_keep_touches(void **state)
         sunder_shape *s, *r, *t, *u;
         bool exact;
         assert_int_equal(
-            sunder_shape_from_rings(i ? plain : pinched, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
+            sunder_shape_from_rings(i ? plain : pinched, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, &s, NULL),
+            SUNDER_OK);
         assert_int_equal(sunder_shape_touches(s), i == 0);
         assert_int_equal(sunder_shape_reflect(s, &r, NULL), SUNDER_OK);
         assert_int_equal(sunder_shape_translate(s, 8, -3, &t, &exact, NULL), SUNDER_OK);

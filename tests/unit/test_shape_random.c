@@ -92,7 +92,8 @@ static void test_gears(void **state)
         sunder_shape *s = NULL;
         sunder_error err;
         /* A hole may have come out crossing itself. */
-        if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_VALIDITY_EVEN_ODD, &s, &err))
+        if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_VALIDITY_EVEN_ODD, &s,
+                                    &err))
             explain(&set, i, err.message);
         const char *fault = sunder_i_shape_check(s);
         if (fault) explain(&set, i, fault);
@@ -170,10 +171,13 @@ static void check_place(const sunder_shape *p, const sunder_shape *q, rng *g, ui
     for (int k = 0; k < 4; k++) shift[k] = (double)rng_int(g, -1000, 1000) * scale[rng_int(g, 0, 4)];
     if (rng_once_in(g, 20)) shift[0] = 1.7e308;
     const double gap = 0.1;
-    const sunder_i_place_options o = {.reflect_q = rng_once_in(g, 2), .common_origin = rng_once_in(g, 2),
-                                      .extra = &gap, .extra_n = (size_t)rng_int(g, 0, 1),
+    const sunder_i_place_options o = {.reflect_q = rng_once_in(g, 2),
+                                      .common_origin = rng_once_in(g, 2),
+                                      .extra = &gap,
+                                      .extra_n = (size_t)rng_int(g, 0, 1),
                                       .shift_p = rng_once_in(g, 2) ? shift : NULL,
-                                      .shift_q = rng_once_in(g, 2) ? shift + 2 : NULL, .force_wide = rng_once_in(g, 4)};
+                                      .shift_q = rng_once_in(g, 2) ? shift + 2 : NULL,
+                                      .force_wide = rng_once_in(g, 4)};
     sunder_i_placed placed;
     assert_int_equal(sunder_i_place(p, q, &o, &placed, NULL), SUNDER_OK);
     assert_false(o.force_wide && placed.lattice.narrow);
@@ -282,7 +286,6 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_valid_sets), cmocka_unit_test(test_gears),
-                                       cmocka_unit_test(test_place),
-                                       cmocka_unit_test(test_no_memory)};
+                                       cmocka_unit_test(test_place), cmocka_unit_test(test_no_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* The sweep that tells rings without any contact from others, beside all pairs of edges: random rings on small grids,
- * where corners fall on edges and edges on each other; stars, which are mostly simple; two rings. And long spikes by the
- * public road, with one corner that touches or crosses. */
+ * where corners fall on edges and edges on each other; stars, which are mostly simple; two rings. And long spikes by
+ * the public road, with one corner that touches or crosses. */
 #include "generate.h"
 #include "shape/build.h"
 
@@ -64,8 +64,8 @@ static void start(fixture *f)
 {
     memset(f, 0, sizeof *f);
     f->lattice = (sunder_i_lattice){.narrow = true, .small = true, .scale = 1};
-    f->r = (sunder_i_rings){.lattice = &f->lattice, .at = f->at, .xy = f->xy, .ring_end = f->ring_end,
-                            .next = f->next, .prev = f->prev};
+    f->r = (sunder_i_rings){
+        .lattice = &f->lattice, .at = f->at, .xy = f->xy, .ring_end = f->ring_end, .next = f->next, .prev = f->prev};
 }
 
 static void test_against_all_pairs(void **state)
@@ -127,12 +127,14 @@ static void test_spikes(void **state)
     moved[2 * (SPIKES - 2)] = other[0];
     moved[2 * (SPIKES - 2) + 1] = other[1];
     sunder_error err;
-    const sunder_status touching = sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err);
+    const sunder_status touching =
+        sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err);
     assert_true(touching == SUNDER_EINVALID || (touching == SUNDER_OK && sunder_shape_touches(shape)));
     if (touching == SUNDER_OK) sunder_shape_free(shape);
     moved[2 * (SPIKES - 2)] = 3 * other[0] - foot[0];
     moved[2 * (SPIKES - 2) + 1] = 3 * other[1] - foot[1];
-    assert_int_equal(sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_EINVALID);
+    assert_int_equal(sunder_shape_from_rings(moved, &ring, &polygon, 1, SUNDER_VALIDITY_STRICT, &shape, &err),
+                     SUNDER_EINVALID);
 }
 
 int main(void)

@@ -52,7 +52,8 @@ static void test_clusters(void **state)
     polyset p, q;
     make_clusters(&p, 24);
     polyset_init(&q);
-    const double s = 0x1p-31, seven[] = {3 * s, 0, 2 * s, 2 * s, 0, 3 * s, -3 * s, s, -3 * s, -s, -s, -3 * s, 2 * s, -2 * s};
+    const double s = 0x1p-31,
+                 seven[] = {3 * s, 0, 2 * s, 2 * s, 0, 3 * s, -3 * s, s, -3 * s, -s, -s, -3 * s, 2 * s, -2 * s};
     polyset_polygon(&q, seven, 7);
     sunder_set_allocator(limited_malloc, limited_realloc, limited_free);
     char *sum = library_sum_text(&p, &q);

@@ -34,7 +34,8 @@ static void test_empty(void **state)
     assert_non_null(empty);
     assert_true(sunder_shape_is_empty(empty));
     for (int k = 0; k < 3; k++) {
-        assert_int_equal(sunder_minkowski_sum(k == 1 ? square : empty, k == 0 ? square : empty, NULL, &sum, NULL), SUNDER_OK);
+        assert_int_equal(sunder_minkowski_sum(k == 1 ? square : empty, k == 0 ? square : empty, NULL, &sum, NULL),
+                         SUNDER_OK);
         char *text = sum_text(sum), *area = NULL;
         assert_string_equal(text, EMPTY_TEXT);
         assert_int_equal(sunder_sum_area_text(sum, &area, NULL), SUNDER_OK);
@@ -52,7 +53,8 @@ static void test_empty(void **state)
 static void test_same_operand(void **state)
 {
     (void)state;
-    sunder_shape *p = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))"), *q = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))");
+    sunder_shape *p = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))"),
+                 *q = shape_of("POLYGON((0 0,4 0,4 1,1 1,1 3,4 3,4 4,0 4,0 0))");
     sunder_sum *once = NULL, *twice = NULL;
     assert_int_equal(sunder_minkowski_sum(p, p, NULL, &once, NULL), SUNDER_OK);
     assert_int_equal(sunder_minkowski_sum(p, q, NULL, &twice, NULL), SUNDER_OK);
@@ -121,9 +123,12 @@ static void expect_frames(const sunder_sum *sum, const double m[4])
 static void test_nested_slivers(void **state)
 {
     (void)state;
-    static const double slant[][4] = {
-        {1, 0, 0, 1}, {3, 5, 7, 12}, {105306629, 118888914, 21388489, 24147143}, {80940767, 92324486, 18670575, 21296453},
-        {461049256, 472683321, 404719687, 414932338}, {5432089498, 4394162675, 45677851, 36950037}};
+    static const double slant[][4] = {{1, 0, 0, 1},
+                                      {3, 5, 7, 12},
+                                      {105306629, 118888914, 21388489, 24147143},
+                                      {80940767, 92324486, 18670575, 21296453},
+                                      {461049256, 472683321, 404719687, 414932338},
+                                      {5432089498, 4394162675, 45677851, 36950037}};
     static const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     static const double outer[3] = {90, 60, 30}, inner[3] = {80, 50, 20};
     for (size_t i = 0; i < sizeof slant / sizeof *slant; i++)
@@ -211,8 +216,11 @@ static bool sum_run(void *context)
     sunder_error err = {0};
     char *x = NULL, *y = NULL, *area = NULL;
     const polyset *s = &c->p, *t = &c->q;
-    sunder_status status = sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_VALIDITY_STRICT, &p, &err);
-    if (!status) status = sunder_shape_from_rings(t->xy, t->ring_end, t->poly_end, t->polygons, SUNDER_VALIDITY_STRICT, &q, &err);
+    sunder_status status =
+        sunder_shape_from_rings(s->xy, s->ring_end, s->poly_end, s->polygons, SUNDER_VALIDITY_STRICT, &p, &err);
+    if (!status)
+        status =
+            sunder_shape_from_rings(t->xy, t->ring_end, t->poly_end, t->polygons, SUNDER_VALIDITY_STRICT, &q, &err);
     if (!status) status = sunder_minkowski_sum(p, q, NULL, &sum, &err);
     if (!status) status = sunder_sum_area_text(sum, &area, &err);
     if (!status) status = sunder_sum_vertex_text(sum, 0, &x, &y, &err);
@@ -238,7 +246,8 @@ static void test_out_of_memory(void **state)
         random_pair(&c.p, &c.q, &r, kinds[k]);
         if (!failing_loop(sum_run, &c, false)) {
             char *p = polyset_wkt(&c.p), *q = polyset_wkt(&c.q);
-            print_message("kind %s, SUNDER_SEED=%llu\n%s\n%s\n", pair_kind_string(kinds[k]), (unsigned long long)seed, p, q);
+            print_message("kind %s, SUNDER_SEED=%llu\n%s\n%s\n", pair_kind_string(kinds[k]), (unsigned long long)seed,
+                          p, q);
             free(p);
             free(q);
             fail();
@@ -276,9 +285,8 @@ static void test_beyond_doubles(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_empty), cmocka_unit_test(test_same_operand),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_empty),          cmocka_unit_test(test_same_operand),
                                        cmocka_unit_test(test_nested_slivers), cmocka_unit_test(test_progress),
-                                       cmocka_unit_test(test_out_of_memory),
-                                       cmocka_unit_test(test_beyond_doubles)};
+                                       cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_beyond_doubles)};
     return cmocka_run_group_tests_name("the interface of sums", tests, NULL, NULL);
 }

@@ -287,10 +287,12 @@ static void test_fatness(void **state)
         const char *name;
         sunder_order order;
         sunder_i_fatness fatness;
-    } ways[] = {{"random", SUNDER_ORDER_RANDOM, SUNDER_I_FAT_AREA}, {"area", SUNDER_ORDER_FAT, SUNDER_I_FAT_AREA},
-                {"breadth", SUNDER_ORDER_FAT, SUNDER_I_FAT_BREADTH}, {"round", SUNDER_ORDER_FAT, SUNDER_I_FAT_ROUND}};
-    static const char *const inputs[] = {"covered-fork --size 80", "random --size 60",   "star --size 60",
-                                         "fork --size 40",         "robot --size 60",    "fat-grid --size 60",
+    } ways[] = {{"random", SUNDER_ORDER_RANDOM, SUNDER_I_FAT_AREA},
+                {"area", SUNDER_ORDER_FAT, SUNDER_I_FAT_AREA},
+                {"breadth", SUNDER_ORDER_FAT, SUNDER_I_FAT_BREADTH},
+                {"round", SUNDER_ORDER_FAT, SUNDER_I_FAT_ROUND}};
+    static const char *const inputs[] = {"covered-fork --size 80", "random --size 60", "star --size 60",
+                                         "fork --size 40",         "robot --size 60",  "fat-grid --size 60",
                                          "fat-cover --size 60"};
     if (!generated_available()) skip();
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
@@ -460,9 +462,9 @@ static void test_memory(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_map),     cmocka_unit_test(test_map_of_four), cmocka_unit_test(test_order),
-        cmocka_unit_test(test_fatness), cmocka_unit_test(test_options),     cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_stop),    cmocka_unit_test(test_memory)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_map),     cmocka_unit_test(test_map_of_four),
+                                       cmocka_unit_test(test_order),   cmocka_unit_test(test_fatness),
+                                       cmocka_unit_test(test_options), cmocka_unit_test(test_empty),
+                                       cmocka_unit_test(test_stop),    cmocka_unit_test(test_memory)};
     return cmocka_run_group_tests_name("unions", tests, NULL, NULL);
 }

@@ -37,7 +37,8 @@ static void stairs(polyset *set, const wave *w, int n, double dx, double dy)
     double last[2] = {0, 0};
     for (int i = 0; i <= n / 2; i++) {
         const double a = 4 * PI * i / n, r = radius * (1 + 0.12 * wave_at(w, a));
-        const double x = rint(r * cos(a) / cell) * cell + 654900 + dx, y = rint(r * sin(a) / cell) * cell + 1794900 + dy;
+        const double x = rint(r * cos(a) / cell) * cell + 654900 + dx,
+                     y = rint(r * sin(a) / cell) * cell + 1794900 + dy;
         if (i && x != last[0] && y != last[1]) polyset_vertex(set, x, last[1]);
         if (i == 0 || x != last[0] || y != last[1]) polyset_vertex(set, x, y);
         last[0] = x;

@@ -1,8 +1,9 @@
-/* number/watch: on hard inputs no function goes on for long without asking whether it may, or after it was told to stop.
+/* number/watch: on hard inputs no function goes on for long without asking whether it may, or after it was told to
+ * stop.
  *
  * The library is compiled a second time for this program, so that every basic block counts a step (gcc's and clang's
- * -fsanitize-coverage=trace-pc): a measure that shares nothing with the steps that the library counts itself, and that is
- * the same on every machine. Some hundred million of them are a second's work. */
+ * -fsanitize-coverage=trace-pc): a measure that shares nothing with the steps that the library counts itself, and that
+ * is the same on every machine. Some hundred million of them are a second's work. */
 #include "hard.h"
 
 #include <dirent.h>
@@ -15,8 +16,8 @@
 #include <cmocka.h>
 
 enum {
-    MOST = 30000000,         /* steps between two looks, or from the answer to the return */
-    ENOUGH = 40 * 1000000    /* steps, after which a call is told to stop */
+    MOST = 30000000,      /* steps between two looks, or from the answer to the return */
+    ENOUGH = 40 * 1000000 /* steps, after which a call is told to stop */
 };
 
 static uint64_t steps, last, longest;
@@ -50,7 +51,8 @@ typedef struct operands {
 
 static sunder_status shape_of(const polyset *set, sunder_shape **out)
 {
-    return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_EVEN_ODD, out, NULL);
+    return sunder_shape_from_rings(set->xy, set->ring_end, set->poly_end, set->polygons, SUNDER_VALIDITY_EVEN_ODD, out,
+                                   NULL);
 }
 
 static sunder_status make(operands *o, int how)
@@ -151,8 +153,9 @@ static sunder_status layer(operands *o, int how)
     sunder_layer_options_init(&options);
     options.gap = how / 2;
     options.threads = 1;
-    sunder_feature feature[2] = {{.shape = o->shape[0], .weight = 1, .max_shift = how % 4 < 2 ? INFINITY : 4, .block = -1},
-                                 {.shape = o->shape[1], .weight = 1, .max_shift = INFINITY, .block = -1}};
+    sunder_feature feature[2] = {
+        {.shape = o->shape[0], .weight = 1, .max_shift = how % 4 < 2 ? INFINITY : 4, .block = -1},
+        {.shape = o->shape[1], .weight = 1, .max_shift = INFINITY, .block = -1}};
     sunder_layer *l = NULL;
     sunder_report *report;
     sunder_status status = sunder_layer_new(feature, 2, &l, NULL);
@@ -172,7 +175,8 @@ static sunder_status route(operands *o, int how)
     sunder_route *r;
     double box[4];
     sunder_shape_box(o->shape[0], box);
-    const sunder_place from = {{box[0] - 20, box[1] - 20}, {NULL, NULL}}, to = {{box[2] + 20, box[3] + 20}, {NULL, NULL}};
+    const sunder_place from = {{box[0] - 20, box[1] - 20}, {NULL, NULL}},
+                       to = {{box[2] + 20, box[3] + 20}, {NULL, NULL}};
     sunder_status status = sunder_shape_disc(1, 8, false, &robot, NULL);
     if (status == SUNDER_OK) status = sunder_route_find(&obstacle, 1, robot, &from, &to, &options, &r, NULL);
     if (status == SUNDER_OK) sunder_route_free(r);
@@ -187,16 +191,31 @@ typedef struct work {
 } work;
 
 static const work works[] = {
-    {"from_rings", make, 0}, {"reflect, translate", copy, 0}, {"sum, convolution", add, SUNDER_ALGORITHM_CONVOLUTION},
-    {"sum, arrangement", add, SUNDER_ALGORITHM_ARRANGEMENT}, {"sum, incremental", add, SUNDER_ALGORITHM_INCREMENTAL},
-    {"sum, divide", add, SUNDER_ALGORITHM_DIVIDE}, {"sum, vertical pieces", add, 10 * SUNDER_DECOMPOSITION_VERTICAL + SUNDER_ALGORITHM_DIVIDE},
+    {"from_rings", make, 0},
+    {"reflect, translate", copy, 0},
+    {"sum, convolution", add, SUNDER_ALGORITHM_CONVOLUTION},
+    {"sum, arrangement", add, SUNDER_ALGORITHM_ARRANGEMENT},
+    {"sum, incremental", add, SUNDER_ALGORITHM_INCREMENTAL},
+    {"sum, divide", add, SUNDER_ALGORITHM_DIVIDE},
+    {"sum, vertical pieces", add, 10 * SUNDER_DECOMPOSITION_VERTICAL + SUNDER_ALGORITHM_DIVIDE},
     {"sum, triangles", add, 10 * SUNDER_DECOMPOSITION_TRIANGULATION + SUNDER_ALGORITHM_DIVIDE},
     {"sum, optimal pieces", add, 10 * SUNDER_DECOMPOSITION_OPTIMAL + SUNDER_ALGORITHM_DIVIDE},
     {"sum, mixed pieces", add, 10 * SUNDER_DECOMPOSITION_MIXED + SUNDER_ALGORITHM_DIVIDE},
-    {"erode", grow, SUNDER_OPERATION_ERODE}, {"open", grow, SUNDER_OPERATION_OPEN}, {"close", grow, SUNDER_OPERATION_CLOSE}, {"union", unite, 0},
-    {"pair", part, 0}, {"pair, gap 3", part, 3}, {"overlap", relate, 0}, {"apart", relate, 1}, {"distance", relate, 2},
-    {"check", layer, 0}, {"check, gap 3", layer, 6}, {"separate", layer, 1}, {"separate, gap 3", layer, 7},
-    {"route", route, 0}, {"route, gap", route, 1}};
+    {"erode", grow, SUNDER_OPERATION_ERODE},
+    {"open", grow, SUNDER_OPERATION_OPEN},
+    {"close", grow, SUNDER_OPERATION_CLOSE},
+    {"union", unite, 0},
+    {"pair", part, 0},
+    {"pair, gap 3", part, 3},
+    {"overlap", relate, 0},
+    {"apart", relate, 1},
+    {"distance", relate, 2},
+    {"check", layer, 0},
+    {"check, gap 3", layer, 6},
+    {"separate", layer, 1},
+    {"separate, gap 3", layer, 7},
+    {"route", route, 0},
+    {"route, gap", route, 1}};
 
 /* One call, told to stop at look number `at` (0: only when it has had enough). */
 static sunder_status watched(const work *w, operands *o, uint64_t at)

@@ -1,0 +1,48 @@
+# shellcheck shell=bash disable=SC1091
+# The manner of the sources, as far as it can be asked by machine: names that mean one thing, a comment that opens each
+# file, lines of 120 columns.
+. "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
+
+# ---- No two types share a name across headers, and none of a source file has the name of a header's ----
+for tree in src gis; do
+    defined=$(sources $tree | while read -r file; do
+        sed -nE 's/^typedef (struct|enum|union) ([a-z_0-9]+) \{.*/\2/p; s/^(struct|enum|union) ([a-z_0-9]+) \{.*/\2/p' \
+            "$root/$tree/$file" | sed "s#\$# $file#"
+    done)
+    while read -r name files; do
+        say "$tree: $name is a type in$files"
+    done < <(awk '$2 ~ /\.h$/ { n[$1]++; at[$1] = at[$1] " " $2 }
+                  $2 !~ /\.h$/ && $1 ~ /^(sunder_i|gis)_/ { n[$1]++; at[$1] = at[$1] " " $2 }
+                  END { for (t in n) if (n[t] > 1) print t at[t] }' <<<"$defined")
+    [ "$(wc -l <<<"$defined")" -gt 20 ] || say "$tree: hardly any type was found"
+done
+
+# ---- Files ----
+while read -r file; do
+    case $(head -c 2 "$root/$file") in
+    '/*') ;;
+    *) say "$file does not open with a comment" ;;
+    esac
+done < <(cd "$root" && find src gis -name '*.[ch]' | sort)
+# Columns, not bytes: comments and strings hold characters of several.
+while read -r line; do
+    say "$line is longer than 120 columns"
+done < <(cd "$root" && find src gis tests datasets-synthetic -name '*.[ch]' | sort |
+    LC_ALL=C.UTF-8 xargs grep -nE '^.{121,}' | cut -d: -f1,2)
+
+# ---- Public enumerators carry the name of their type ----
+while read -r line; do
+    say "src/sunder.h: $line"
+done < <(awk '
+    /^typedef enum sunder_[a-z_]* \{.*\}/ { next } # of one line: three phases, which do
+    /^typedef enum sunder_/ { type = $3; open = 1; next }
+    /^} sunder_/ { open = 0 }
+    open && match($0, /^ *SUNDER_[A-Z_0-9]+/) {
+        name = substr($0, RSTART, RLENGTH)
+        sub(/^ */, "", name)
+        word = toupper(type)
+        sub(/_(STATUS|KIND)$/, "", word)
+        if (word == "SUNDER" || index(name, word "_") == 1) next # the codes of sunder_status have none
+        print name " does not carry the name of " type
+    }' "$root/src/sunder.h")
+finish

@@ -1,0 +1,24 @@
+# shellcheck shell=bash
+# The library built without NDEBUG, so that its assertions and checkers run (src/base/invariant.h), and as for a machine whose long
+# doubles are short (src/separation/answer/answer.c): its tests once more.
+set -eu
+build=$SUNDER_BUILD/invariants
+cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS="-O1 -DSUNDER_NO_LONG_DOUBLE" \
+    -DSUNDER_PROGRAM=OFF -DSUNDER_FUZZ=OFF >"$build.log" 2>&1 ||
+    { cat "$build.log"; exit 1; }
+cmake --build "$build" -j "$(nproc)" >"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }
+# A check that cannot fail is none: a broken invariant ends the program.
+cat >"$build/broken.c" <<'X'
+#include "base/invariant.h"
+int main(int argc, char **argv)
+{
+    (void)argv;
+    SUNDER_I_ASSERT(argc != 1);
+    SUNDER_I_CHECK(argc == 2 ? "two" : 0, 1);
+    return 0;
+}
+X
+cc -I "$SUNDER_SOURCE/src" -o "$build/broken" "$build/broken.c"
+! ("$build/broken" 2>/dev/null) && ! ("$build/broken" x 2>/dev/null) && "$build/broken" x x || { echo "assertions are off"; exit 1; }
+cd "$build"
+ctest --output-on-failure -j "$(nproc)" -L '^(unit|golden|property)$'
