@@ -174,20 +174,20 @@ typedef enum sunder_algorithm {
 
 /* How the operands are cut into convex pieces; for all roads but the convolution. See src/decomposition/README. */
 typedef enum sunder_decomposition {
-    SUNDER_DECOMPOSITION_AUTO, /* the angle bisector: fewest crossings on most families [AFH02] */
-    SUNDER_DECOMPOSITION_ANGLE_BISECTOR,     /* a cut from each reflex vertex, pairs of reflex vertices first */
-    SUNDER_DECOMPOSITION_VERTICAL,           /* vertical cuts from the reflex vertices */
+    SUNDER_DECOMPOSITION_AUTO,           /* the angle bisector: fewest crossings on most families [AFH02] */
+    SUNDER_DECOMPOSITION_ANGLE_BISECTOR, /* a cut from each reflex vertex, pairs of reflex vertices first */
+    SUNDER_DECOMPOSITION_VERTICAL,       /* vertical cuts from the reflex vertices */
     SUNDER_DECOMPOSITION_TRIANGULATION,
-    SUNDER_DECOMPOSITION_HERTEL_MEHLHORN,    /* a triangulation without its needless diagonals */
-    SUNDER_DECOMPOSITION_OPTIMAL, /* fewest pieces without new vertices; members with holes, or over 500
+    SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, /* a triangulation without its needless diagonals */
+    SUNDER_DECOMPOSITION_OPTIMAL,         /* fewest pieces without new vertices; members with holes, or over 500
                                      vertices, fall back to Hertel and Mehlhorn's */
-    SUNDER_DECOMPOSITION_MIXED    /* both together: least length of all subsums' boundaries; falls back likewise */
+    SUNDER_DECOMPOSITION_MIXED /* both together: least length of all subsums' boundaries; falls back likewise */
 } sunder_decomposition;
 
 /* In what order subsums go in; for all roads but the convolution. */
 typedef enum sunder_order {
     SUNDER_ORDER_RANDOM,
-    SUNDER_ORDER_FAT, /* descending fatness, see src/unions/README */
+    SUNDER_ORDER_FAT,  /* descending fatness, see src/unions/README */
     SUNDER_ORDER_GIVEN /* as the pieces come */
 } sunder_order;
 
@@ -205,8 +205,8 @@ typedef struct sunder_sum_options {
     sunder_algorithm algorithm;
     sunder_decomposition decomposition;
     sunder_order order;
-    uint64_t seed; /* of the random order, and of what is drawn besides */
-    bool keep_map; /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
+    uint64_t seed;    /* of the random order, and of what is drawn besides */
+    bool keep_map;    /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
     unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are equal */
 } sunder_sum_options;
 
@@ -363,9 +363,9 @@ typedef enum sunder_contact {
 SUNDER_API const char *sunder_contact_string(sunder_contact contact);
 
 typedef struct sunder_separation {
-    bool overlap;            /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
-    bool attained;           /* the least is given, as near as is said below: always, as isolated optima are rational */
-    bool rounded_is_free;    /* (dx, dy) as doubles takes them apart as well, checked exactly */
+    bool overlap;         /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
+    bool attained;        /* the least is given, as near as is said below: always, as isolated optima are rational */
+    bool rounded_is_free; /* (dx, dy) as doubles takes them apart as well, checked exactly */
     sunder_contact contact;
     double dx, dy, distance; /* nearest doubles of the exact values */
     double lower_bound;      /* a proved lower bound of the least distance, rounded down; equals distance up to 1e-9 */
@@ -416,7 +416,7 @@ typedef struct sunder_layer_options {
     bool no_blocks;         /* nothing joins by touch or containment */
     bool list_inside;       /* list the pairs inside blocks too */
     sunder_containment contained;
-    unsigned threads;       /* 0: one for each processor; the result is the same for every number */
+    unsigned threads; /* 0: one for each processor; the result is the same for every number */
     sunder_progress progress;
     void *progress_user;
 } sunder_layer_options;
@@ -460,9 +460,9 @@ typedef enum sunder_conflict_kind {
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,       /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
-    SUNDER_REASON_FIXED,      /* neither may move */
+    SUNDER_REASON_NONE,      /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT, /* proved: the pair cannot be parted, or brought inside, within both limits together */
+    SUNDER_REASON_FIXED,     /* neither may move */
     SUNDER_REASON_SIDE,
     SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
                                * pairs are no worse than at the start */
@@ -475,7 +475,7 @@ typedef enum sunder_reason {
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
 typedef struct sunder_conflict {
-    size_t a, b;              /* features, a < b */
+    size_t a, b; /* features, a < b */
     sunder_conflict_kind kind;
     sunder_reason reason;
     double distance;          /* now; 0 where they overlap */
@@ -485,7 +485,7 @@ typedef struct sunder_conflict {
     double from[2], to[2];    /* the shortest link, or the least translation drawn from inside the overlap */
     const size_t *blocked_by; /* features that stand in the way, n_blocked_by of them */
     size_t n_blocked_by;
-    bool inside_block;        /* counted in inside_blocks alone */
+    bool inside_block; /* counted in inside_blocks alone */
 } sunder_conflict;
 
 typedef struct sunder_conflict_counts {
@@ -498,10 +498,10 @@ typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
     sunder_conflict_counts before, after; /* of check: both the same */
     size_t moved, blocked, skipped, rounded;
-    double total, mean, max;              /* of the lengths of moves; mean over the moved */
-    size_t max_feature;                   /* whose move is longest; SIZE_MAX if nothing moved */
-    double cost, lower_bound;             /* sum of weight * length^2; what no admissible displacement can beat */
-    bool verified;                        /* every pair but those listed and those in blocks was proved apart (or
+    double total, mean, max;  /* of the lengths of moves; mean over the moved */
+    size_t max_feature;       /* whose move is longest; SIZE_MAX if nothing moved */
+    double cost, lower_bound; /* sum of weight * length^2; what no admissible displacement can beat */
+    bool verified;            /* every pair but those listed and those in blocks was proved apart (or
                                              inside, where that may overlap), and none listed stands worse */
     double seconds_solve, seconds_verify;
 } sunder_layer_summary;
@@ -570,11 +570,11 @@ typedef struct sunder_proof_force {
 } sunder_proof_force;
 
 typedef struct sunder_proof_node {
-    size_t a, b;               /* features */
-    size_t part_a, part_b;     /* the first corners of the parts, of all corners */
+    size_t a, b;           /* features */
+    size_t part_a, part_b; /* the first corners of the parts, of all corners */
     size_t corners_a, corners_b;
     double clearance;
-    size_t way, ways;          /* its first way, and how many; none: a leaf */
+    size_t way, ways; /* its first way, and how many; none: a leaf */
     size_t force, forces;
 } sunder_proof_node;
 
@@ -608,7 +608,7 @@ typedef struct sunder_place {
 } sunder_place;
 
 typedef struct sunder_route_options {
-    double gap;              /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc */
+    double gap;               /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc */
     sunder_progress progress; /* NULL: none */
     void *progress_user;
 } sunder_route_options;
@@ -617,7 +617,7 @@ typedef enum sunder_route_status {
     SUNDER_ROUTE_FOUND,
     SUNDER_ROUTE_START_COLLIDES, /* at the start the robot's interior meets an obstacle */
     SUNDER_ROUTE_GOAL_COLLIDES,
-    SUNDER_ROUTE_DISCONNECTED    /* start and goal lie in different components of free space */
+    SUNDER_ROUTE_DISCONNECTED /* start and goal lie in different components of free space */
 } sunder_route_status;
 
 /* "found", "start_in_collision", "goal_in_collision", "disconnected". */

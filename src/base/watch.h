@@ -29,7 +29,7 @@ typedef struct sunder_i_watch {
     bool (*go_on)(void *);    /* ... or this one */
     void *user;
     pthread_mutex_t lock;
-    double fraction;          /* told last */
+    double fraction; /* told last */
     atomic_bool stopped;
     struct sunder_i_watch *outer;
 } sunder_i_watch;

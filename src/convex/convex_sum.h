@@ -11,8 +11,8 @@
 typedef struct sunder_i_convex_sum {
     uint32_t corners;
     sunder_i_rational_point *at; /* [corners] on the lattice of both; w is 1 where neither is a Steiner point */
-    sunder_i_point *along; /* [corners] a lattice vector, as in the pieces */
-    uint32_t *of_p, *of_q; /* [corners] */
+    sunder_i_point *along;       /* [corners] a lattice vector, as in the pieces */
+    uint32_t *of_p, *of_q;       /* [corners] */
     bool *side_p,
         *side_q; /* [corners] is a side of p's piece part of the side that starts here? of q's? At least one is */
 } sunder_i_convex_sum;

@@ -52,8 +52,9 @@ static inline bool sunder_i_merge_take(sunder_i_merge *m, int order)
 }
 
 /* The next side of the sum; false if there is none. */
-#define SUNDER_I_MERGE_NEXT(m, order)                                                                    \
-    (((m)->left_a || (m)->left_b) &&                                                                     \
-     sunder_i_merge_take((m), (m)->left_a && (m)->left_b ? (order) : (m)->left_a ? -1 : 1))
+#define SUNDER_I_MERGE_NEXT(m, order)                                                                                  \
+    (((m)->left_a || (m)->left_b) && sunder_i_merge_take((m), (m)->left_a && (m)->left_b ? (order)                     \
+                                                              : (m)->left_a              ? -1                          \
+                                                                                         : 1))
 
 #endif

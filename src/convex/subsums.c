@@ -67,8 +67,8 @@ static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t 
         if (m.of_a && m.of_b)
             out->candidate[at] = a->candidate[k] || b->candidate[l];
         else
-            out->candidate[at] = m.of_a ? is_candidate(p, k, q, b->vertex[l], classes)
-                                        : is_candidate(q, l, p, a->vertex[k], classes);
+            out->candidate[at] =
+                m.of_a ? is_candidate(p, k, q, b->vertex[l], classes) : is_candidate(q, l, p, a->vertex[k], classes);
     }
     out->end[out->n++] = out->corners = at;
 }

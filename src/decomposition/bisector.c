@@ -22,9 +22,9 @@
  * reflex vertices see, and r^2 for the cuts.
  *
  * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
-#include "decomposition/maker.h"
 #include "base/sort.h"
 #include "base/watch.h"
+#include "decomposition/maker.h"
 
 #include <math.h>
 #include <string.h>

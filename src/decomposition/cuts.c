@@ -12,8 +12,8 @@
  * belong to different sectors (rings that touch) are different vertices and stay so. Straight corners, where a cut
  * ends on the other side of a line or runs on as the extension of an edge, are left out of the pieces
  * (sunder_i_maker_end_piece()). */
-#include "decomposition/maker.h"
 #include "base/sort.h"
+#include "decomposition/maker.h"
 
 #include <string.h>
 

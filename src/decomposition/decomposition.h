@@ -27,9 +27,9 @@ typedef struct sunder_i_corner {
 } sunder_i_corner;
 
 typedef struct sunder_i_decomposition {
-    sunder_i_arena arena;             /* all that follows, the big integers too; independent of the lattice's arena */
-    sunder_decomposition used;        /* as asked, or HERTEL_MEHLHORN where some member could not be decomposed so */
-    uint32_t fallbacks;               /* members with reflex vertices that were decomposed by Hertel-Mehlhorn instead */
+    sunder_i_arena arena;      /* all that follows, the big integers too; independent of the lattice's arena */
+    sunder_decomposition used; /* as asked, or HERTEL_MEHLHORN where some member could not be decomposed so */
+    uint32_t fallbacks;        /* members with reflex vertices that were decomposed by Hertel-Mehlhorn instead */
     uint32_t corners;
     sunder_i_corner *corner; /* [corners] first the vertices of the shape by number, then the Steiner points, each
                                 place on one line once */
@@ -39,7 +39,7 @@ typedef struct sunder_i_decomposition {
                                convex, and start with the side of the least angle in [0, 2 pi), so that angles ascend */
     sunder_i_point *along;  /* [sides] a vector of the lattice, a positive multiple of the side */
     uint32_t *member;       /* [pieces] the polygon of the shape that each is a piece of; ascending */
-    sunder_counts counts; /* done here; they are in lattice->counts as well */
+    sunder_counts counts;   /* done here; they are in lattice->counts as well */
 } sunder_i_decomposition;
 
 /* Decomposes a shape that stands on a lattice.

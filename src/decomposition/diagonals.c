@@ -1,6 +1,6 @@
 /* Decompositions by diagonals alone: every corner is a vertex of the shape. */
-#include "decomposition/maker.h"
 #include "base/sort.h"
+#include "decomposition/maker.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
 #ifndef SUNDER_I_CONVEX_OPERANDS_H
 #define SUNDER_I_CONVEX_OPERANDS_H
 
-#include "sum/sum.h"
 #include "shape/shape.h"
+#include "sum/sum.h"
 
 /* Is each of them one convex polygon? */
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q);

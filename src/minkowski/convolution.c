@@ -176,8 +176,12 @@ static bool put_rings(ring_list *rings, sunder_sum *sum)
         if (sunder_i_sum_vertex_cmp(sum, least, vertex[rings->ring[outer].start]) < 0) outer = r;
     }
     rings->ring[outer].outer = true;
-    sunder_i_found found = {.vertex = vertex, .ring = rings->ring, .rings = rings->n, .components = 1,
-                            .compare = sunder_i_sum_vertex_cmp, .context = sum};
+    sunder_i_found found = {.vertex = vertex,
+                            .ring = rings->ring,
+                            .rings = rings->n,
+                            .components = 1,
+                            .compare = sunder_i_sum_vertex_cmp,
+                            .context = sum};
     const bool ok = vertex && sunder_i_canonical(&found, sum);
     sunder_i_free(vertex);
     return ok;

@@ -2,8 +2,8 @@
 #ifndef SUNDER_I_CONVOLUTION_H
 #define SUNDER_I_CONVOLUTION_H
 
-#include "sum/sum.h"
 #include "shape/shape.h"
+#include "sum/sum.h"
 
 /* Fills in the vertices and rings of sum, which stands on a lattice that both operands are placed on, and sets *done;
  * leaves both alone where the curve does not prove the result: the general road has to be taken then. Fails only with

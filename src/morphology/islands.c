@@ -7,8 +7,8 @@
  * opening, stays in its polygon, too.
  *
  * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
-#include "morphology/morphology.h"
 #include "base/parallel.h"
+#include "morphology/morphology.h"
 
 #include <math.h>
 #include <pthread.h>

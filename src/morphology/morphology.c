@@ -8,8 +8,8 @@
  * All sets here are closed. Each stage reads the corners of the one before as they are, as rationals; nothing is
  * rounded in between. P's members may overlap: an erosion takes their union first. */
 #include "morphology/morphology.h"
-#include "minkowski/minkowski.h"
 #include "base/watch.h"
+#include "minkowski/minkowski.h"
 
 /* A stage of several, as the caller's options see it. */
 typedef struct stage {

@@ -10,17 +10,17 @@
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
 
-#include "sum/sum.h"
 #include "planar_map/planar_map.h"
 #include "shape/shape.h"
+#include "sum/sum.h"
 
 /* A closed set in units of a lattice: the polygons that its rings bound, their interior on the left, and segments and
  * points without area. All arrays live in the arena. */
 typedef struct sunder_i_figure {
     sunder_i_arena arena;
     sunder_i_rational_point *at; /* corners, by number */
-    uint32_t *ring;   /* corner numbers of all rings, one after the other */
-    size_t *ring_end; /* [rings] */
+    uint32_t *ring;              /* corner numbers of all rings, one after the other */
+    size_t *ring_end;            /* [rings] */
     size_t rings, sides;
     const uint32_t *segment; /* [2 * segments] */
     const uint32_t *point;   /* [points] */

@@ -2,8 +2,8 @@
  * rounded once. */
 #include "number/big.h"
 
-#include "number/huge.h"
 #include "base/watch.h"
+#include "number/huge.h"
 
 #include <limits.h>
 #include <math.h>
@@ -49,10 +49,7 @@ sunder_i_big sunder_i_big_i128(sunder_i_arena *arena, sunder_i_i128 v)
     return from_limbs(arena, limb, 2, v < 0 ? -1 : 1);
 }
 
-sunder_i_big sunder_i_big_i256(sunder_i_arena *arena, sunder_i_i256 v)
-{
-    return from_limbs(arena, v.limb, 4, v.sign);
-}
+sunder_i_big sunder_i_big_i256(sunder_i_arena *arena, sunder_i_i256 v) { return from_limbs(arena, v.limb, 4, v.sign); }
 
 sunder_i_big sunder_i_big_double(sunder_i_arena *arena, double v, int *exponent)
 {

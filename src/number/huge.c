@@ -59,8 +59,7 @@ static sunder_i_big karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
     const mp_size_t k = (a.size + 1) / 2;
     const sunder_i_big a0 = slice(a, 0, k), a1 = slice(a, k, a.size), b0 = slice(b, 0, k), b1 = slice(b, k, b.size);
     const sunder_i_big low = sunder_i_big_mul(arena, a0, b0), high = sunder_i_big_mul(arena, a1, b1);
-    sunder_i_big middle =
-        sunder_i_big_mul(arena, sunder_i_big_add(arena, a0, a1), sunder_i_big_add(arena, b0, b1));
+    sunder_i_big middle = sunder_i_big_mul(arena, sunder_i_big_add(arena, a0, a1), sunder_i_big_add(arena, b0, b1));
     middle = sunder_i_big_sub(arena, middle, sunder_i_big_add(arena, low, high));
     return join(arena, join(arena, high, k, middle), k, low);
 }

@@ -13,7 +13,7 @@
 #define SUNDER_I_SURD_ROOTS 4
 
 typedef struct sunder_i_surd {
-    int height; /* over the roots 0 .. height - 1 */
+    int height;               /* over the roots 0 .. height - 1 */
     const sunder_i_big *part; /* [2^height] */
 } sunder_i_surd;
 

@@ -19,10 +19,7 @@ typedef struct sunder_i_i256 {
 
 static inline int sunder_i_i128_sign(sunder_i_i128 v) { return (v > 0) - (v < 0); }
 
-static inline sunder_i_u128 sunder_i_i128_abs(sunder_i_i128 v)
-{
-    return v < 0 ? -(sunder_i_u128)v : (sunder_i_u128)v;
-}
+static inline sunder_i_u128 sunder_i_i128_abs(sunder_i_i128 v) { return v < 0 ? -(sunder_i_u128)v : (sunder_i_u128)v; }
 
 /* a * b of 128-bit magnitudes, 256 bits. */
 static inline void sunder_i_u128_mul(sunder_i_u128 a, sunder_i_u128 b, uint64_t r[4])

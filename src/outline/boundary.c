@@ -8,7 +8,7 @@
 /* Rings and degenerate parts as traced, before they are put in order. */
 typedef struct tracer {
     const sunder_i_graph *g;
-    sunder_sum *out; /* has its vertices already */
+    sunder_sum *out;  /* has its vertices already */
     uint32_t *vertex; /* of all rings, one after the other, smallest vertex first */
     sunder_i_found_ring *ring;
     size_t rings;
@@ -116,8 +116,8 @@ static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, su
 {
     tracer t = {.g = g, .out = out};
     bool ok = trace_rings(&t) && gather_segments(&t, coverage) && gather_points(&t, coverage);
-    sunder_i_found found = {t.vertex, t.ring, t.rings, g->components, t.segment, t.segments, t.point, t.points,
-                            sunder_i_sum_vertex_cmp, out};
+    sunder_i_found found = {t.vertex,   t.ring,  t.rings,  g->components,           t.segment,
+                            t.segments, t.point, t.points, sunder_i_sum_vertex_cmp, out};
     ok = ok && sunder_i_canonical(&found, out);
     sunder_i_free(t.vertex);
     sunder_i_free(t.ring);

@@ -19,9 +19,9 @@ typedef struct sunder_i_graph {
     uint32_t classes, vertices;
     sunder_i_boundary_edge *edge;
     uint32_t edges;
-    uint32_t *ray_end;  /* [vertices] past its last ray */
-    sunder_i_ray *ray;  /* counter-clockwise around each vertex, from the positive x axis */
-    uint32_t *walk;     /* [edges] which covered walk an edge belongs to */
+    uint32_t *ray_end; /* [vertices] past its last ray */
+    sunder_i_ray *ray; /* counter-clockwise around each vertex, from the positive x axis */
+    uint32_t *walk;    /* [edges] which covered walk an edge belongs to */
     uint32_t walks;
     uint32_t *walk_start; /* [walks] an edge that leaves, or arrives at, the walk's lexicographically smallest vertex */
     bool *walk_outer;     /* [walks] is the walk the outer boundary of its component? */

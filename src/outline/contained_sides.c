@@ -28,7 +28,7 @@ typedef struct grid {
     box all;
     int shift;
     uint32_t size[2];
-    uint32_t *end, *list; /* [squares] past its last entry in list */
+    uint32_t *end, *list;  /* [squares] past its last entry in list */
     size_t spent, allowed; /* parts looked at, see drop() */
 } grid;
 

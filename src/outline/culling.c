@@ -273,8 +273,17 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
         b->done += parent->share / 2;
         return;
     }
-    cell c = {h->b, b->entries_n,     b->entries_n + h->entries_n, b->runs_n, b->runs_n + h->runs_n, h->sides, 0,
-              0,    parent->share / 2, growth,        0};
+    cell c = {h->b,
+              b->entries_n,
+              b->entries_n + h->entries_n,
+              b->runs_n,
+              b->runs_n + h->runs_n,
+              h->sides,
+              0,
+              0,
+              parent->share / 2,
+              growth,
+              0};
     memmove(b->entries + c.entry_from, h->entries, h->entries_n * sizeof *h->entries);
     memmove(b->runs + c.run_from, h->runs, h->runs_n * sizeof *h->runs);
     if (h->entries_n == 1) {

@@ -31,8 +31,8 @@ typedef struct cell {
     size_t entry_from, entry_to, run_from, run_to;
     size_t sides; /* of all its runs */
     uint32_t stubborn;
-    int axis;     /* to split across */
-    double share; /* of the whole work, taking each half as half of its parent's */
+    int axis;      /* to split across */
+    double share;  /* of the whole work, taking each half as half of its parent's */
     double growth; /* see growth_of() */
     double trial;  /* the pairs of a line and a part of one that is split on trial only; else 0 */
 } cell;

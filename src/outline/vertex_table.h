@@ -8,12 +8,12 @@ typedef struct sunder_i_vertex_table {
     sunder_i_lattice *lattice;
     sunder_i_hpoint *point; /* one of each place, in order of first appearance */
     size_t n, capacity;
-    size_t entered;         /* how many are in the table, at least */
-    uint32_t *slot;         /* hash table: number of a place + 1, or 0 */
+    size_t entered; /* how many are in the table, at least */
+    uint32_t *slot; /* hash table: number of a place + 1, or 0 */
     size_t mask;
-    bool exact;             /* hashes are of exact coordinates; else of squares of the grid */
-    double per_step;        /* squares of the grid for each unit: below 2^40 in all */
-    double error;           /* of an approximate coordinate */
+    bool exact;      /* hashes are of exact coordinates; else of squares of the grid */
+    double per_step; /* squares of the grid for each unit: below 2^40 in all */
+    double error;    /* of an approximate coordinate */
 } sunder_i_vertex_table;
 
 #define SUNDER_I_NO_VERTEX UINT32_MAX

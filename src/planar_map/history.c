@@ -75,17 +75,10 @@ uint32_t sunder_i_history_find(sunder_i_planar_map *map, const sunder_i_site *p)
     for (;;) {
         const sunder_i_history_node *node = &map->node[n];
         switch (node->kind) {
-        case SUNDER_I_LEAF:
-            return node->a;
-        case SUNDER_I_ALIAS:
-            n = node->a;
-            break;
-        case SUNDER_I_AT:
-            n = sunder_i_site_cmp(map, p, &map->vertex[node->of].site) < 0 ? node->a : node->b;
-            break;
-        default:
-            n = sunder_i_site_side(map, &map->line[node->of], p) < 0 ? node->a : node->b;
-            break;
+        case SUNDER_I_LEAF: return node->a;
+        case SUNDER_I_ALIAS: n = node->a; break;
+        case SUNDER_I_AT: n = sunder_i_site_cmp(map, p, &map->vertex[node->of].site) < 0 ? node->a : node->b; break;
+        default: n = sunder_i_site_side(map, &map->line[node->of], p) < 0 ? node->a : node->b; break;
         }
     }
 }

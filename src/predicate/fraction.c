@@ -66,8 +66,8 @@ sunder_i_fraction sunder_i_along(sunder_i_lattice *l, sunder_i_point a, sunder_i
     sunder_i_arena *m = &l->scratch;
     const sunder_i_rational_point u = sunder_i_rational_diff(m, l, b, a), v = sunder_i_rational_diff(m, l, c, a);
     const bool by_x = sunder_i_big_sign(u.x) != 0;
-    const sunder_i_fraction f = pooled_fraction(l, sunder_i_times(m, by_x ? v.x : v.y, u.w),
-                                                sunder_i_times(m, by_x ? u.x : u.y, v.w));
+    const sunder_i_fraction f =
+        pooled_fraction(l, sunder_i_times(m, by_x ? v.x : v.y, u.w), sunder_i_times(m, by_x ? u.x : u.y, v.w));
     sunder_i_lattice_end(l, mark);
     return f;
 }

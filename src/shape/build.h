@@ -29,7 +29,7 @@ typedef struct sunder_i_rings {
     bool rounded;
     uint32_t *source; /* raw vertex number of each vertex, or SUNDER_I_MADE + number of a point made by repair.c */
     uint32_t *ring_end, *poly_end, *next, *prev;
-    size_t room[3];   /* for vertices, rings, polygons */
+    size_t room[3]; /* for vertices, rings, polygons */
 } sunder_i_rings;
 
 #define SUNDER_I_MADE 0x80000000u
@@ -71,14 +71,14 @@ bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t
 
 typedef enum sunder_i_fault {
     SUNDER_I_SOUND,
-    SUNDER_I_EMPTY,   /* a ring without vertices; vertex is then the number of the raw ring */
-    SUNDER_I_FEW,     /* under three distinct vertices */
-    SUNDER_I_FLAT,    /* no area */
-    SUNDER_I_SPIKE,   /* an edge that runs back along the one before */
-    SUNDER_I_CROSSES, /* two edges cross, or a ring passes through itself at a vertex */
-    SUNDER_I_OVERLAPS,/* two edges share a piece */
-    SUNDER_I_OUTSIDE, /* a hole outside its outer ring */
-    SUNDER_I_NESTED   /* a hole in a hole */
+    SUNDER_I_EMPTY,    /* a ring without vertices; vertex is then the number of the raw ring */
+    SUNDER_I_FEW,      /* under three distinct vertices */
+    SUNDER_I_FLAT,     /* no area */
+    SUNDER_I_SPIKE,    /* an edge that runs back along the one before */
+    SUNDER_I_CROSSES,  /* two edges cross, or a ring passes through itself at a vertex */
+    SUNDER_I_OVERLAPS, /* two edges share a piece */
+    SUNDER_I_OUTSIDE,  /* a hole outside its outer ring */
+    SUNDER_I_NESTED    /* a hole in a hole */
 } sunder_i_fault;
 
 /* What is wrong, and where: vertices are raw numbers; other is the second edge or ring's vertex, or NONE. */

@@ -15,10 +15,7 @@ static int order(const double *xy, uint32_t i, uint32_t j)
 }
 
 /* Of a collinear triple a, b, c with a != b != c: does the path go on beyond b? */
-static bool goes_on(const double *xy, uint32_t a, uint32_t b, uint32_t c)
-{
-    return order(xy, a, b) == order(xy, b, c);
-}
+static bool goes_on(const double *xy, uint32_t a, uint32_t b, uint32_t c) { return order(xy, a, b) == order(xy, b, c); }
 
 /* Why there is no proper ring: too few places, or all on one line. Rarely asked. */
 static sunder_i_fault why_degenerate(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,

@@ -40,14 +40,14 @@ typedef struct cutter {
     const sunder_i_rings *r;
     sunder_i_walk *walk;
     sunder_i_mesh *mesh;
-    uint32_t *bridge_half;   /* [bridges] the half-edge that met the bridge first, or NONE */
-    uint8_t *state;          /* [nodes] CONVEX, BLUNT or CUT */
-    uint32_t *stamp;         /* [nodes] the round in which a neighbour was cut */
-    uint32_t *turn[2];       /* convex nodes of this round and of the next */
+    uint32_t *bridge_half; /* [bridges] the half-edge that met the bridge first, or NONE */
+    uint8_t *state;        /* [nodes] CONVEX, BLUNT or CUT */
+    uint32_t *stamp;       /* [nodes] the round in which a neighbour was cut */
+    uint32_t *turn[2];     /* convex nodes of this round and of the next */
     uint32_t turn_n, round;
-    uint32_t *list;          /* the nodes that are or were blunt, in order */
-    uint32_t listed, live;   /* in the list; of these still blunt */
-    sunder_i_box_tree tree;  /* over the list; without boxes: no tree */
+    uint32_t *list;         /* the nodes that are or were blunt, in order */
+    uint32_t listed, live;  /* in the list; of these still blunt */
+    sunder_i_box_tree tree; /* over the list; without boxes: no tree */
 } cutter;
 
 static const double *place(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }

@@ -7,8 +7,8 @@
 /* The closure of the set, as polygons in the cleaned form of shape.h: one polygon for each component of the interior,
  * its outer ring first. */
 typedef struct sunder_i_even_odd {
-    uint32_t points;       /* corners of the rings, one after the other */
-    uint32_t *point;       /* a vertex of the rings given, or SUNDER_I_MADE + the number of a crossing point */
+    uint32_t points; /* corners of the rings, one after the other */
+    uint32_t *point; /* a vertex of the rings given, or SUNDER_I_MADE + the number of a crossing point */
     uint32_t rings, polygons;
     uint32_t *ring_end, *poly_end;
     sunder_i_hpoint *made; /* the crossing points, in the order of their numbers */
@@ -27,8 +27,8 @@ typedef struct sunder_i_arc {
 
 typedef struct sunder_i_arcs {
     uint32_t points, arcs;
-    uint32_t *node;       /* of each point: a vertex of r, or SUNDER_I_MADE + number */
-    sunder_i_arc *arc;    /* those with odd multiplicity, by lo, then bottom to top */
+    uint32_t *node;    /* of each point: a vertex of r, or SUNDER_I_MADE + number */
+    sunder_i_arc *arc; /* those with odd multiplicity, by lo, then bottom to top */
     sunder_i_hpoint *made;
     uint32_t makes;
 } sunder_i_arcs;

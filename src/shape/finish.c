@@ -39,7 +39,10 @@ sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, 
 {
     const size_t raw_rings = polygons ? poly_end[polygons - 1] : 0,
                  raw_vertices = raw_rings ? ring_end[raw_rings - 1] : 0;
-    sunder_shape head = {.raw_polygons = polygons, .vertices = r->vertices, .rings = r->rings, .polygons = r->polygons,
+    sunder_shape head = {.raw_polygons = polygons,
+                         .vertices = r->vertices,
+                         .rings = r->rings,
+                         .polygons = r->polygons,
                          .pieces = pieces->pieces};
     const size_t bytes = lay_out(&head, NULL, raw_vertices, raw_rings, &head, pieces->corners);
     sunder_shape *s = sunder_i_alloc(bytes, 1);

@@ -203,7 +203,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
         r->vertices = vertices;
         r->rings = rings;
         return sunder_i_repair_polygon(r, b->in, b->at, b->origin[0], p, &b->made, &b->arena) ? SUNDER_OK
-                                                                                             : sunder_i_no_memory(err);
+                                                                                              : sunder_i_no_memory(err);
     }
     r->poly_end[r->polygons++] = r->rings;
     return SUNDER_OK;
@@ -245,8 +245,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
         const sunder_status status = add_polygon(b, p, err);
         if (status) return status;
     }
-    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena))
-        return sunder_i_no_memory(err);
+    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena)) return sunder_i_no_memory(err);
     sunder_i_pieces pieces;
     if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
     sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);

@@ -139,8 +139,8 @@ static void centroid(const sunder_i_lattice *l, sunder_i_arena *arena, const sun
             sunder_i_big_sub(arena, sunder_i_big_mul(arena, u[0], v[1]), sunder_i_big_mul(arena, u[1], v[0]));
         weight = sunder_i_big_add(arena, weight, cross);
         for (int k = 0; k < 2; k++)
-            moment[k] = sunder_i_big_add(arena, moment[k],
-                                         sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, u[k], v[k])));
+            moment[k] =
+                sunder_i_big_add(arena, moment[k], sunder_i_big_mul(arena, cross, sunder_i_big_add(arena, u[k], v[k])));
     }
     weight = sunder_i_big_mul(arena, weight, sunder_i_big_i64(arena, 3));
     const sunder_i_big den = sunder_i_big_mul(arena, weight, c.den);

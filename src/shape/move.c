@@ -10,8 +10,14 @@
 /* An exact copy, but for the rational numbers. */
 static sunder_shape *copy_shape(const sunder_shape *s)
 {
-    const sunder_i_rings r = {.vertices = s->vertices, .rings = s->rings, .polygons = s->polygons, .xy = s->xy,
-                              .ring_end = s->ring_end, .poly_end = s->poly_end, .next = s->next, .prev = s->prev};
+    const sunder_i_rings r = {.vertices = s->vertices,
+                              .rings = s->rings,
+                              .polygons = s->polygons,
+                              .xy = s->xy,
+                              .ring_end = s->ring_end,
+                              .poly_end = s->poly_end,
+                              .next = s->next,
+                              .prev = s->prev};
     const sunder_i_pieces pieces = {s->pieces, s->pieces ? s->piece_end[s->pieces - 1] : 0, s->piece_end,
                                     s->piece_vertex};
     sunder_shape *c =

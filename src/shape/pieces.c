@@ -81,7 +81,6 @@ bool sunder_i_pieces_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder
     out->piece_end = sunder_i_arena_alloc(arena, most, sizeof *out->piece_end);
     out->piece_vertex = sunder_i_arena_alloc(arena, 3 * most, sizeof *out->piece_vertex);
     if (arena->failed) return false;
-    for (uint32_t p = 0; p < r->polygons; p++)
-        decompose(r, p ? r->poly_end[p - 1] : 0, r->poly_end[p], arena, out);
+    for (uint32_t p = 0; p < r->polygons; p++) decompose(r, p ? r->poly_end[p - 1] : 0, r->poly_end[p], arena, out);
     return !arena->failed && !r->lattice->arena.failed;
 }

@@ -35,14 +35,14 @@ struct sunder_shape {
 
     /* cleaned */
     uint32_t vertices, rings, polygons;
-    uint32_t *ring_end;    /* [rings] index past the last vertex of each ring */
-    uint32_t *poly_end;    /* [polygons] index past the last ring of each polygon; its first ring is the outer one */
-    uint32_t *next, *prev; /* [vertices] along the ring */
-    bool *shared;          /* [vertices] another vertex stands at the same place */
-    bool touches;          /* as given, rings of one polygon meet somewhere, or a ring meets itself */
-    double *xy;            /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones */
+    uint32_t *ring_end;     /* [rings] index past the last vertex of each ring */
+    uint32_t *poly_end;     /* [polygons] index past the last ring of each polygon; its first ring is the outer one */
+    uint32_t *next, *prev;  /* [vertices] along the ring */
+    bool *shared;           /* [vertices] another vertex stands at the same place */
+    bool touches;           /* as given, rings of one polygon meet somewhere, or a ring meets itself */
+    double *xy;             /* [2 * vertices] the coordinates; of corners that are no doubles the nearest ones */
     sunder_i_extent extent; /* of a rational shape: the box, and the low bit of what was given */
-    double box[4];         /* rounded outward if rational */
+    double box[4];          /* rounded outward if rational */
 
     bool repaired, rational; /* rational: some corner is no pair of doubles */
     sunder_i_arena arena;    /* of the numbers of those */
@@ -58,17 +58,17 @@ struct sunder_shape {
 /* Two shapes on one lattice; q reflected (-Q) if asked. */
 typedef struct sunder_i_placed {
     sunder_i_lattice lattice;
-    sunder_i_point *p, *q;            /* [vertices] of each */
-    double origin_p[2], origin_q[2];  /* of q after reflection */
+    sunder_i_point *p, *q;           /* [vertices] of each */
+    double origin_p[2], origin_q[2]; /* of q after reflection */
 } sunder_i_placed;
 
 typedef struct sunder_i_place_options {
     bool reflect_q;
-    bool common_origin;      /* one origin for both (then origin_q = origin_p, or its negative if reflected) */
+    bool common_origin;  /* one origin for both (then origin_q = origin_p, or its negative if reflected) */
     const double *extra; /* further doubles that must be lattice multiples (a gap), n of them; magnitudes count too */
     size_t extra_n;
     const double *shift_p, *shift_q; /* NULL, or an exact translation of the operand (before reflection): two doubles */
-    bool force_wide;         /* for tests */
+    bool force_wide;                 /* for tests */
 } sunder_i_place_options;
 
 /* Fails only with SUNDER_ENOMEM. */

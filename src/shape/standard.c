@@ -120,7 +120,7 @@ static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_
 {
     const double ideal = d->inside ? 1 : 1 / cos(PI / d->n);
     const double first = unit_of(d) > 0 ? coarse_give : 1;
-    for (double ulps = 0; ulps < 0x1p40; ulps = ulps > 0 ? 2 * ulps : first) {
+    for (double ulps = 0; ulps<0x1p40; ulps = ulps> 0 ? 2 * ulps : first) {
         const double give = ulps * DBL_EPSILON;
         if (!make_corners(d, d->inside ? ideal * (1 - give) : ideal * (1 + give)))
             return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g leaves the range of doubles", d->radius);

@@ -20,7 +20,7 @@ typedef struct sunder_i_found {
     const uint32_t *vertex; /* of all rings */
     const sunder_i_found_ring *ring;
     size_t rings;
-    uint32_t components; /* all rings' are below this, and one ring of each that has any is its outer one */
+    uint32_t components;     /* all rings' are below this, and one ring of each that has any is its outer one */
     const uint32_t *segment; /* [2 * segments] the smaller end of each first */
     size_t segments;
     const uint32_t *point;

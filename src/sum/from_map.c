@@ -30,9 +30,9 @@
 typedef struct outline {
     sunder_i_planar_map *map;
     const sunder_i_inside *inside; /* NULL: what is covered */
-    uint32_t *component; /* [faces] a forest; roots stand for components */
-    bool *done;          /* [half-edges] */
-    uint32_t *vertex;    /* of all rings, then ends of segments, then points; as the map numbers them */
+    uint32_t *component;           /* [faces] a forest; roots stand for components */
+    bool *done;                    /* [half-edges] */
+    uint32_t *vertex;              /* of all rings, then ends of segments, then points; as the map numbers them */
     size_t vertices, vertex_capacity;
     sunder_i_found_ring *ring;
     size_t rings, ring_capacity;
@@ -189,8 +189,7 @@ static bool is_point(const outline *o, uint32_t v)
     if (!sunder_i_planar_map_vertex_alive(map, v) || sunder_i_planar_map_vertex_covered(map, v)) return false;
     const uint32_t first = sunder_i_planar_map_vertex_out(map, v);
     uint32_t h = first;
-    if (h != SUNDER_I_NOWHERE)
-        do {
+    if (h != SUNDER_I_NOWHERE) do {
             if (sunder_i_planar_map_edge_covered(map, h >> 1) == 0) return false;
             h = sunder_i_planar_map_ccw(map, h);
         } while (h != first);

@@ -12,8 +12,8 @@ struct sunder_map {
 };
 
 /* Numbers what is alive; of[] and back[] are new arrays. */
-static bool number(const sunder_i_planar_map *map, uint32_t end,
-                   bool (*alive)(const sunder_i_planar_map *, uint32_t), uint32_t **of, uint32_t **back, uint32_t *n)
+static bool number(const sunder_i_planar_map *map, uint32_t end, bool (*alive)(const sunder_i_planar_map *, uint32_t),
+                   uint32_t **of, uint32_t **back, uint32_t *n)
 {
     *of = sunder_i_alloc(end, sizeof **of);
     *back = sunder_i_alloc(end, sizeof **back);

@@ -19,14 +19,11 @@ void sunder_sum_free(sunder_sum *sum)
 
 void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size)
 {
-    *size = (sunder_sum_size){sum->polygons, sum->rings - sum->polygons,
-                                  sum->rings ? sum->ring_end[sum->rings - 1] : 0, sum->segments, sum->points};
+    *size = (sunder_sum_size){sum->polygons, sum->rings - sum->polygons, sum->rings ? sum->ring_end[sum->rings - 1] : 0,
+                              sum->segments, sum->points};
 }
 
-void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts)
-{
-    *counts = sum->lattice.counts;
-}
+void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts) { *counts = sum->lattice.counts; }
 
 void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method) { *method = sum->method; }
 

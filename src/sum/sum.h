@@ -6,20 +6,20 @@
 
 struct sunder_sum {
     sunder_i_lattice lattice;
-    double origin[2][2];      /* of each operand; their sum may not be a double */
+    double origin[2][2]; /* of each operand; their sum may not be a double */
     sunder_i_hpoint *vertex;
     uint32_t vertices;
-    uint32_t *ring_vertex;    /* of all rings, one after the other */
-    size_t *ring_end;         /* [rings] */
-    size_t *poly_end;         /* [polygons], in rings */
+    uint32_t *ring_vertex; /* of all rings, one after the other */
+    size_t *ring_end;      /* [rings] */
+    size_t *poly_end;      /* [polygons], in rings */
     size_t rings, polygons;
-    uint32_t *segment;        /* [2 * segments] */
-    uint32_t *point;          /* [points] */
+    uint32_t *segment; /* [2 * segments] */
+    uint32_t *point;   /* [points] */
     size_t segments, points;
     sunder_sum_method method;
-    double seconds[3];        /* by sunder_phase */
+    double seconds[3]; /* by sunder_phase */
     sunder_counts phase[3];
-    sunder_map *map;          /* NULL: not kept; stands on the lattice */
+    sunder_map *map; /* NULL: not kept; stands on the lattice */
 };
 
 /* A vertex in units of the lattice. */

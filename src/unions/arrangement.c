@@ -18,8 +18,7 @@ static sunder_status arrange(sunder_i_uniting *u, uint32_t *subsum, sunder_i_pla
 {
     for (uint32_t k = 0; k < u->subsums; k++) subsum[k] = k;
     if (!sunder_i_order_subsums(u, subsum, u->subsums)) return sunder_i_no_memory(err);
-    const sunder_status status =
-        sunder_i_feed(u, subsum, u->subsums, sunder_i_planar_map_insert_polygon, map, err);
+    const sunder_status status = sunder_i_feed(u, subsum, u->subsums, sunder_i_planar_map_insert_polygon, map, err);
     return status == SUNDER_OK ? sunder_i_planar_map_mark(map, err) : status;
 }
 

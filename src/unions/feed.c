@@ -9,8 +9,8 @@ bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_
 {
     const sunder_counts before = u->lattice->counts;
     const double start = sunder_i_now();
-    const bool ok = sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces,
-                                           &u->arena, out);
+    const bool ok =
+        sunder_i_convex_sum_of(u->lattice, &u->p, subsum % u->p.pieces, &u->q, subsum / u->p.pieces, &u->arena, out);
     u->seconds += sunder_i_now() - start;
     sunder_i_counts_add(&u->counts, &u->lattice->counts, &before);
     return ok;

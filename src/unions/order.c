@@ -45,12 +45,9 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     if (u->arena.failed) return 0;
     sunder_i_arena_release(&u->arena, mark);
     switch (u->fatness) {
-    case SUNDER_I_FAT_BREADTH:
-        return area / perimeter;
-    case SUNDER_I_FAT_ROUND:
-        return area / perimeter / perimeter;
-    case SUNDER_I_FAT_AREA:
-        break;
+    case SUNDER_I_FAT_BREADTH: return area / perimeter;
+    case SUNDER_I_FAT_ROUND: return area / perimeter / perimeter;
+    case SUNDER_I_FAT_AREA: break;
     }
     return area;
 }
@@ -81,13 +78,9 @@ static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 bool sunder_i_order_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
     switch (u->options->order) {
-    case SUNDER_ORDER_RANDOM:
-        sunder_i_shuffle(subsum, n, sizeof *subsum, &u->random);
-        break;
-    case SUNDER_ORDER_FAT:
-        return sort_by_fatness(u, subsum, n);
-    case SUNDER_ORDER_GIVEN:
-        break;
+    case SUNDER_ORDER_RANDOM: sunder_i_shuffle(subsum, n, sizeof *subsum, &u->random); break;
+    case SUNDER_ORDER_FAT: return sort_by_fatness(u, subsum, n);
+    case SUNDER_ORDER_GIVEN: break;
     }
     return true;
 }

@@ -19,13 +19,11 @@ static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sund
                              subsums);
     u->subsums = (uint32_t)subsums;
     switch (algorithm) {
-    case SUNDER_ALGORITHM_INCREMENTAL:
-        return sunder_i_unite_by_increments(u, map, err);
+    case SUNDER_ALGORITHM_INCREMENTAL: return sunder_i_unite_by_increments(u, map, err);
     case SUNDER_ALGORITHM_DIVIDE:
         if (subsums) return sunder_i_unite_by_halves(u, map, err);
         break;
-    default:
-        break;
+    default: break;
     }
     return sunder_i_unite_by_arrangement(u, map, err);
 }

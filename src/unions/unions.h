@@ -12,8 +12,8 @@
 #define SUNDER_I_UNIONS_H
 
 #include "convex/convex_sum.h"
-#include "sum/sum.h"
 #include "planar_map/planar_map.h"
+#include "sum/sum.h"
 
 /* Fills an empty sum (but for its algorithm) by one of the three roads. On failure the caller frees the sum.
  * Fails with SUNDER_ENOMEM, SUNDER_ECANCEL, or SUNDER_ESIZE where there are too many subsums to number. */
@@ -39,7 +39,7 @@ typedef struct sunder_i_uniting {
     uint64_t random;
     uint32_t subsums, fed; /* how many there are, and went into a map already */
     double seconds;        /* spent in making subsums, */
-    sunder_counts counts; /* and done there */
+    sunder_counts counts;  /* and done there */
 } sunder_i_uniting;
 
 /* Puts n subsums in the order that the options ask for; they are consecutive numbers, ascending. False if memory is

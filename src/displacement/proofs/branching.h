@@ -3,9 +3,9 @@
 #ifndef SUNDER_I_BRANCHING_H
 #define SUNDER_I_BRANCHING_H
 
+#include "displacement/programs/quadratic.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/proofs/ways.h"
-#include "displacement/programs/quadratic.h"
 
 /* No deeper than this. */
 #define SUNDER_I_LEVELS 192
