@@ -188,7 +188,7 @@ static uint32_t small_side(const bisector *b, uint32_t v, uint32_t w)
     return between < rest ? between : rest;
 }
 
-/* v's cone as two vectors for the eye. */
+/* Lists the vertices that v sees in its cone, in b->sight.seen. */
 static bool look_in_cone(bisector *b, uint32_t v, const sector *s)
 {
     const sunder_i_point cone[2] = {s->low, s->high};

@@ -1,4 +1,5 @@
-/* The sum with its rung of numbers forced, for tests: force_wide computes on big integers throughout. */
+/* The sum: which road leads to it is decided here, and sunder_minkowski_sum() is this with force_wide false. With
+ * force_wide, which tests ask for, numbers are big integers throughout, whatever the operands. */
 #ifndef SUNDER_I_MINKOWSKI_H
 #define SUNDER_I_MINKOWSKI_H
 

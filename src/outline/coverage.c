@@ -228,7 +228,7 @@ static void sweep(finder *f, uint32_t number)
         }
         i = j;
     }
-    SUNDER_I_ASSERT(s.cover == 0 && s.left == 0 && s.right == 0 && s.domain == 0); /* what begins ends */
+    SUNDER_I_ASSERT(s.cover == 0 && s.left == 0 && s.right == 0 && s.domain == 0); /* every interval has ended */
 }
 
 static void sweep_line(finder *f, uint32_t number, const uint64_t *pair, size_t n)

@@ -82,7 +82,7 @@ bool sunder_i_map_push(sunder_i_planar_map *map, sunder_i_list *list, uint32_t i
     return pushed;
 }
 
-/* Of a number in an arena. */
+/* What the limbs of a number take in an arena, which gives out multiples of 16. */
 static size_t bytes_of(sunder_i_big n)
 {
     const size_t limbs = (size_t)(n.size < 0 ? -n.size : n.size);

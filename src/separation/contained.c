@@ -46,11 +46,11 @@ static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int s
     return sunder_i_fraction_cmp(l, &out->low, &out->high) < 0;
 }
 
-/* Do the closed intervals cover [low, high] but for points? Sorts them. */
+/* Do the n closed intervals, in any order, cover *want but for points? */
 static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const interval *want)
 {
     sunder_i_fraction reached = want->low;
-    /* As long as one begins at or before what is reached and ends past it, go on: n is small. */
+    /* While one begins at or before what is reached and ends past it, go on from its end; n is small. */
     bool grew = true;
     while (grew && sunder_i_fraction_cmp(l, &reached, &want->high) < 0) {
         grew = false;

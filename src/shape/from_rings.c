@@ -156,7 +156,7 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
     sunder_i_arena_release(arena, mark);
 }
 
-/* What build() works with. */
+/* A shape in the making. */
 typedef struct builder {
     const sunder_i_input *in;
     sunder_validity validity;

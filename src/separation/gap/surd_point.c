@@ -31,7 +31,7 @@ int sunder_i_surd_point_cmp(sunder_i_operands *g, const sunder_i_surd_point *u, 
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     sunder_i_roots roots = u->roots;
     int place[SUNDER_I_SURD_ROOTS];
-    sunder_i_roots_join(a, &roots, &v->roots, place); /* two and two fit */
+    sunder_i_roots_join(a, &roots, &v->roots, place); /* at most two each, and there is room for four */
     const sunder_i_surd ux = sunder_i_surd_scale(a, u->x, v->w), uy = sunder_i_surd_scale(a, u->y, v->w);
     const sunder_i_surd vx = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->x, place), u->w);
     const sunder_i_surd vy = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->y, place), u->w);
