@@ -1,5 +1,5 @@
-/* What limits and fixed bodies leave no solution for: pairs that no admissible moves resolve, found exactly
- * before anything moves; pairs that a cluster gave up. */
+/* What limits and fixed bodies leave no solution for by itself: pairs that no admissible moves resolve, found exactly
+ * before anything moves. (What clusters give up later: given_up.c.) */
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/resolution.h"
 

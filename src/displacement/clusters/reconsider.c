@@ -172,7 +172,7 @@ static size_t list_requirements(const sunder_i_model *model, sunder_i_requiremen
     return n;
 }
 
-/* Components in which a pair was given up. */
+/* Marks the components in which a pair was given up, but for those that were asked about before in vain. */
 static sunder_status ask(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;

@@ -8,7 +8,7 @@
 /* How often a cluster's margin, which grows fourfold each time, may grow: 28 bits, which leaves half of a double. */
 #define MOST_MARGINS 14
 
-/* ---- Better proofs (reconsider.c) -------------------------------------------------------------------------------- */
+/* ---- Is there a solution after all? (reconsider.c) --------------------------------------------------------------- */
 
 /* How long a solution is looked for, in constraints looked at: so many for each body. Among more than these bodies none
  * was ever found, and the pairs are asked about one by one. */

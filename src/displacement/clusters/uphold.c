@@ -1,18 +1,15 @@
 /* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
  *
  * The search heeds relaxations (relaxation.c) up to its own rounding, and moves are rounded to what doubles hold; so
- * a pair may stand worse by a unit in the last place. It is taken back pair by pair, and the rest keeps its
- * solution:
+ * a pair may stand worse by a unit in the last place. Such pairs are mended one by one, the rest keeps its solution:
  *
- * - one of the two is put a unit or a few beside its place, or takes the other's move, or all that moved alike take
- * one
- *     move, or one coordinate of it, where they are then in nobody's way;
- * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is
- * pinned
- *     to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
+ * - one of the two is put a unit or a few beside its place; or takes the other's move, or one coordinate of it; or all
+ *   that moved alike take one move, or one coordinate of it: where they are then in nobody's way;
+ * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
+ *   to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
  *
- * A place that is taken breaks the rule for no pair, and a body that is pinned stays so, and with all at home
- * nothing stands worse: the loop ends. */
+ * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
+ * stands worse: the loop ends. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
@@ -103,8 +100,7 @@ static bool take(trial *t, uint32_t b)
     return true;
 }
 
-/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the
- * start? */
+/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the start? */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     trial *t = context;

@@ -1,9 +1,10 @@
-/* What two features owe each other: the one definition that relations, search, proofs and bound ask.
+/* What two features owe each other: the definition that relations, clusters, proofs, report and bound ask, exactly.
  *
  *   apart    their interiors are disjoint and their distance is at least the gap
  *   inside   one lies in the other, up to the tolerance, and the rules let contained features overlap
  *
- * A pair that is neither is in conflict. A further way is added here, and is then known to all of them. */
+ * A pair that is neither is in conflict. The search demands the same in doubles, piece by piece, in words of its own
+ * (search/piece_pairs.c), and what it finds is checked against this: a further way has to be told to both. */
 #ifndef SUNDER_I_RESOLUTION_H
 #define SUNDER_I_RESOLUTION_H
 

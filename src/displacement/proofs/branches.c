@@ -4,7 +4,7 @@
  * nearer than they owe; one of them is chosen, and each of its ways (ways.c) is a case: beyond this line, and behind
  * those before it. If the proof of a case does not use what the case says, it is a proof of the node as well, and the
  * other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
- * [conflict- directed backjumping; Prosser 1993]. */
+ * [conflict-directed backjumping; Prosser 1993]. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -123,7 +123,7 @@ static bool add_leaf(sunder_i_branching *c, sunder_i_levels *levels, size_t *roo
     return true;
 }
 
-/* A node for the ways in c->scratch out of a meeting. */
+/* A node for a violation, with the ways out of it that are in c->scratch. */
 static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t *root)
 {
     *root = c->nodes;

@@ -10,7 +10,7 @@
 /* No deeper than this. */
 #define SUNDER_I_LEVELS 192
 
-/* Overlaps of a candidate that are weighed against each other. */
+/* Violations of a candidate that are weighed against each other. */
 #define SUNDER_I_CHOICES 8
 
 /* A set of levels. */
@@ -113,7 +113,7 @@ typedef struct sunder_i_violation {
 /* The deepest of the candidate's, one of each pair of bodies, deepest first; returns how many. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
 /* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */
-size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *meeting);
+size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation);
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */
 

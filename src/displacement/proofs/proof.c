@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* What a subtree has. */
+/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes. */
 static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
 {
     const sunder_i_node *node = &c->node[at];

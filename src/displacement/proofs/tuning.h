@@ -14,7 +14,7 @@
 
 /* ---- The branches (branches.c, violations.c) --------------------------------------------------------------------- */
 
-/* Only overlaps of at least this share of the deepest are weighed: shallow ones tell little. */
+/* Only violations of at least this share of the deepest are weighed: shallow ones tell little. */
 #define DEEP 0.5
 /* What a look at two bodies' pieces costs, in constraints looked at. */
 #define LOOK_WORK 16

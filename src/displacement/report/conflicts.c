@@ -46,7 +46,7 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* ---- How bad ----------------------------------------------------------------------------------------------------- */
 
-/* The shapes as they stand, as shapes. */
+/* A feature where it stands, as a shape whose coordinates hold the move. */
 static sunder_status settle(const sunder_i_translate *stand, sunder_shape **out, sunder_error *err)
 {
     bool exact;

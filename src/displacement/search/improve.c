@@ -163,7 +163,7 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
     sunder_i_free(order);
 }
 
-/* One round of both. */
+/* Every place once, then every side once; in a large cluster with those about each only, and then all go down. */
 static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     sunder_i_neighbourhood about = {0};

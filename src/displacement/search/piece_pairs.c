@@ -127,7 +127,7 @@ static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
                                      corner + 2 * (size_t)part->b->corner, part->b->corners, part->offset, &s->scratch);
 }
 
-/* What a part without a relaxation owes, n edges of its obstacle given. */
+/* What two pieces without a relaxation owe each other, n edges of its obstacle given. */
 static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, const sunder_i_obstacle_edge *edge,
                    size_t n)
 {

@@ -1,12 +1,12 @@
 /* Pairs that were given up are asked again for all that they owe.
  *
- * Pairs that were relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any
- * more each is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several
- * members are in conflict for all of these, and then for each, since one may have no solution where others do. At
- * first nobody but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster.
- * What overlaps and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked
- * for anything. All are asked at one stage before any is at the next, so that where the effort ends the small
- * questions have been put; it grows with the number of bodies and of pairs, and with nothing else. */
+ * Pairs that were relaxed together (give_up.c) may be more than need be. So once nothing joins clusters any more each
+ * is asked by itself, those that overlap first, the rest keeping what they have: blocks of which several members are
+ * in conflict for all of these, and then for each, since one may have no solution where others do. At first nobody
+ * but the pair moves, then more and more of those about it (neighbourhood.c), at last the whole cluster. What overlaps
+ * and finds no solution is asked not to overlap, at least, before any pair that is only too near is asked for anything.
+ * All are asked at one stage before any is at the next, so that where the effort ends the small questions have been
+ * put; it grows with the number of bodies and of pairs, and with nothing else. */
 #include "displacement/search/neighbourhood.h"
 #include "displacement/search/stages.h"
 #include "displacement/search/tuning.h"
@@ -25,7 +25,7 @@ typedef struct retrying {
     bool *settled;   /* [n] nothing is left to be asked */
     bool *in_vain;   /* [n] with more bodies the question would be the same */
     double *stand;   /* [2 bodies] */
-    uint64_t effort; /* till when */
+    uint64_t effort; /* the work done (sunder_i_search_work()) at which asking ends */
     bool any;        /* something was resolved */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
@@ -109,7 +109,8 @@ static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
 
 /* ---- At one stage ------------------------------------------------------------------------------------------------ */
 
-/* With all that the cluster has. */
+/* The whole cluster from where it stands: down, and where that is in vain once out of clashes and down again. If that
+ * fails too all are put back. */
 static bool settle_all(retrying *p)
 {
     sunder_i_search *s = p->search;
@@ -165,8 +166,8 @@ static bool grant(retrying *p, size_t k, size_t level, bool resolve)
     return false;
 }
 
-/* What is asked, in this order: as few overlaps as can be, then as few pairs. Truces of two bodies first together; of
- * those of which that had no solution, each. */
+/* What is asked, in this order: as few overlaps as can be, then as few pairs. The relaxations between two bodies are
+ * asked about together first; of those of which that had no solution, each. */
 typedef struct request {
     bool overlap, resolve, part;
 } request;

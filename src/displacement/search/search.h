@@ -97,8 +97,8 @@ typedef struct sunder_i_piece_pair {
 
 typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *part, void *context);
 
-/* All parts of the pair whose boxes are within reach of each other at relative position u; yields: they are held to
- * their relaxations, where there are any. */
+/* All pairs of pieces of the two whose boxes are within reach of each other at relative position u; yields: they are
+ * held to their relaxations, where there are any. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
 /* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
@@ -111,8 +111,8 @@ const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *sea
                                                       const sunder_i_body_piece *b);
 /* Shifts the n corners of an obstacle as the relaxation says; returns the gap that it leaves. */
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
-/* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out),
- * and the gap that it owes. */
+/* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out), and
+ * the gap that it owes. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
 /* The same as edges, *n of them, which stay until the next call; NULL: memory is out. */
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,

@@ -77,8 +77,8 @@
 /* ---- A few bodies by themselves (neighbourhood.c), and the whole (retry.c) --------------------------------------- */
 
 /* What a descent may take, in constraints looked at (some hundred million a second): so much, and so much for each
- * body; and where it is only to make a solution cheaper. With the latter a crowd of 1,500 houses takes
- * 9.4 s for 11.4, and ends no dearer. */
+ * body; and where it is only to make a solution cheaper. With the latter a crowd of 1,500 houses takes 9.4 s for
+ * 11.4, and ends no dearer. */
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
 #define SHORT_PATIENCE 20000u
