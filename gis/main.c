@@ -1,7 +1,7 @@
 /* main.c: which command, with which options. */
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "base/nearest.h"
+#include "base/spelling.h"
 #include "commands/commands.h"
 #include "sunder.h"
 
@@ -93,9 +93,9 @@ static int close_stdout(int status)
 static int unknown_command(const char *word)
 {
     gis_error error;
-    gis_nearest search = gis_nearest_to(word, strlen(word));
+    gis_spelling search = gis_spelling_of(word, strlen(word));
     for (size_t i = 0; i < gis_n_commands; i++)
-        gis_nearest_offer(&search, gis_commands[i].name, strlen(gis_commands[i].name));
+        gis_spelling_offer(&search, gis_commands[i].name, strlen(gis_commands[i].name));
     if (search.best)
         gis_fail_usage(&error, "unknown command %s; did you mean %s? `sunder --help` lists the commands", word,
                        search.best);

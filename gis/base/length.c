@@ -14,12 +14,12 @@ typedef struct unit {
     double numerator, denominator;
 } unit;
 
-static const unit units[] = {
+static const unit known_units[] = {
     {"", GIS_LAYER_UNIT, 1, 1},         {"m", GIS_METRE, 1, 1},
     {"km", GIS_KILOMETRE, 1000, 1},     {"ft", GIS_FOOT, 3048, 10000},
     {"us-ft", GIS_US_FOOT, 1200, 3937}, {"mm", GIS_SHEET_MILLIMETRE, 1, 1000},
 };
-#define N_UNITS (sizeof units / sizeof units[0])
+#define N_UNITS (sizeof known_units / sizeof known_units[0])
 
 /* CRS definitions give their unit as a decimal of some ten digits; two that agree to this are the same unit (the
  * international and the US foot differ by 2e-6). */
@@ -64,8 +64,8 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
         return false;
     }
     for (size_t u = 0; u < N_UNITS; u++) {
-        if (strlen(units[u].suffix) == n - split && memcmp(text + split, units[u].suffix, n - split) == 0) {
-            *out = (gis_length){value == 0 ? 0.0 : value, units[u].unit};
+        if (strlen(known_units[u].suffix) == n - split && memcmp(text + split, known_units[u].suffix, n - split) == 0) {
+            *out = (gis_length){value == 0 ? 0.0 : value, known_units[u].unit};
             return true;
         }
     }
@@ -80,14 +80,14 @@ static bool is_unit(const unit *candidate, double metres)
     return fabs(own - metres) <= same_unit * own;
 }
 
-bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, const char *what, double *out,
+bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *units, const char *what, double *out,
                                gis_error *error)
 {
     if (given->value == 0) { /* zero is zero in every unit, on every layer */
         *out = 0;
         return true;
     }
-    if (rule->geographic) {
+    if (units->geographic) {
         return gis_fail(error,
                         "%s: the layer's coordinates are degrees, in which no length can be measured; "
                         "reproject it first (ogr2ogr -t_srs)",
@@ -97,25 +97,26 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
         *out = given->value;
         return true;
     }
-    if (given->unit == GIS_SHEET_MILLIMETRE && rule->scale == 0) {
+    if (given->unit == GIS_SHEET_MILLIMETRE && units->scale == 0) {
         return gis_fail(error, "%s: mm are measured on the sheet; give the map's scale, as in --scale 25000", what);
     }
-    if (!rule->has_crs) {
+    if (!units->has_crs) {
         return gis_fail(error,
                         "%s: there is no CRS that would tell its unit; give the length without a unit, or "
                         "give the layer a CRS (--input-crs), or reproject it first",
                         what);
     }
     size_t from = 0, to = 0;
-    while (units[from].unit != given->unit) from++;
-    while (to < N_UNITS && !is_unit(&units[to], rule->unit_metres)) to++;
+    while (known_units[from].unit != given->unit) from++;
+    while (to < N_UNITS && !is_unit(&known_units[to], units->unit_metres)) to++;
     double value = given->value;
-    if (given->unit == GIS_SHEET_MILLIMETRE) value *= rule->scale;
+    if (given->unit == GIS_SHEET_MILLIMETRE) value *= units->scale;
     if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
-        value = value * units[from].numerator / units[from].denominator / rule->unit_metres;
-    else if (units[to].numerator * units[from].denominator != units[from].numerator * units[to].denominator)
-        value =
-            value * (units[from].numerator * units[to].denominator) / (units[from].denominator * units[to].numerator);
+        value = value * known_units[from].numerator / known_units[from].denominator / units->unit_metres;
+    else if (known_units[to].numerator * known_units[from].denominator !=
+             known_units[from].numerator * known_units[to].denominator)
+        value = value * (known_units[from].numerator * known_units[to].denominator) /
+                (known_units[from].denominator * known_units[to].numerator);
     if (!isfinite(value)) {
         return gis_fail(error, "%s: too long for a double", what);
     }
@@ -123,8 +124,8 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, c
     return true;
 }
 
-bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_ruler *rule, const char *what,
+bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_crs_units *units, const char *what,
                                         double *out, gis_error *error)
 {
-    return !given->text || gis_length_in_layer_units(&given->length, rule, what, out, error);
+    return !given->text || gis_length_in_layer_units(&given->length, units, what, out, error);
 }

@@ -31,12 +31,12 @@ typedef struct gis_optional_length {
 } gis_optional_length;
 
 /* What a layer's CRS says about its coordinates, and the scale of the map. */
-typedef struct gis_ruler {
+typedef struct gis_crs_units {
     bool has_crs;
     bool geographic;    /* coordinates are angles: no length but zero has a meaning */
     double unit_metres; /* metres in one unit of a projected CRS */
     double scale;       /* N of 1:N, 0 if not given */
-} gis_ruler;
+} gis_crs_units;
 
 /* Reads a finite decimal number (no inf, nan or hexadecimal) that fills text[0..n). */
 bool gis_length_parse_number(const char *text, size_t n, double *value);
@@ -46,10 +46,10 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
 
 /* The length in the units of the layer. The message of a failure names `what`, the option or operand, and says
  * what to do. */
-bool gis_length_in_layer_units(const gis_length *given, const gis_ruler *rule, const char *what, double *out,
+bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *units, const char *what, double *out,
                                gis_error *error);
 /* The same of one that may not be given: then *out stays as it is. */
-bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_ruler *rule, const char *what,
+bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_crs_units *units, const char *what,
                                         double *out, gis_error *error);
 
 #endif

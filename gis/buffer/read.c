@@ -11,7 +11,7 @@ bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_err
     *out = (gis_buffer){.request = request, .field = -1};
     if (!gis_layer_shapes_read(&request->layer, input, error) ||
         !gis_field_find(input->source, "--dissolve-field", request->dissolve_field, &out->field, error) ||
-        !gis_shape_read(&request->shape, &input->rule, gis_source_crs(input->source), &out->shape_source, &out->shape,
+        !gis_shape_read(&request->shape, &input->units, gis_source_crs(input->source), &out->shape_source, &out->shape,
                         error))
         return false;
     gis_layer_warn_of_crs(input);

@@ -96,7 +96,7 @@ int gis_command_pair(const gis_options *options)
     double gap = 0;
     bool taken, ok = gis_destinations_check(&to, &taken, &error) && gis_resolve_operands(options, &request, &error) &&
                      gis_operands_read(&request, &operands, &error) &&
-                     gis_optional_length_in_layer_units(&asked, &operands.rule, "--gap", &gap, &error);
+                     gis_optional_length_in_layer_units(&asked, &operands.units, "--gap", &gap, &error);
     ok = ok && (!to.output || open_sink(options, &operands, to.output, &sink, &error));
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
         ok = gis_core_failed(&error, NULL, &why);

@@ -6,7 +6,7 @@
 #include "commands/resolve.h"
 #include "commands/stages.h"
 #include "layer/output.h"
-#include "read/ruler.h"
+#include "read/crs_units.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -124,7 +124,7 @@ static const char *unit_name(const separate_run *run)
     OGRSpatialReferenceH crs = gis_source_crs(run->input.source);
     char *name = NULL;
     if (!gis_crs_is_known(crs)) return "unknown";
-    if (run->input.rule.geographic)
+    if (run->input.units.geographic)
         OSRGetAngularUnits(crs, &name);
     else
         OSRGetLinearUnits(crs, &name);

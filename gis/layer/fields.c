@@ -3,7 +3,7 @@
 #include "layer/fields.h"
 
 #include "base/length.h"
-#include "base/nearest.h"
+#include "base/spelling.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,10 +15,10 @@ bool gis_field_find(const gis_source *source, const char *option, const char *na
     *field = name ? gis_source_field(source, name) : -1;
     if (!name || *field >= 0) return true;
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(gis_source_layer(source));
-    gis_nearest search = gis_nearest_to(name, strlen(name));
+    gis_spelling search = gis_spelling_of(name, strlen(name));
     for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++) {
         const char *other = OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i));
-        gis_nearest_offer(&search, other, strlen(other));
+        gis_spelling_offer(&search, other, strlen(other));
     }
     return gis_fail(error, "%s: layer %s has no field %s%s%s%s", option, gis_source_name(source), name,
                     search.best ? "; did you mean " : "", search.best ? search.best : "", search.best ? "?" : "");

@@ -5,7 +5,7 @@
 #include "base/core.h"
 #include "base/message.h"
 #include "layer/fields.h"
-#include "read/ruler.h"
+#include "read/crs_units.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -70,7 +70,7 @@ void gis_layer_warn_of_crs(const gis_layer_input *input)
             box[k + 2] = fmax(box[k + 2], one[k + 2]);
         }
     }
-    gis_ruler_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+    gis_crs_units_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
 }
 
 static bool make_layer(gis_layer_input *input, gis_error *error)
@@ -86,7 +86,7 @@ static bool start_reading(const gis_layer_input_request *request, gis_layer_inpu
 {
     *out = (gis_layer_input){.request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
     if (!open_source(out, error)) return false;
-    out->rule = gis_ruler_of(gis_source_crs(out->source), request->scale);
+    out->units = gis_crs_units_of(gis_source_crs(out->source), request->scale);
     out->shape = calloc(out->n + 1, sizeof *out->shape);
     return out->shape || gis_no_memory(error);
 }

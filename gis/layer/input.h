@@ -25,7 +25,7 @@ typedef struct gis_layer_input {
     size_t n;       /* features */
     bool points;    /* the features are points, and the shapes the symbols at them */
     bool as_chords; /* arcs are taken as their polylines, and not grown to contain the arcs */
-    gis_ruler rule;
+    gis_crs_units units;
     double gap, max_shift;   /* in units of the layer; INFINITY: no limit */
     double tolerance;        /* negative: the default */
     sunder_shape **shape;    /* [n] NULL: nothing that could conflict */

@@ -20,9 +20,10 @@ const char *gis_weighting_string(gis_weighting weighting)
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
-    if (!gis_optional_length_in_layer_units(&rules->gap, &input->rule, "--gap", &input->gap, error) ||
-        !gis_optional_length_in_layer_units(&rules->max_shift, &input->rule, "--max-shift", &input->max_shift, error) ||
-        !gis_optional_length_in_layer_units(&rules->touch_tolerance, &input->rule, "--touch-tolerance",
+    if (!gis_optional_length_in_layer_units(&rules->gap, &input->units, "--gap", &input->gap, error) ||
+        !gis_optional_length_in_layer_units(&rules->max_shift, &input->units, "--max-shift", &input->max_shift,
+                                            error) ||
+        !gis_optional_length_in_layer_units(&rules->touch_tolerance, &input->units, "--touch-tolerance",
                                             &input->tolerance, error))
         return false;
     if (input->gap > 0 && input->tolerance >= input->gap)

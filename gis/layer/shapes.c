@@ -110,7 +110,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
                         gis_error *error)
 {
     sunder_shape *symbol;
-    if (!gis_shape_from_text(text, who, &input->rule, input->request->invalid, &symbol, NULL, error)) return false;
+    if (!gis_shape_from_text(text, who, &input->units, input->request->invalid, &symbol, NULL, error)) return false;
     if (sunder_shape_is_empty(symbol)) {
         sunder_shape_free(symbol);
         return gis_fail_usage(error, "%s (%s): the symbol is empty; it must enclose something", who, text);

@@ -3,7 +3,7 @@
  * no option is an error, never an operand, so that a misspelt option cannot become a file name. */
 #include "options/options.h"
 
-#include "base/nearest.h"
+#include "base/spelling.h"
 
 #include <float.h>
 #include <stdlib.h>
@@ -177,7 +177,7 @@ static size_t dashes(const char *word, size_t n)
 static bool unknown_option(const gis_command *command, const char *word, size_t n, gis_error *error)
 {
     const gis_option *elsewhere = find_option(GIS_ALL, word, n);
-    gis_nearest search = gis_nearest_to(word + dashes(word, n), n - dashes(word, n));
+    gis_spelling search = gis_spelling_of(word + dashes(word, n), n - dashes(word, n));
     const char *spelling = NULL;
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
@@ -185,7 +185,7 @@ static bool unknown_option(const gis_command *command, const char *word, size_t 
         for (const char *c = option->names; *c; c += strspn(c, " ")) {
             size_t length = strcspn(c, " "), skip = dashes(c, length);
             const char *before = search.best;
-            gis_nearest_offer(&search, c + skip, length - skip);
+            gis_spelling_offer(&search, c + skip, length - skip);
             if (search.best != before) spelling = c;
             c += length;
         }

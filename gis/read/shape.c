@@ -6,7 +6,7 @@
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
-#include "read/ruler.h"
+#include "read/crs_units.h"
 
 #include <cpl_conv.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ bool gis_shape_from_source(const gis_source_request *request, gis_invalid policy
     return true;
 }
 
-bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGRSpatialReferenceH crs,
+bool gis_shape_read(const gis_shape_request *request, const gis_crs_units *units, OGRSpatialReferenceH crs,
                     gis_source **source, sunder_shape **out, gis_error *error)
 {
     const char *name = request->option, *text = request->text;
@@ -84,7 +84,7 @@ bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGR
     sunder_shape *shape = NULL;
     bool ok;
     if (gis_shape_is_text(text)) {
-        ok = gis_shape_from_text(text, name, rule, request->invalid, &shape, NULL, error);
+        ok = gis_shape_from_text(text, name, units, request->invalid, &shape, NULL, error);
     } else {
         const gis_source_request whole = {.path = text};
         ok = gis_shape_from_source(&whole, request->invalid, name, &opened, &shape, NULL, error) &&

@@ -20,8 +20,8 @@ typedef struct gis_shape_request {
 
 /* In any form; it must enclose something. A data source is read whole (--where and the like select from the operands),
  * is of the layer's CRS (borrowed; may be NULL) where both are known, and is handed to *source, else untouched. Lengths
- * inside a text are converted by the ruler. */
-bool gis_shape_read(const gis_shape_request *request, const gis_ruler *rule, OGRSpatialReferenceH crs,
+ * inside a text are converted by `units`. */
+bool gis_shape_read(const gis_shape_request *request, const gis_crs_units *units, OGRSpatialReferenceH crs,
                     gis_source **source, sunder_shape **out, gis_error *error);
 
 #endif

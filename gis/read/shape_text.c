@@ -5,8 +5,8 @@
 #include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "base/nearest.h"
 #include "base/resources.h"
+#include "base/spelling.h"
 #include "read/wkt.h"
 
 #include <errno.h>
@@ -36,7 +36,7 @@ bool gis_shape_is_text(const char *text)
 }
 
 /* One measure of a standard shape: its radius, side, width or height. */
-static bool read_length(const char *text, size_t n, const char *what, const char *who, const gis_ruler *rule,
+static bool read_length(const char *text, size_t n, const char *what, const char *who, const gis_crs_units *units,
                         double *out, gis_error *error)
 {
     gis_length length;
@@ -45,7 +45,7 @@ static bool read_length(const char *text, size_t n, const char *what, const char
     if (!gis_length_parse(text, n, &length, &why))
         return gis_fail_usage(error, "%s: the %s, %.*s: %s", who, what, (int)n, text, why);
     if (length.value == 0) return gis_fail_usage(error, "%s: the %s must be greater than 0", who, what);
-    return gis_length_in_layer_units(&length, rule, who, out, error);
+    return gis_length_in_layer_units(&length, units, who, out, error);
 }
 
 /* A failure of the core about an argument is wrong usage; another one is a failure of the run. */
@@ -55,12 +55,12 @@ static bool core_failed(const char *who, const sunder_error *why, gis_error *err
     return gis_core_failed(error, who, why);
 }
 
-static bool read_disc(const char *text, bool inside, const char *who, const gis_ruler *rule, sunder_shape **out,
+static bool read_disc(const char *text, bool inside, const char *who, const gis_crs_units *units, sunder_shape **out,
                       gis_error *error)
 {
     size_t n = strcspn(text, ":");
     double radius, segments = default_segments;
-    if (!read_length(text, n, "radius", who, rule, &radius, error)) return false;
+    if (!read_length(text, n, "radius", who, units, &radius, error)) return false;
     if (text[n] == ':') {
         const char *count = text + n + 1;
         if (!*count) return gis_fail_usage(error, "%s: the number of segments is missing", who);
@@ -75,16 +75,16 @@ static bool read_disc(const char *text, bool inside, const char *who, const gis_
     return true;
 }
 
-static bool read_rectangle(const char *text, bool square, const char *who, const gis_ruler *rule, sunder_shape **out,
-                           gis_error *error)
+static bool read_rectangle(const char *text, bool square, const char *who, const gis_crs_units *units,
+                           sunder_shape **out, gis_error *error)
 {
     double width, height;
     size_t n = square ? strlen(text) : strcspn(text, "x");
     if (!square && text[n] != 'x')
         return gis_fail_usage(error, "%s: expected rectangle:WIDTHxHEIGHT, as in rectangle:4x2.5", who);
-    if (!read_length(text, n, square ? "side" : "width", who, rule, &width, error)) return false;
+    if (!read_length(text, n, square ? "side" : "width", who, units, &width, error)) return false;
     height = width;
-    if (!square && !read_length(text + n + 1, strlen(text + n + 1), "height", who, rule, &height, error)) return false;
+    if (!square && !read_length(text + n + 1, strlen(text + n + 1), "height", who, units, &height, error)) return false;
     sunder_error why;
     if (sunder_shape_rectangle(width, height, out, &why) != SUNDER_OK) return core_failed(who, &why, error);
     return true;
@@ -151,7 +151,7 @@ bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sun
     return ok;
 }
 
-static bool shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+static bool shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
                             sunder_shape **out, double *building, gis_error *error)
 {
     int standard = standard_shape(text);
@@ -159,8 +159,8 @@ static bool shape_from_text(const char *text, const char *who, const gis_ruler *
         const char *rest = text + strlen(standard_shapes[standard]);
         double begin = gis_clock();
         bool ok = standard == DISC || standard == INSIDE_DISC
-                      ? read_disc(rest, standard == INSIDE_DISC, who, rule, out, error)
-                      : read_rectangle(rest, standard == SQUARE, who, rule, out, error);
+                      ? read_disc(rest, standard == INSIDE_DISC, who, units, out, error)
+                      : read_rectangle(rest, standard == SQUARE, who, units, out, error);
         *building += gis_clock() - begin;
         return ok;
     }
@@ -185,20 +185,20 @@ void gis_shape_name(const char *who, const char *text, char *name, size_t size)
     snprintf(name, size, "%s (%.*s%s)", who, (int)n, text, text[n] ? "..." : "");
 }
 
-bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error)
 {
     double unasked = 0;
     char name[GIS_SHAPE_NAME_SIZE];
     gis_shape_name(who, text, name, sizeof name);
-    return shape_from_text(text, name, rule, policy, out, building ? building : &unasked, error);
+    return shape_from_text(text, name, units, policy, out, building ? building : &unasked, error);
 }
 
 const char *gis_shape_prefix_meant(const char *text)
 {
-    gis_nearest search = gis_nearest_to(text, strcspn(text, ":"));
+    gis_spelling search = gis_spelling_of(text, strcspn(text, ":"));
     if (text[search.n] == ':')
         for (int i = 0; i < N_STANDARD; i++)
-            gis_nearest_offer(&search, standard_shapes[i], strlen(standard_shapes[i]) - 1);
+            gis_spelling_offer(&search, standard_shapes[i], strlen(standard_shapes[i]) - 1);
     return search.best;
 }

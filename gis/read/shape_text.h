@@ -9,9 +9,9 @@
 /* Is it anything but a data source? */
 bool gis_shape_is_text(const char *text);
 
-/* A SHAPE that gis_shape_is_text(); lengths inside are converted by the ruler. `who` and the text open messages. A
+/* A SHAPE that gis_shape_is_text(); lengths inside are converted by `units`. `who` and the text open messages. A
  * repair is warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
-bool gis_shape_from_text(const char *text, const char *who, const gis_ruler *rule, gis_invalid policy,
+bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
                          sunder_shape **out, double *building, gis_error *error);
 
 /* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)",

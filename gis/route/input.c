@@ -5,7 +5,7 @@
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "read/ruler.h"
+#include "read/crs_units.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -157,7 +157,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     else if (held)
         ok = gis_shape_of_wkt(wkt, who, policy, &input->shape[0], &unasked, error);
     else
-        ok = gis_shape_from_text(text, "OBSTACLES", &input->rule, policy, &input->shape[0], NULL, error);
+        ok = gis_shape_from_text(text, "OBSTACLES", &input->units, policy, &input->shape[0], NULL, error);
     free(held);
     return ok;
 }
@@ -184,7 +184,7 @@ static void warn_of_crs(const gis_route_input *input)
         join_place(box, one[0], one[1]);
         join_place(box, one[2], one[3]);
     }
-    gis_ruler_warn(input->crs, gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
+    gis_crs_units_warn(input->crs, gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
 }
 
 bool gis_route_input_read(const gis_route_request *request, gis_route_input *out, gis_error *error)
@@ -192,11 +192,11 @@ bool gis_route_input_read(const gis_route_request *request, gis_route_input *out
     *out = (gis_route_input){.request = request};
     bool text = gis_shape_is_text(request->obstacles);
     if (!text && !read_layer(out, error)) return false;
-    out->rule = gis_ruler_of(out->crs, request->scale);
+    out->units = gis_crs_units_of(out->crs, request->scale);
     if (text && !read_text(out, request->obstacles, error)) return false;
     warn_of_crs(out);
-    if (!gis_shape_read(&request->robot, &out->rule, out->crs, &out->robot_source, &out->robot, error) ||
-        !gis_optional_length_in_layer_units(&request->gap, &out->rule, "--gap", &out->gap, error))
+    if (!gis_shape_read(&request->robot, &out->units, out->crs, &out->robot_source, &out->robot, error) ||
+        !gis_optional_length_in_layer_units(&request->gap, &out->units, "--gap", &out->gap, error))
         return false;
     for (size_t i = 0; i < out->n; i++)
         out->obstacle[i] = (sunder_obstacle){out->shape[i], out->lines[i].xy, out->lines[i].end, out->lines[i].lines};

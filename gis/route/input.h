@@ -30,7 +30,7 @@ typedef struct gis_route_input {
     const gis_route_request *request;
     gis_source *source;       /* of the obstacles; NULL: they are a text */
     gis_source *robot_source; /* likewise */
-    gis_ruler rule;
+    gis_crs_units units;
     OGRSpatialReferenceH crs; /* borrowed, or NULL */
     size_t n;
     sunder_shape **shape;      /* [n] NULL: no polygons */

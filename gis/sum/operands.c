@@ -2,7 +2,7 @@
  * meaning. */
 #include "sum/operands.h"
 
-#include "read/ruler.h"
+#include "read/crs_units.h"
 #include "read/source_files.h"
 
 static bool check_crs(const gis_operands *operands)
@@ -27,11 +27,11 @@ bool gis_operands_read(const gis_operands_request *request, gis_operands *out, g
         if (ok && !gis_crs_is_known(read.crs)) read.crs = gis_source_crs(*source[i]);
     }
     if (ok && !check_crs(&read)) ok = gis_fail(error, "P and Q have different CRSs; reproject one of them first");
-    read.rule = gis_ruler_of(read.crs, request->scale);
+    read.units = gis_crs_units_of(read.crs, request->scale);
     for (int i = 0; ok && i < 2; i++)
         if (!*source[i])
-            ok = gis_shape_from_text(request->text[i], names[i], &read.rule, request->invalid, shape[i], &read.building,
-                                     error);
+            ok = gis_shape_from_text(request->text[i], names[i], &read.units, request->invalid, shape[i],
+                                     &read.building, error);
     if (ok)
         *out = read;
     else

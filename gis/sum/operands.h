@@ -15,7 +15,7 @@ typedef struct gis_operands_request {
 typedef struct gis_operands {
     sunder_shape *p, *q;
     gis_source *p_source, *q_source; /* NULL where the operand is a text */
-    gis_ruler rule;                  /* of the CRS of the operands, if any */
+    gis_crs_units units;             /* of the CRS of the operands, if any */
     OGRSpatialReferenceH crs;        /* borrowed from a source, or NULL */
     double building;                 /* seconds from doubles in memory to p and q */
 } gis_operands;

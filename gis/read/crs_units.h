@@ -1,6 +1,6 @@
-/* ruler.h: what a CRS says about lengths on its map. `crs` may be NULL everywhere. */
-#ifndef GIS_RULER_H
-#define GIS_RULER_H
+/* crs_units.h: what a CRS says about lengths on its map. `crs` may be NULL everywhere. */
+#ifndef GIS_CRS_UNITS_H
+#define GIS_CRS_UNITS_H
 
 #include <ogr_srs_api.h>
 
@@ -11,9 +11,9 @@ bool gis_crs_is_known(OGRSpatialReferenceH crs);
 /* Are they the same, as far as both are known? */
 bool gis_crs_may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q);
 /* `scale` is N of 1:N, 0 if it was not given. */
-gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, double scale);
+gis_crs_units gis_crs_units_of(OGRSpatialReferenceH crs, double scale);
 /* Warns of a Mercator projection, whose lengths are not lengths on the ground, and of degrees, with the name of the
  * layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local scale is measured. */
-void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
+void gis_crs_units_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
 
 #endif

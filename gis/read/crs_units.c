@@ -1,6 +1,6 @@
-/* ruler.c: see ruler.h. Only what the CRS itself says counts; the one place where coordinates are looked at, the local
- * scale of a Mercator map, feeds a warning and nothing else. */
-#include "read/ruler.h"
+/* crs_units.c: see crs_units.h. Only what the CRS itself says counts; the one place where coordinates are looked at, to
+ * find the local scale of a Mercator map, feeds a warning and nothing else. */
+#include "read/crs_units.h"
 
 #include "base/message.h"
 
@@ -20,15 +20,15 @@ bool gis_crs_may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q)
     return !gis_crs_is_known(p) || !gis_crs_is_known(q) || OSRIsSame(p, q);
 }
 
-gis_ruler gis_ruler_of(OGRSpatialReferenceH crs, double scale)
+gis_crs_units gis_crs_units_of(OGRSpatialReferenceH crs, double scale)
 {
     if (!gis_crs_is_known(crs)) crs = NULL;
-    gis_ruler rule = {.has_crs = crs != NULL, .unit_metres = 1, .scale = scale};
+    gis_crs_units units = {.has_crs = crs != NULL, .unit_metres = 1, .scale = scale};
     if (crs) {
-        rule.geographic = OSRIsGeographic(crs) != 0;
-        if (!rule.geographic) rule.unit_metres = OSRGetLinearUnits(crs, NULL);
+        units.geographic = OSRIsGeographic(crs) != 0;
+        if (!units.geographic) units.unit_metres = OSRGetLinearUnits(crs, NULL);
     }
-    return rule;
+    return units;
 }
 
 /* Latitude, in degrees, of the middle of the box; NaN if PROJ cannot tell. */
@@ -68,7 +68,7 @@ static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const dou
                         layer);
 }
 
-void gis_ruler_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
+void gis_crs_units_warn(OGRSpatialReferenceH crs, const char *layer, const double *box)
 {
     if (!gis_crs_is_known(crs)) return;
     if (OSRIsGeographic(crs))

@@ -1,6 +1,7 @@
-/* nearest.c: see nearest.h. The distance is that of Damerau and Levenshtein in its restricted form: letters put in,
- * left out, exchanged, or swapped with their neighbour; a word that was cut short is near, too. */
-#include "base/nearest.h"
+/* spelling.c: see spelling.h. The edit distance is that of Damerau and Levenshtein in its restricted form (optimal
+ * string alignment): letters put in, left out, exchanged, or swapped with their neighbour, none of them twice. Beside
+ * it a word that was cut short at either end is near, too. */
+#include "base/spelling.h"
 
 #include <ctype.h>
 #include <stdbool.h>
@@ -12,7 +13,7 @@ static int letter(char c) { return tolower((unsigned char)c); }
 
 static size_t least(size_t a, size_t b) { return a < b ? a : b; }
 
-static size_t distance(const char *a, size_t n, const char *b, size_t m)
+static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
 {
     size_t row[LONGEST + 1], last[LONGEST + 1], before[LONGEST + 1] = {0};
     for (size_t k = 0; k <= m; k++) last[k] = k;
@@ -40,15 +41,15 @@ static bool begins_or_ends(const char *word, size_t n, const char *part, size_t 
     return m >= SHORTEST_PART && m < n && (strncasecmp(word, part, m) == 0 || strncasecmp(word + n - m, part, m) == 0);
 }
 
-gis_nearest gis_nearest_to(const char *word, size_t n) { return (gis_nearest){.word = word, .n = n}; }
+gis_spelling gis_spelling_of(const char *word, size_t n) { return (gis_spelling){.word = word, .n = n}; }
 
-void gis_nearest_offer(gis_nearest *search, const char *word, size_t n)
+void gis_spelling_offer(gis_spelling *search, const char *word, size_t n)
 {
     if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST) return;
     /* One slip in a word of four letters, two in one of eight: with more, all short options would be near each
      * other. */
     size_t tolerated = search->n <= 4 ? 1 : search->n <= 8 ? 2 : 3;
-    size_t found = distance(search->word, search->n, word, n);
+    size_t found = edit_distance(search->word, search->n, word, n);
     if (found > tolerated && begins_or_ends(word, n, search->word, search->n)) found = tolerated;
     if (found > tolerated || found >= n || (search->best && found >= search->distance)) return;
     search->best = word;
