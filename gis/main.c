@@ -82,7 +82,7 @@ static int run(const gis_command *command, int argc, char **argv)
 static int close_stdout(int status)
 {
     bool failed = ferror(stdout) != 0;
-    if ((fclose(stdout) != 0 || failed) && (status == GIS_DONE || status == GIS_CONFLICTS)) {
+    if ((fclose(stdout) != 0 || failed) && (status == GIS_DONE || status == GIS_UNRESOLVED)) {
         gis_error error;
         gis_fail(&error, "cannot write to standard output: %s", strerror(errno));
         return gis_say_failure(&error);
@@ -105,19 +105,29 @@ static int unknown_command(const char *word)
     return gis_say_failure(&error);
 }
 
+static int no_command(void)
+{
+    char names[256] = "";
+    size_t n = 0;
+    for (size_t i = 0; i < gis_n_commands; i++) {
+        const char *joint = i == 0 ? "" : i + 1 < gis_n_commands ? ", " : " or ";
+        n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", joint, gis_commands[i].name);
+    }
+    gis_error error;
+    gis_fail_usage(&error, "which command? %s; `sunder --help` tells more", names);
+    return gis_say_failure(&error);
+}
+
 int main(int argc, char **argv)
 {
     CPLSetErrorHandler(hear_gdal);
     int status = GIS_DONE;
-    gis_error error;
     const char *first = argc > 1 ? argv[1] : NULL;
     const gis_command *command = first ? find_command(first) : NULL;
     if (command) {
         status = run(command, argc - 2, argv + 2);
     } else if (!first) {
-        gis_fail_usage(&error, "which command? separate, check, sum, pair, buffer or route; `sunder --help` tells "
-                               "more");
-        status = gis_say_failure(&error);
+        status = no_command();
     } else if (strcmp(first, "--version") == 0) {
         printf("sunder %s\n", sunder_version());
     } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {

@@ -7,10 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum {
-    GIS_FAILED = 1, /* exit status 1: the run failed, outputs are untouched */
-    GIS_USAGE = 2   /* exit status 2: the call was wrong */
-};
+#include "base/exit_status.h"
 
 /* What is said when a signal ended the work, whatever noticed it first. */
 #define GIS_INTERRUPTED "interrupted"

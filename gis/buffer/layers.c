@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-/* Are all results single polygons, so that the layer may be one of polygons? */
+/* Is the layer one of multipolygons? It is, if the source's layer is, and wherever a result may have, or has, more
+ * polygons than one. */
 static bool is_multi(const gis_buffer *buffer)
 {
     OGRwkbGeometryType type = wkbFlatten(gis_source_type(buffer->input.source));

@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
-#include "commands/stages.h"
+#include "commands/progress_shares.h"
 #include "read/source_files.h"
 
 #include <stdio.h>

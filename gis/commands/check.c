@@ -2,9 +2,9 @@
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "commands/commands.h"
+#include "commands/progress_shares.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
-#include "commands/stages.h"
 #include "layer/output.h"
 
 #include <cpl_conv.h>
@@ -137,7 +137,7 @@ int gis_command_check(const gis_options *options)
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
          gis_layer_input_read(&run.request, &run.input, &error) && check_and_write(&run, &error) &&
          deliver(&run, taken, &error);
-    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.before);
+    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before)) : gis_say_failure(&error);
     gis_sink_free(run.sink);
     free(run.layer);
     sunder_report_free(run.report);

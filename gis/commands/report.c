@@ -1,7 +1,7 @@
 /* report.c: see report.h. Keys stand in the order in which the interface lists them; scripts may rely on the keys. */
 #include "commands/report.h"
 
-#include "base/message.h"
+#include "base/exit_status.h"
 
 #include <math.h>
 
@@ -40,7 +40,7 @@ bool gis_any_conflict(const sunder_conflict_counts *counts)
     return counts->overlap || counts->too_close || counts->barrier || counts->contained || counts->duplicate;
 }
 
-int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts)
+int gis_complete_status(const gis_options *options, bool unresolved)
 {
-    return gis_any_conflict(counts) && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_CONFLICTS : GIS_DONE;
+    return unresolved && !options->given[OPT_ALLOW_CONFLICTS] ? GIS_UNRESOLVED : GIS_DONE;
 }

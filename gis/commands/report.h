@@ -13,7 +13,7 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
 
 /* Is anything in conflict between blocks? */
 bool gis_any_conflict(const sunder_conflict_counts *counts);
-/* The exit status: is anything in conflict between blocks, and does that matter? */
-int gis_conflict_status(const gis_options *options, const sunder_conflict_counts *counts);
+/* The exit status of a run that is complete; `unresolved`: what was wanted is not so (GIS_UNRESOLVED). */
+int gis_complete_status(const gis_options *options, bool unresolved);
 
 #endif

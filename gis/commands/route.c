@@ -131,8 +131,7 @@ int gis_command_route(const gis_options *options)
         ok = gis_destinations_check(&run.to, &taken, &error) && gis_resolve_route(options, &run.request, &error) &&
              gis_route_input_read(&run.request, &run.input, &error) && (!run.to.output || open_sink(&run, &error));
     ok = ok && find(&run, &error) && report(&run, taken, &error);
-    bool lost = ok && run.reason[0] && !options->given[OPT_ALLOW_CONFLICTS];
-    int status = !ok ? gis_say_failure(&error) : lost ? GIS_CONFLICTS : GIS_DONE;
+    int status = ok ? gis_complete_status(options, run.reason[0] != '\0') : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_route_free(run.route);
     gis_route_input_clear(&run.input);

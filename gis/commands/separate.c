@@ -2,9 +2,9 @@
 #include "base/message.h"
 #include "base/resources.h"
 #include "commands/commands.h"
+#include "commands/progress_shares.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
-#include "commands/stages.h"
 #include "layer/output.h"
 #include "read/crs_units.h"
 
@@ -246,7 +246,7 @@ int gis_command_separate(const gis_options *options)
          gis_layer_input_read(&run.request, &run.input, &error);
     run.read = gis_clock() - run.start;
     ok = ok && solve_and_write(&run, &error) && deliver(&run, taken, &error);
-    int status = !ok ? gis_say_failure(&error) : gis_conflict_status(options, &run.summary.after);
+    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.after)) : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_report_free(run.report);
     gis_layer_input_clear(&run.input);

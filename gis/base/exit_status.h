@@ -1,0 +1,13 @@
+/* exit_status.h: the exit statuses. Scripts rely on them; --help (options/help.c) and the manual page list them. */
+#ifndef GIS_EXIT_STATUS_H
+#define GIS_EXIT_STATUS_H
+
+enum {
+    GIS_DONE = 0,      /* the run did what it was asked for */
+    GIS_FAILED = 1,    /* it did not, outputs are as they were */
+    GIS_USAGE = 2,     /* the call was wrong, nothing was done */
+    GIS_UNRESOLVED = 3 /* the run is complete, but conflicts remain (separate) or were found (check), or there is no
+                          route (route); with --allow-conflicts GIS_DONE */
+};
+
+#endif
