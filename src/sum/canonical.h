@@ -1,5 +1,5 @@
-/* The canonical form of a sum, in which equal sets are equal. Roads put what they find in order here, but for the sum of
- * two convex operands, whose only ring is in order as it comes (minkowski/convex_operands.c).
+/* The canonical form of a sum, in which equal sets are equal. Roads put what they find in order here, but for the
+ * sum of two convex operands, whose only ring is in order as it comes (minkowski/convex_operands.c).
  *
  *   rings      the sum on the left; each starts at its lexicographically smallest vertex, none of which is straight
  *   polygons   in the lexicographic order of their outer rings, vertex by vertex; the holes of each likewise
