@@ -37,7 +37,7 @@ typedef struct reflex_pair {
 typedef struct bisector {
     sunder_i_maker *m;
     const sunder_i_member *part;
-    sunder_i_sight sight;
+    sunder_i_ray_shooting rays;
     sunder_i_cut *cut;
     double (*box)[4]; /* [cuts] see hull() */
     uint32_t cuts;
@@ -188,11 +188,11 @@ static uint32_t small_side(const bisector *b, uint32_t v, uint32_t w)
     return between < rest ? between : rest;
 }
 
-/* Lists the vertices that v sees in its cone, in b->sight.seen. */
+/* Lists the vertices that v sees in its cone, in b->rays.seen. */
 static bool look_in_cone(bisector *b, uint32_t v, const sector *s)
 {
     const sunder_i_point cone[2] = {s->low, s->high};
-    return sunder_i_sight_look(&b->sight, v, cone);
+    return sunder_i_ray_shooting_visible(&b->rays, v, cone);
 }
 
 static bool find_pairs(bisector *b)
@@ -204,8 +204,8 @@ static bool find_pairs(bisector *b)
         if (!sunder_i_step()) return false;
         if (!b->reflex[v - first] || !reflex_part(b, v, &s)) continue;
         if (!look_in_cone(b, v, &s)) return false;
-        for (uint32_t i = 0; i < b->sight.seen_n; i++) {
-            const uint32_t w = b->sight.seen[i];
+        for (uint32_t i = 0; i < b->rays.seen_n; i++) {
+            const uint32_t w = b->rays.seen[i];
             if (!sunder_i_step()) return false;
             if (w < v || !b->reflex[w - first] || !resolves(l, &s, to_vertex(b, v, w))) continue;
             if (!reflex_part(b, w, &t) || !resolves(l, &t, to_vertex(b, w, v))) continue;
@@ -257,8 +257,8 @@ static uint32_t choose_vertex(bisector *b, uint32_t v, const sector *s)
     uint32_t best = SUNDER_I_NONE;
     bool best_reflex = false;
     double best_fit = 0;
-    for (uint32_t i = 0; i < b->sight.seen_n; i++) {
-        const uint32_t w = b->sight.seen[i];
+    for (uint32_t i = 0; i < b->rays.seen_n; i++) {
+        const uint32_t w = b->rays.seen[i];
         const sunder_i_point d = to_vertex(b, v, w);
         if (!resolves(l, s, d)) continue;
         sunder_i_direction_unit(l, d, unit, &exponent);
@@ -279,7 +279,7 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
     sunder_i_lattice *l = b->m->lattice;
     const sunder_i_rings *r = &b->m->rings;
     const sunder_i_point from = r->at[cut->from];
-    if (!sunder_i_cut_run(cut, &b->sight)) return false;
+    if (!sunder_i_cut_run(cut, &b->rays)) return false;
     double box[4];
     hull(b, cut->from, cut->end, cut->at, box);
     for (uint32_t k = 0; k < b->cuts; k++) {
@@ -343,12 +343,12 @@ static bool make_room(bisector *b)
 void sunder_i_make_bisector(sunder_i_maker *m, const sunder_i_member *member)
 {
     bisector b = {.m = m, .part = member};
-    if (!make_room(&b) || !sunder_i_sight_init(&b.sight, &m->rings, member, &m->scratch)) return;
+    if (!make_room(&b) || !sunder_i_ray_shooting_init(&b.rays, &m->rings, member, &m->scratch)) return;
     bool ok = join_pairs(&b);
     for (uint32_t i = 0; ok && i < member->n && !sunder_i_maker_failed(m); i++)
         if (b.reflex[i] && !b.paired[i]) ok = resolve(&b, member->first + i);
     if (!ok) m->scratch.failed = true;
     if (!sunder_i_maker_failed(m)) sunder_i_cuts_apply(m, member, b.cut, b.cuts);
-    sunder_i_sight_free(&b.sight);
+    sunder_i_ray_shooting_free(&b.rays);
     sunder_i_free(b.pair);
 }

@@ -35,12 +35,12 @@ typedef struct subdivision {
     uint32_t *line;               /* [halves] */
 } subdivision;
 
-bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_sight *sight)
+bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_ray_shooting *rays)
 {
-    const sunder_i_rings *r = sight->r;
+    const sunder_i_rings *r = rays->r;
     sunder_i_lattice *l = r->lattice;
     const sunder_i_point from = r->at[cut->from];
-    const sunder_i_hit hit = sunder_i_sight_shoot(sight, cut->from, cut->toward);
+    const sunder_i_hit hit = sunder_i_ray_shooting_shoot(rays, cut->from, cut->toward);
     if (hit.which == SUNDER_I_NONE) return false;
     cut->at = hit.which;
     if (hit.at_vertex) {

@@ -1,14 +1,14 @@
 /* A decomposition in the making: what the stages hand each other.
  *
- * maker.c       the shape's rings on the lattice; pieces and Steiner points as they come; everything into its place
- *               at the end
- * sight.c       rays through a triangulated member, and the vertices seen from one of its vertices
- * diagonals.c   decompositions by diagonals: triangulation; Hertel-Mehlhorn, by length too
- * cuts.c        cuts -> pieces
- * vertical.c    vertical cuts
- * bisector.c    cuts near the bisectors of reflex vertices (direction.c chooses them)
- * optimal.c     fewest or lightest diagonals, by dynamic programming
- * mixed.c       two operands together */
+ * maker.c         the shape's rings on the lattice; pieces and Steiner points as they come; everything into its place
+ *                 at the end
+ * ray_shooting.c  rays through a triangulated member, and the vertices seen from one of its vertices
+ * diagonals.c     decompositions by diagonals: triangulation; Hertel-Mehlhorn, by length too
+ * cuts.c          cuts -> pieces
+ * vertical.c      vertical cuts
+ * bisector.c      cuts near the bisectors of reflex vertices (direction.c chooses them)
+ * optimal.c       fewest or lightest diagonals, by dynamic programming
+ * mixed.c         two operands together */
 #ifndef SUNDER_I_MAKER_H
 #define SUNDER_I_MAKER_H
 
@@ -60,20 +60,20 @@ static inline bool sunder_i_is_reflex(const sunder_i_rings *r, uint32_t v)
     return sunder_i_rings_orient(r, r->prev[v], v, r->next[v]) < 0;
 }
 
-/* ---- sight.c ---- */
+/* ---- ray_shooting.c ---- */
 
 /* A triangulated member. */
-typedef struct sunder_i_sight {
+typedef struct sunder_i_ray_shooting {
     const sunder_i_rings *r;
     sunder_i_mesh mesh;
     uint32_t first, n;
     uint32_t *start; /* [n] the half-edge first + i -> next */
-    /* the vertices seen by the last sunder_i_sight_look(), in no order */
+    /* the vertices seen by the last sunder_i_ray_shooting_visible(), in no order */
     uint32_t *seen, seen_n;
     size_t seen_room;
     struct sunder_i_window *stack;
     size_t stack_room;
-} sunder_i_sight;
+} sunder_i_ray_shooting;
 
 /* What a ray runs into first: a vertex, or the inside of the edge that leaves vertex `which`. which is NONE where
  * memory is out. */
@@ -83,16 +83,16 @@ typedef struct sunder_i_hit {
 } sunder_i_hit;
 
 /* The mesh lives in the arena. False if memory is out. */
-bool sunder_i_sight_init(sunder_i_sight *s, const sunder_i_rings *r, const sunder_i_member *member,
-                         sunder_i_arena *arena);
-void sunder_i_sight_free(sunder_i_sight *s);
+bool sunder_i_ray_shooting_init(sunder_i_ray_shooting *s, const sunder_i_rings *r, const sunder_i_member *member,
+                                sunder_i_arena *arena);
+void sunder_i_ray_shooting_free(sunder_i_ray_shooting *s);
 /* From vertex v through `toward`, a direction strictly inside v's sector. A vertex that the ray only grazes is one
  * that it runs into. */
-sunder_i_hit sunder_i_sight_shoot(const sunder_i_sight *s, uint32_t v, sunder_i_point toward);
+sunder_i_hit sunder_i_ray_shooting_shoot(const sunder_i_ray_shooting *s, uint32_t v, sunder_i_point toward);
 /* The vertices w such that the open segment vw runs inside and meets no vertex, v's neighbours included. With `cone`
  * (two vectors) at least those with cross(cone[0], w - v) >= 0 and cross(w - v, cone[1]) >= 0. False if memory is
  * out. */
-bool sunder_i_sight_look(sunder_i_sight *s, uint32_t v, const sunder_i_point *cone);
+bool sunder_i_ray_shooting_visible(sunder_i_ray_shooting *s, uint32_t v, const sunder_i_point *cone);
 
 /* ---- cuts.c ---- */
 
@@ -110,7 +110,7 @@ typedef struct sunder_i_cut {
 } sunder_i_cut;
 
 /* From what the cut starts with, its end on the member's rings. False where memory is out. */
-bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_sight *sight);
+bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_ray_shooting *rays);
 /* The pieces into which the cuts divide the member; none of them is reflex. */
 void sunder_i_cuts_apply(sunder_i_maker *m, const sunder_i_member *member, const sunder_i_cut *cut, uint32_t n);
 /* Order of a and b by counter-clockwise angle from the vector ref, in [0, 2 pi). */

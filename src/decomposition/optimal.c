@@ -86,10 +86,10 @@ static int compare_links(const void *a, const void *b)
 /* All pairs u < v that are edges, or see each other and are not both convex. */
 static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member, uint32_t *count)
 {
-    sunder_i_sight sight;
+    sunder_i_ray_shooting rays;
     both_ways *link = NULL;
     size_t room = 0, n = 0;
-    bool ok = sunder_i_sight_init(&sight, &p->m->rings, member, &p->m->scratch) &&
+    bool ok = sunder_i_ray_shooting_init(&rays, &p->m->rings, member, &p->m->scratch) &&
               sunder_i_reserve(&link, &room, p->n, sizeof *link);
     for (uint32_t v = 0; ok && v < p->n; v++) {
         const uint32_t w = (v + 1) % p->n;
@@ -97,15 +97,15 @@ static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member,
     }
     for (uint32_t v = 0; ok && v < p->n; v++) {
         if (!p->reflex[v]) continue;
-        ok = sunder_i_sight_look(&sight, p->first + v, NULL) &&
-             sunder_i_reserve(&link, &room, n + sight.seen_n, sizeof *link);
-        for (uint32_t i = 0; ok && i < sight.seen_n; i++) {
-            const uint32_t w = sight.seen[i] - p->first, gap = v < w ? w - v : v - w;
+        ok = sunder_i_ray_shooting_visible(&rays, p->first + v, NULL) &&
+             sunder_i_reserve(&link, &room, n + rays.seen_n, sizeof *link);
+        for (uint32_t i = 0; ok && i < rays.seen_n; i++) {
+            const uint32_t w = rays.seen[i] - p->first, gap = v < w ? w - v : v - w;
             if (gap == 1 || gap == p->n - 1 || (p->reflex[w] && w < v)) continue;
             link[n++] = (both_ways){v < w ? v : w, v < w ? w : v};
         }
     }
-    sunder_i_sight_free(&sight);
+    sunder_i_ray_shooting_free(&rays);
     if (ok && n <= UINT32_MAX) {
         qsort(link, n, sizeof *link, compare_links);
         *count = (uint32_t)n;

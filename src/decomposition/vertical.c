@@ -25,10 +25,10 @@ void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
 {
     const sunder_i_rings *r = &m->rings;
     sunder_i_lattice *l = m->lattice;
-    sunder_i_sight sight;
+    sunder_i_ray_shooting rays;
     sunder_i_cut *cut = sunder_i_arena_alloc(&m->scratch, 2 * (size_t)member->reflex, sizeof *cut);
     uint32_t n = 0;
-    if (!cut || !sunder_i_sight_init(&sight, r, member, &m->scratch)) return;
+    if (!cut || !sunder_i_ray_shooting_init(&rays, r, member, &m->scratch)) return;
     const sunder_i_point up = {0, 1}, down = {0, -1};
     for (uint32_t v = member->first; v < member->first + member->n && !sunder_i_maker_failed(m); v++) {
         if (!sunder_i_is_reflex(r, v)) continue;
@@ -36,12 +36,12 @@ void sunder_i_make_vertical(sunder_i_maker *m, const sunder_i_member *member)
             const sunder_i_point along = k ? down : up;
             if (!is_inside(r, v, along)) continue;
             cut[n] = (sunder_i_cut){.from = v, .along = along, .toward = sunder_i_point_add(l, r->at[v], along)};
-            if (!sunder_i_cut_run(&cut[n], &sight)) continue;
+            if (!sunder_i_cut_run(&cut[n], &rays)) continue;
             const bool twice = k && cut[n].end == SUNDER_I_AT_VERTEX && sunder_i_is_reflex(r, cut[n].at) &&
                                is_inside(r, cut[n].at, up);
             if (!twice) n++;
         }
     }
     if (!sunder_i_maker_failed(m)) sunder_i_cuts_apply(m, member, cut, n);
-    sunder_i_sight_free(&sight);
+    sunder_i_ray_shooting_free(&rays);
 }

@@ -1,4 +1,4 @@
-/* Shapes and sums as figures, and shapes as probes: the same numbers, taken off their lattice. */
+/* Shapes and sums as figures, and shapes as structuring elements: the same numbers, taken off their lattice. */
 #include "morphology/morphology.h"
 
 #include "predicate/rational_point.h"
@@ -84,10 +84,10 @@ bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bo
     return ok;
 }
 
-void sunder_i_probe_free(sunder_i_probe *probe)
+void sunder_i_structuring_element_free(sunder_i_structuring_element *element)
 {
-    sunder_i_arena_free(&probe->arena);
-    *probe = (sunder_i_probe){0};
+    sunder_i_arena_free(&element->arena);
+    *element = (sunder_i_structuring_element){0};
 }
 
 /* The middle of the triangle of its first three corners, which are not collinear: a point inside the piece. */
@@ -98,11 +98,11 @@ static sunder_i_rational_point inner_point(sunder_i_arena *m, const sunder_i_rat
     return sum;
 }
 
-bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                             bool reflected, sunder_i_probe *out)
+bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape,
+                                           const sunder_i_point *at, bool reflected, sunder_i_structuring_element *out)
 {
     const size_t corners = shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
-    sunder_i_probe p = {.pieces = shape->pieces};
+    sunder_i_structuring_element p = {.pieces = shape->pieces};
     sunder_i_arena *arena = &p.arena;
     p.end = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.end);
     p.corner = sunder_i_arena_alloc(arena, corners + 1, sizeof *p.corner);
@@ -122,6 +122,6 @@ bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shap
     if (ok)
         *out = p;
     else
-        sunder_i_probe_free(&p);
+        sunder_i_structuring_element_free(&p);
     return ok;
 }

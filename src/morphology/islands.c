@@ -14,7 +14,7 @@
 #include <pthread.h>
 
 typedef struct islands {
-    const sunder_i_seat *seat;
+    const sunder_i_morphology_operands *operands;
     const sunder_sum *whole;
     const sunder_sum_options *asked;
     bool connected, open, dilated;
@@ -46,15 +46,15 @@ static bool tell(double fraction, void *user)
     return go_on;
 }
 
-static sunder_status grow_again(const islands *all, const sunder_sum_options *options, sunder_sum *eroded,
-                                sunder_sum **out, sunder_error *err)
+static sunder_status dilate_again(const islands *all, const sunder_sum_options *options, sunder_sum *eroded,
+                                  sunder_sum **out, sunder_error *err)
 {
     sunder_i_figure figure;
-    sunder_sum *sum = sunder_i_seat_sum(all->seat, 0);
+    sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, 0);
     if (!sum) return sunder_i_no_memory(err);
     sunder_status status;
     if (sunder_i_figure_of_sum(eroded, 0, eroded->polygons, false, &figure)) {
-        status = sunder_i_grow(&figure, &all->seat->probe, options, sum, err);
+        status = sunder_i_dilate_figure(&figure, &all->operands->element, options, sum, err);
         sunder_i_figure_free(&figure);
     } else
         status = sunder_i_no_memory(err);
@@ -73,16 +73,16 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
         options.progress = tell;
         options.progress_user = &t;
     }
-    sunder_sum *eroded = sunder_i_seat_sum(all->seat, -1);
+    sunder_sum *eroded = sunder_i_morphology_operands_sum(all->operands, -1);
     if (!eroded) return sunder_i_no_memory(err);
-    sunder_status status = sunder_i_shrink(figure, &all->seat->reflected, &options, eroded, err);
+    sunder_status status = sunder_i_erode_figure(figure, &all->operands->reflected, &options, eroded, err);
     if (status == SUNDER_OK && !all->open) {
         *out = eroded;
         return SUNDER_OK;
     }
     t.from = 0.5;
     t.to = 1;
-    if (status == SUNDER_OK) status = grow_again(all, &options, eroded, out, err);
+    if (status == SUNDER_OK) status = dilate_again(all, &options, eroded, out, err);
     sunder_sum_free(eroded);
     return status;
 }
@@ -93,7 +93,7 @@ static sunder_status work(void *context, size_t begin, size_t end, sunder_error 
     sunder_status status = SUNDER_OK;
     for (size_t i = begin; i < end && status == SUNDER_OK; i++) {
         if (!all->whole) {
-            status = one_island(all, &all->seat->figure, &all->part[i], err);
+            status = one_island(all, &all->operands->figure, &all->part[i], err);
             continue;
         }
         sunder_i_figure figure;
@@ -112,7 +112,7 @@ static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
 {
     all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
     /* Of a closing, the dilation has added B's origin already. */
-    sunder_sum *sum = sunder_i_seat_sum(all->seat, all->open || all->dilated ? 0 : -1);
+    sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, all->open || all->dilated ? 0 : -1);
     sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
     if (status == SUNDER_OK) {
         pthread_mutex_init(&all->lock, NULL);
@@ -129,17 +129,17 @@ static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_islands(const sunder_i_seat *seat, const sunder_sum *whole, bool connected,
+sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, const sunder_sum *whole, bool connected,
                                sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
                                sunder_error *err)
 {
-    islands all = {.seat = seat,
+    islands all = {.operands = operands,
                    .whole = whole,
                    .asked = options,
                    .connected = connected,
                    .open = operation == SUNDER_OPERATION_OPEN,
                    .dilated = operation == SUNDER_OPERATION_CLOSE};
     all.n = whole && connected ? whole->polygons : 1;
-    all.sides = !whole ? seat->figure.sides : whole->rings ? whole->ring_end[whole->rings - 1] : 0;
+    all.sides = !whole ? operands->figure.sides : whole->rings ? whole->ring_end[whole->rings - 1] : 0;
     return run(&all, out, err);
 }

@@ -51,14 +51,14 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
     const bool connected = b->polygons == 1;
     stage s;
     sunder_sum *whole;
-    sunder_i_seat seat;
+    sunder_i_morphology_operands operands;
     const bool close = operation == SUNDER_OPERATION_CLOSE;
     sunder_status status = first_stage(p, b, close, begin(&s, asked, 0, ready), &whole, err);
     if (status != SUNDER_OK) return status;
-    status = sunder_i_seat_make(p, b, &seat, err);
+    status = sunder_i_morphology_operands_make(p, b, &operands, err);
     if (status == SUNDER_OK) {
-        status = sunder_i_islands(&seat, whole, connected, operation, begin(&s, asked, ready, 1), out, err);
-        sunder_i_seat_free(&seat);
+        status = sunder_i_islands(&operands, whole, connected, operation, begin(&s, asked, ready, 1), out, err);
+        sunder_i_morphology_operands_free(&operands);
     }
     sunder_sum_free(whole);
     return status;

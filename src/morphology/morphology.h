@@ -1,12 +1,12 @@
 /* Growing and shrinking polygonal sets: what the files hand each other.
  *
- * figure.c      a shape or a sum as rings, segments and points with rational corners
- * grow.c        one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
- * seat.c        what all stages of one operation share: the lattice, and B as a probe
- * islands.c     polygon by polygon, on several threads
- * gather.c      results of that in one
- * union.c       members that overlap
- * morphology.c  dilate, erode, open, close */
+ * figure.c        a shape or a sum as rings, segments and points with rational corners
+ * dilate_erode.c  one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
+ * operands.c      what all stages of one operation share: the lattice, and B as a structuring element
+ * islands.c       polygon by polygon, on several threads
+ * gather.c        results of that in one
+ * union.c         members that overlap
+ * morphology.c    dilate, erode, open, close */
 #ifndef SUNDER_I_MORPHOLOGY_H
 #define SUNDER_I_MORPHOLOGY_H
 
@@ -35,51 +35,54 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
 bool sunder_i_figure_of_sum(const sunder_sum *sum, size_t first, size_t last, bool regular, sunder_i_figure *out);
 void sunder_i_figure_free(sunder_i_figure *figure);
 
-/* What a figure is summed with: convex pieces, counter-clockwise, and a point inside each. */
-typedef struct sunder_i_probe {
+/* A structuring element [Ser82], which a figure is summed with: convex pieces, counter-clockwise, and a point inside
+ * each. */
+typedef struct sunder_i_structuring_element {
     sunder_i_arena arena;
     uint32_t pieces;
     size_t *end; /* [pieces] index past the last corner of each */
     sunder_i_rational_point *corner;
     sunder_i_rational_point *side;  /* from each corner to the next of its piece */
     sunder_i_rational_point *inner; /* [pieces] */
-} sunder_i_probe;
+} sunder_i_structuring_element;
 
 /* The pieces of a shape, or of its reflection. */
-bool sunder_i_probe_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape, const sunder_i_point *at,
-                             bool reflected, sunder_i_probe *out);
-void sunder_i_probe_free(sunder_i_probe *probe);
+bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sunder_shape *shape,
+                                           const sunder_i_point *at, bool reflected, sunder_i_structuring_element *out);
+void sunder_i_structuring_element_free(sunder_i_structuring_element *element);
 
 /* Fills the outline of an empty sum, which owns the lattice that all stands on:
- *   grow    the closure of F + probe, without degenerate parts (that set is closed, and they are inside)
- *   shrink  the complement of F^c + int probe, parts without area included; F is regular
+ *   dilate  the closure of F + element, without degenerate parts (that set is closed, and they are inside)
+ *   erode   the complement of F^c + int element, parts without area included: the erosion of F, which is regular, by
+ *           -element
  * Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; the caller frees the sum. */
-sunder_status sunder_i_grow(const sunder_i_figure *figure, const sunder_i_probe *probe,
-                            const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
-sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_probe *probe,
-                              const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
+sunder_status sunder_i_dilate_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                     const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
+sunder_status sunder_i_erode_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                    const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
 
-/* ---- seat.c: P and B on one lattice ---- */
+/* ---- operands.c: P and B on one lattice ---- */
 
 /* Units and origins as sunder_minkowski_sum() has them; never narrow: corners of later stages have denominators. */
-typedef struct sunder_i_seat {
+typedef struct sunder_i_morphology_operands {
     sunder_i_lattice lattice; /* empty, to be copied */
     double origin_p[2], origin_q[2];
-    sunder_i_probe probe, reflected; /* B and -B */
-    sunder_i_figure figure;          /* P, if it has one member only; else empty */
-} sunder_i_seat;
+    sunder_i_structuring_element element, reflected; /* B and -B */
+    sunder_i_figure figure;                          /* P, if it has one member only; else empty */
+} sunder_i_morphology_operands;
 
-sunder_status sunder_i_seat_make(const sunder_shape *p, const sunder_shape *b, sunder_i_seat *out, sunder_error *err);
-void sunder_i_seat_free(sunder_i_seat *seat);
+sunder_status sunder_i_morphology_operands_make(const sunder_shape *p, const sunder_shape *b,
+                                                sunder_i_morphology_operands *out, sunder_error *err);
+void sunder_i_morphology_operands_free(sunder_i_morphology_operands *operands);
 /* An empty sum on such a lattice; B's origin counts `moved` times. NULL if memory is out. */
-sunder_sum *sunder_i_seat_sum(const sunder_i_seat *seat, int moved);
+sunder_sum *sunder_i_morphology_operands_sum(const sunder_i_morphology_operands *operands, int moved);
 
 /* ---- islands.c ---- */
 
 /* The last stages: the erosion of a set (open: grown again by B, parts without area and all; close: the set is P + B),
  * which is the union of those of its polygons where B's interior is connected. whole: the set, on a lattice of these
- * units, its degenerate parts filled; NULL: the seat's figure. */
-sunder_status sunder_i_islands(const sunder_i_seat *seat, const sunder_sum *whole, bool connected,
+ * units, its degenerate parts filled; NULL: the operands' figure. */
+sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, const sunder_sum *whole, bool connected,
                                sunder_operation operation, const sunder_sum_options *options, sunder_sum **out,
                                sunder_error *err);
 

@@ -120,7 +120,7 @@ static bool make_walks(sunder_i_graph *g)
 
 bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage)
 {
-    return make_edges(graph, coverage) && make_rays(graph) && make_walks(graph) && sunder_i_graph_components(graph);
+    return make_edges(graph, coverage) && make_rays(graph) && make_walks(graph) && sunder_i_graph_assign_holes(graph);
 }
 
 void sunder_i_graph_free(sunder_i_graph *graph)

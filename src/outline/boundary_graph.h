@@ -48,8 +48,9 @@ static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray
 
 /* Edges, rays, covered walks and components; false if memory is out. */
 bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage);
-/* Numbers the components (boundary_component.c). */
-bool sunder_i_graph_components(sunder_i_graph *graph);
+/* Numbers the components, one for each outer walk, and gives each hole walk that of the outer walk that it lies in
+ * (boundary_holes.c). False if memory is out. */
+bool sunder_i_graph_assign_holes(sunder_i_graph *graph);
 /* The edge that follows `edge` on the ring of its component that has the same free face. */
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge);
 /* The edge that follows on the covered walk. */

@@ -11,7 +11,7 @@
  * overlay.c     a map into another; a map made anew
  * mark.c        covered counts
  * clean.c       what is covered goes; unite.c: the same where a polygon was added, the step of the incremental union
- * faces.c, locate.c, check.c
+ * faces.c, locate.c, invariants.c
  *
  * Trapezoids. A wall goes up and down from each vertex to the next edge. No two vertices are above each other in the
  * sheared order, so each trapezoid has one vertex on its left wall and one on its right wall, and at most two

@@ -1,12 +1,13 @@
 /* A shape in the making: what the stages of sunder_shape_from_rings() hand each other.
  *
+ * rings.c          room for them
  * clean.c          one raw ring -> its corners
  * edge_tree.c      candidate pairs of edges, and edges above a point, without looking at all of them
  * intersections.c  where rings cross (an error) or touch
  * simple.c         that nothing meets, by a sweep, where boxes do not tell edges apart
  * nesting.c        orientation; holes inside outer rings, and not inside each other
  * repair.c         the even-odd set of a polygon in its place, by the arrangement of arcs.c and even_odd.c
- * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge.c)
+ * pieces.c         holes bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
  * finish.c         everything into one block of memory */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
@@ -34,7 +35,7 @@ typedef struct sunder_i_rings {
 
 #define SUNDER_I_MADE 0x80000000u
 
-/* Makes room for so many more; contents stay. False if memory is out. */
+/* Makes room for so many more (rings.c); contents stay. False if memory is out. */
 bool sunder_i_rings_grow(sunder_i_rings *r, sunder_i_arena *arena, size_t vertices, size_t rings, size_t polygons);
 
 /* Order by x, by y, and lexicographic (x first). */
@@ -137,7 +138,7 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
 void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                             sunder_i_problem *problem);
 
-/* ---- pieces.c, bridge.c, merge.c ---- */
+/* ---- pieces.c, bridge.c, merge_triangles.c ---- */
 
 /* A triangulation by half-edges 3t .. 3t + 2 of triangle t; merging relinks next and prev. */
 typedef struct sunder_i_mesh {

@@ -1,6 +1,6 @@
 /* Convex pieces of polygons with holes, without added vertices: holes are joined to their outer ring by bridges
  * (bridge.c), ears are cut off until nothing is left (ears.c), and diagonals are taken away again while the pieces stay
- * strictly convex (merge.c). */
+ * strictly convex (merge_triangles.c). */
 #include "shape/ears.h"
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }

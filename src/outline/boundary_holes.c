@@ -1,4 +1,5 @@
-/* Which hole walks belong to which outer walk. */
+/* Which hole walks belong to which outer walk: of the outer walks that a ray from the hole crosses an odd number of
+ * times the innermost. Each outer walk is a component of its own. */
 #include "outline/boundary_graph.h"
 #include "spatial/strips.h"
 
@@ -107,7 +108,7 @@ static bool find_owners(sunder_i_graph *g, const uint32_t *walk)
     return ok;
 }
 
-bool sunder_i_graph_components(sunder_i_graph *graph)
+bool sunder_i_graph_assign_holes(sunder_i_graph *graph)
 {
     graph->components = 0;
     graph->component = sunder_i_calloc(graph->walks, sizeof *graph->component);

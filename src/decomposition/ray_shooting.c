@@ -17,8 +17,8 @@ typedef struct sunder_i_window {
     uint32_t h, right, left;
 } sunder_i_window;
 
-bool sunder_i_sight_init(sunder_i_sight *s, const sunder_i_rings *r, const sunder_i_member *member,
-                         sunder_i_arena *arena)
+bool sunder_i_ray_shooting_init(sunder_i_ray_shooting *s, const sunder_i_rings *r, const sunder_i_member *member,
+                                sunder_i_arena *arena)
 {
     memset(s, 0, sizeof *s);
     s->r = r;
@@ -31,7 +31,7 @@ bool sunder_i_sight_init(sunder_i_sight *s, const sunder_i_rings *r, const sunde
     return true;
 }
 
-void sunder_i_sight_free(sunder_i_sight *s)
+void sunder_i_ray_shooting_free(sunder_i_ray_shooting *s)
 {
     sunder_i_free(s->seen);
     sunder_i_free(s->stack);
@@ -43,7 +43,7 @@ void sunder_i_sight_free(sunder_i_sight *s)
 /* The half-edge that leaves the same vertex next, counter-clockwise; NONE past the last triangle. */
 static uint32_t turn_left(const sunder_i_mesh *m, uint32_t h) { return m->twin[m->prev[h]]; }
 
-sunder_i_hit sunder_i_sight_shoot(const sunder_i_sight *s, uint32_t v, sunder_i_point toward)
+sunder_i_hit sunder_i_ray_shooting_shoot(const sunder_i_ray_shooting *s, uint32_t v, sunder_i_point toward)
 {
     const sunder_i_mesh *m = &s->mesh;
     const sunder_i_rings *r = s->r;
@@ -68,7 +68,7 @@ sunder_i_hit sunder_i_sight_shoot(const sunder_i_sight *s, uint32_t v, sunder_i_
     }
 }
 
-static bool see(sunder_i_sight *s, uint32_t w)
+static bool see(sunder_i_ray_shooting *s, uint32_t w)
 {
     if (!sunder_i_reserve(&s->seen, &s->seen_room, (size_t)s->seen_n + 1, sizeof *s->seen)) return false;
     s->seen[s->seen_n++] = w;
@@ -85,7 +85,7 @@ static bool is_outside(const sunder_i_rings *r, uint32_t v, const sunder_i_windo
     return sunder_i_cross_sign(l, a, cone[1]) < 0 && sunder_i_cross_sign(l, b, cone[1]) < 0;
 }
 
-static bool push(sunder_i_sight *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
+static bool push(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
 {
     if (s->mesh.twin[w.h] == SUNDER_I_NONE || (cone && is_outside(s->r, v, &w, cone))) return true;
     if (!sunder_i_reserve(&s->stack, &s->stack_room, *depth + 1, sizeof *s->stack)) return false;
@@ -94,7 +94,8 @@ static bool push(sunder_i_sight *s, size_t *depth, uint32_t v, const sunder_i_po
 }
 
 /* The apex beyond a window, and the windows through its triangle. */
-static bool look_through(sunder_i_sight *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
+static bool look_through(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sunder_i_point *cone,
+                         sunder_i_window w)
 {
     const sunder_i_mesh *m = &s->mesh;
     const sunder_i_rings *r = s->r;
@@ -109,7 +110,7 @@ static bool look_through(sunder_i_sight *s, size_t *depth, uint32_t v, const sun
     return see(s, apex) && push(s, depth, v, cone, left) && push(s, depth, v, cone, right);
 }
 
-bool sunder_i_sight_look(sunder_i_sight *s, uint32_t v, const sunder_i_point *cone)
+bool sunder_i_ray_shooting_visible(sunder_i_ray_shooting *s, uint32_t v, const sunder_i_point *cone)
 {
     const sunder_i_mesh *m = &s->mesh;
     size_t depth = 0;

@@ -16,8 +16,8 @@
  * (Where X + c is drawn as a region beside the bands, its complement needs a frame, and counts of vertices where rings
  * touch; asking costs one location a cell, and few cells are left.)
  *
- *     grow:   a cell is in   if covered, or in F + c for some piece;
- *     shrink: a cell is in   if not covered, and in F + c for every piece: in no F^c + c.
+ *     dilation: a cell is in   if covered, or in F + c for some piece;
+ *     erosion:  a cell is in   if not covered, and in F + c for every piece: in no F^c + c.
  *
  * Every corner that is compared is on the lines of two sides: of F, of B moved to a corner of F, or of F moved by a
  * corner of B. All have lattice directions, and none is made from more than one corner of F: so numbers do not grow
@@ -28,20 +28,19 @@
 
 #include "base/invariant.h"
 #include "base/random.h"
-#include "minkowski/minkowski.h"
 #include "predicate/rational_point.h"
 #include "sum/canonical.h"
 #include "sum/from_map.h"
 
-typedef struct growth {
+typedef struct stage {
     const sunder_i_figure *figure;
-    const sunder_i_probe *probe;
+    const sunder_i_structuring_element *element;
     const sunder_sum_options *options;
     sunder_i_planar_map *bands, *solid; /* solid: the figure itself; NULL where it has no area */
     sunder_i_arena scratch;
     uint64_t random;
-    bool shrink;
-} growth;
+    bool erode;
+} stage;
 
 /* Of a stage's work so much is the part that is being done: from and to are fractions of the stage. */
 typedef struct share {
@@ -126,11 +125,11 @@ static bool is_far(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_ra
 
 /* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A
  * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows. */
-static size_t make_band(growth *g, sunder_i_rational_point a, sunder_i_rational_point b, size_t first, size_t end,
+static size_t make_band(stage *g, sunder_i_rational_point a, sunder_i_rational_point b, size_t first, size_t end,
                         sunder_i_rational_point *out)
 {
     sunder_i_arena *s = &g->scratch;
-    const sunder_i_probe *p = g->probe;
+    const sunder_i_structuring_element *p = g->element;
     const sunder_i_rational_point u = sunder_i_rational_sub(s, b, a);
     size_t n = 0;
     bool before = is_far(s, u, p->side[end - 1]);
@@ -143,17 +142,18 @@ static size_t make_band(growth *g, sunder_i_rational_point a, sunder_i_rational_
     return n;
 }
 
-static size_t make_spot(growth *g, sunder_i_rational_point at, size_t first, size_t end, sunder_i_rational_point *out)
+static size_t make_band_of_point(stage *g, sunder_i_rational_point at, size_t first, size_t end,
+                                 sunder_i_rational_point *out)
 {
-    for (size_t i = first; i < end; i++) out[i - first] = sunder_i_rational_add(&g->scratch, at, g->probe->corner[i]);
+    for (size_t i = first; i < end; i++) out[i - first] = sunder_i_rational_add(&g->scratch, at, g->element->corner[i]);
     return end - first;
 }
 
 /* Band number k: of the sides, then the segments, then the points, each with all pieces. */
-static sunder_status add_band(growth *g, const uint32_t *next, uint64_t k, sunder_error *err)
+static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder_error *err)
 {
     const sunder_i_figure *f = g->figure;
-    const sunder_i_probe *p = g->probe;
+    const sunder_i_structuring_element *p = g->element;
     const uint64_t piece = k % p->pieces, i = k / p->pieces;
     const size_t first = piece ? p->end[piece - 1] : 0, end = p->end[piece];
     const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
@@ -168,17 +168,17 @@ static sunder_status add_band(growth *g, const uint32_t *next, uint64_t k, sunde
         const uint32_t *ends = f->segment + 2 * (i - f->sides);
         n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
     } else
-        n = make_spot(g, f->at[f->point[i - f->sides - f->segments]], first, end, corner);
+        n = make_band_of_point(g, f->at[f->point[i - f->sides - f->segments]], first, end, corner);
     if (g->scratch.failed) return sunder_i_no_memory(err);
     const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);
     return status;
 }
 
-static sunder_status unite_bands(growth *g, sunder_error *err)
+static sunder_status unite_bands(stage *g, sunder_error *err)
 {
     const sunder_i_figure *f = g->figure;
-    const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->probe->pieces;
+    const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->element->pieces;
     uint32_t *next = successors(f);
     uint64_t *order = random_order(&g->random, all);
     sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
@@ -191,17 +191,17 @@ static sunder_status unite_bands(growth *g, sunder_error *err)
 
 /* ---- Cells between the bands ---- */
 
-/* Does a vertex that no band covers lie in F + c, for the inner point c of some piece (grow) or of all (shrink)? It is
- * not on the boundary of any. */
-static sunder_status is_inside(growth *g, uint32_t vertex, bool *in, sunder_error *err)
+/* Does a vertex that no band covers lie in F + c, for the inner point c of some piece (dilation) or of all (erosion)?
+ * It is not on the boundary of any. */
+static sunder_status is_inside(stage *g, uint32_t vertex, bool *in, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    *in = g->solid && g->shrink;
-    for (uint32_t j = 0; g->solid && j < g->probe->pieces && *in == g->shrink && status == SUNDER_OK; j++) {
+    *in = g->solid && g->erode;
+    for (uint32_t j = 0; g->solid && j < g->element->pieces && *in == g->erode && status == SUNDER_OK; j++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
         sunder_i_arena *s = &g->scratch;
         const sunder_i_rational_point at =
-            sunder_i_rational_sub(s, *sunder_i_planar_map_vertex_point(g->bands, vertex), g->probe->inner[j]);
+            sunder_i_rational_sub(s, *sunder_i_planar_map_vertex_point(g->bands, vertex), g->element->inner[j]);
         if (s->failed) return sunder_i_no_memory(err);
         sunder_i_location where;
         status = sunder_i_planar_map_locate(g->solid, at, &where, err);
@@ -211,12 +211,12 @@ static sunder_status is_inside(growth *g, uint32_t vertex, bool *in, sunder_erro
     return status;
 }
 
-static sunder_status sort_faces(growth *g, bool *face, sunder_error *err)
+static sunder_status sort_faces(stage *g, bool *face, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     for (uint32_t f = 1; f < sunder_i_planar_map_face_end(g->bands) && status == SUNDER_OK; f++) {
         const bool covered = sunder_i_planar_map_face_covered(g->bands, f) != 0;
-        face[f] = covered && !g->shrink;
+        face[f] = covered && !g->erode;
         if (!covered)
             status = is_inside(g, sunder_i_planar_map_origin(g->bands, sunder_i_planar_map_face_outer(g->bands, f)),
                                &face[f], err);
@@ -225,7 +225,7 @@ static sunder_status sort_faces(growth *g, bool *face, sunder_error *err)
 }
 
 /* Parts without area: edges and vertices between covered faces. Others belong to a face, and are asked in vain. */
-static sunder_status sort_rest(growth *g, bool *edge, bool *vertex, sunder_error *err)
+static sunder_status sort_rest(stage *g, bool *edge, bool *vertex, sunder_error *err)
 {
     const sunder_i_planar_map *map = g->bands;
     sunder_status status = SUNDER_OK;
@@ -240,16 +240,16 @@ static sunder_status sort_rest(growth *g, bool *edge, bool *vertex, sunder_error
     return status;
 }
 
-static sunder_status read_cells(growth *g, sunder_sum *sum, sunder_error *err)
+static sunder_status read_cells(stage *g, sunder_sum *sum, sunder_error *err)
 {
     sunder_status status = sunder_i_planar_map_faces(g->bands, err);
     if (status != SUNDER_OK) return status;
     bool *face = sunder_i_calloc(sunder_i_planar_map_face_end(g->bands), sizeof *face);
     bool *edge = sunder_i_calloc(sunder_i_planar_map_edge_end(g->bands), sizeof *edge);
     bool *vertex = sunder_i_calloc(sunder_i_planar_map_vertex_end(g->bands), sizeof *vertex);
-    const sunder_i_inside inside = {face, g->shrink ? edge : NULL, g->shrink ? vertex : NULL};
+    const sunder_i_inside inside = {face, g->erode ? edge : NULL, g->erode ? vertex : NULL};
     status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_no_memory(err);
-    if (status == SUNDER_OK && g->shrink) status = sort_rest(g, edge, vertex, err);
+    if (status == SUNDER_OK && g->erode) status = sort_rest(g, edge, vertex, err);
     if (status == SUNDER_OK) status = sunder_i_sum_from_cells(g->bands, &inside, sum, err);
     sunder_i_free(face);
     sunder_i_free(edge);
@@ -257,7 +257,7 @@ static sunder_status read_cells(growth *g, sunder_sum *sum, sunder_error *err)
     return status;
 }
 
-static sunder_status grow_or_shrink(growth *g, sunder_sum *sum, sunder_error *err)
+static sunder_status dilate_or_erode(stage *g, sunder_sum *sum, sunder_error *err)
 {
     static const sunder_sum_options defaults;
     if (!g->options) g->options = &defaults;
@@ -274,16 +274,16 @@ static sunder_status grow_or_shrink(growth *g, sunder_sum *sum, sunder_error *er
     return status;
 }
 
-sunder_status sunder_i_grow(const sunder_i_figure *figure, const sunder_i_probe *probe,
-                            const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
+sunder_status sunder_i_dilate_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                     const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
 {
-    growth g = {.figure = figure, .probe = probe, .options = options};
-    return grow_or_shrink(&g, sum, err);
+    stage g = {.figure = figure, .element = element, .options = options};
+    return dilate_or_erode(&g, sum, err);
 }
 
-sunder_status sunder_i_shrink(const sunder_i_figure *figure, const sunder_i_probe *probe,
-                              const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
+sunder_status sunder_i_erode_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
+                                    const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
 {
-    growth g = {.figure = figure, .probe = probe, .options = options, .shrink = true};
-    return grow_or_shrink(&g, sum, err);
+    stage g = {.figure = figure, .element = element, .options = options, .erode = true};
+    return dilate_or_erode(&g, sum, err);
 }
