@@ -6,7 +6,10 @@
  * A side is a *candidate* where it can carry boundary of the sum: it comes from a boundary edge of one operand and
  * a vertex of the other whose exterior angle holds the edge's direction (the reduced convolution [BL11]; closed
  * intervals, so that parallel edges are in twice rather than not at all). Every boundary point and every degenerate
- * hole lies on a candidate. */
+ * hole lies on a candidate.
+ *
+ * A pair of features asks for few subsums of P and -Q, nearest first, and makes these one by one: sunder_i_subsum
+ * (separation/operands/operands.h) is the same thing, without ranks. */
 #ifndef SUNDER_I_SUBSUMS_H
 #define SUNDER_I_SUBSUMS_H
 

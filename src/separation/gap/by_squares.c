@@ -1,11 +1,11 @@
 /* With a gap and many pairs of pieces: which of them matter. The plane is searched in squares, nearest to the origin
- * first, as without a gap (squares.h), with subsums grown by the gap. A square that a grown subsum holds whole keeps
+ * first, as without a gap (squares.h), with subsums grown by the gap. A square that a grown subsum covers whole keeps
  * that one, a square that few come near keeps those. So the subsums kept cover within the limit what all of them cover,
  * and of a point it is enough to ask those of its square; boundary runs through open squares only, so segments are
  * taken from these. The limit comes down to the first square that nothing comes near, or that has a middle that is free
  * for certain.
  *
- * Squares are held by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
+ * Squares are covered by more than all rounding, and what is farther than the gap by less than 2^-17 of the magnitude
  * counts as near: a point may be asked in either of two squares where it cannot be told in which it is, and so may one
  * beside it (rational.c). */
 #include "base/invariant.h"
@@ -24,7 +24,7 @@ typedef struct gathering {
     sunder_i_squares *q;
     sunder_i_gap_quadtree *to;
     size_t nodes_capacity;
-    uint64_t *pair; /* of all lists, one after the other: bodies of P and of -Q */
+    uint64_t *pair; /* of all lists, one after the other: convex sets of P and of -Q */
     size_t pairs, pairs_capacity;
     sunder_i_candidate *segment;
     size_t segments, segments_capacity;
@@ -67,13 +67,13 @@ static bool middle_is_free(const gathering *c, const sunder_i_square *s)
 {
     const double x = s->box[0] / 2 + s->box[2] / 2, y = s->box[1] / 2 + s->box[3] / 2;
     const sunder_i_operands *g = c->p->operands;
-    const sunder_i_bodies *b = c->q->bodies;
-    const sunder_i_square_query query = sunder_i_bodies_query(g, (double[4]){x, y, x, y});
+    const sunder_i_inner_convex *b = c->q->inner;
+    const sunder_i_square_query query = sunder_i_inner_convex_query(g, (double[4]){x, y, x, y});
     const float gap = (float)(c->p->gap_units * sunder_i_float_scale(g)) * (float)SUNDER_I_GAP_MORE_FLOATS +
-                      2 * SUNDER_I_BODIES_ERROR;
+                      2 * SUNDER_I_INNER_CONVEX_ERROR;
     for (size_t k = 0; k < c->q->pairs; k++) {
         const uint32_t i = c->q->pair[k][0], j = c->q->pair[k][1];
-        if (!(sunder_i_bodies_depth(b, i, j, &query).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
+        if (!(sunder_i_inner_convex_depth(b, i, j, &query).touch + b[0].vague[i] + b[1].vague[j] < -gap)) return false;
     }
     return true;
 }
@@ -93,12 +93,12 @@ static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state
         return sunder_i_squares_cut(q, s) && make_nodes(c);
     }
     at->from = (uint32_t)c->pairs;
-    bool ok = !q->held || keep_pair(c, q->holder[0], q->holder[1]);
+    bool ok = !q->covered || keep_pair(c, q->covering[0], q->covering[1]);
     if (what == SUNDER_I_SQUARE_OPEN) {
         for (size_t k = 0; ok && k < q->pairs; k++) ok = keep_pair(c, q->pair[k][0], q->pair[k][1]);
         ok = ok && keep_segments(c, s);
         if (ok && middle_is_free(c, s)) lower_limit(c, s->box[0] / 2 + s->box[2] / 2, s->box[1] / 2 + s->box[3] / 2);
-    } else if (!q->held)
+    } else if (!q->covered)
         lower_limit(c, fmax(fabs(s->box[0]), fabs(s->box[2])), fmax(fabs(s->box[1]), fabs(s->box[3])));
     at->to = (uint32_t)c->pairs;
     return ok;
@@ -123,7 +123,7 @@ static bool look_at_all(gathering *c, bool *done)
 /* ---- What they keep becomes what is searched ---- */
 
 /* Boxes of -Q, and of P, are pieces too. */
-static bool add_boxes(sunder_i_operands *g, const sunder_i_bodies *b, int side)
+static bool add_boxes(sunder_i_operands *g, const sunder_i_inner_convex *b, int side)
 {
     const uint32_t pieces = g->shape[side]->pieces;
     sunder_i_arena *arena = &g->placed.lattice.arena;
@@ -143,10 +143,10 @@ static bool add_boxes(sunder_i_operands *g, const sunder_i_bodies *b, int side)
     return true;
 }
 
-static const double *box_of(const sunder_i_operands *g, const sunder_i_bodies *b, int side, uint32_t body)
+static const double *box_of(const sunder_i_operands *g, const sunder_i_inner_convex *b, int side, uint32_t set)
 {
     const uint32_t pieces = g->shape[side]->pieces;
-    return body < pieces ? g->piece_box[side] + 4 * (size_t)body : b->box + 4 * (size_t)(body - pieces);
+    return set < pieces ? g->piece_box[side] + 4 * (size_t)set : b->box + 4 * (size_t)(set - pieces);
 }
 
 static bool number_pairs(gathering *c)
@@ -167,7 +167,7 @@ static bool number_pairs(gathering *c)
     for (size_t k = 0; k < n; k++) {
         sunder_i_subsum *s = g->subsum + k;
         *s = (sunder_i_subsum){.i = (uint32_t)(key[k] >> 32), .j = (uint32_t)key[k]};
-        sunder_i_box_sum(box_of(g, c->q->bodies, 0, s->i), box_of(g, c->q->bodies + 1, 1, s->j), s->box);
+        sunder_i_box_sum(box_of(g, c->q->inner, 0, s->i), box_of(g, c->q->inner + 1, 1, s->j), s->box);
     }
     for (size_t k = 0; k < c->pairs; k++) {
         size_t low = 0, high = n - 1;
@@ -208,8 +208,7 @@ static bool take_segments(gathering *c)
 static bool take_all(gathering *c)
 {
     sunder_i_operands *g = c->p->operands;
-    return add_boxes(g, &c->q->bodies[0], 0) && add_boxes(g, &c->q->bodies[1], 1) && number_pairs(c) &&
-           take_segments(c);
+    return add_boxes(g, &c->q->inner[0], 0) && add_boxes(g, &c->q->inner[1], 1) && number_pairs(c) && take_segments(c);
 }
 
 bool sunder_i_gap_by_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtree, bool *done)

@@ -16,7 +16,8 @@
  * of the range of doubles, 2^-1022, and what is divided by them is not known to a few ulps any more. */
 #define SUNDER_I_SHORTEST 0x1p-480
 
-/* R_ij, counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
+/* R_ij = P_i + (-Q_j): the convex subsums that a sum is the union of (convex/subsums.h), one by one, since a pair needs
+ * few of them. Counter-clockwise from its lowest corner, strictly convex. Arrays are of size sides, in one block. */
 typedef struct sunder_i_subsum {
     uint32_t i, j;  /* the pieces of P and of Q */
     uint32_t sides; /* 0: not made yet */

@@ -20,7 +20,7 @@ static const double WAY[SUNDER_I_DOP_WAYS][2] = {{1, 0},
 
 double sunder_i_float_scale(const sunder_i_operands *g) { return ldexp(1, -ilogb(g->magnitude)); }
 
-/* With coordinates up to M, themselves floats, a bound of a body is below 1.42 M and off by 2^-24 of 2.9 M; so is that
+/* With coordinates up to M, themselves floats, a bound of a set is below 1.42 M and off by 2^-24 of 2.9 M; so is that
  * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
  * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20

@@ -1,6 +1,6 @@
 /* The convex pieces of an operand, by place: a tree with their extents in eight directions (discrete oriented polytopes
  * of sixteen sides [KHMSZ98]), so that long thin pieces that lie aslant are told apart too. Of two such trees, one of P
- * and one of -Q, it is asked which subsums come near a square of the plane, and which may hold it.
+ * and one of -Q, it is asked which subsums come near a square of the plane, and which may cover it.
  *
  * Extents are single floats, rounded as it comes: the square is widened instead, by more than all that
  * (sunder_i_dop_query()). */
@@ -35,7 +35,7 @@ double sunder_i_float_scale(const sunder_i_operands *operands);
 sunder_i_dop sunder_i_dop_nowhere(void);
 void sunder_i_dop_add(sunder_i_dop *extents, float x, float y);
 
-/* Of n bodies with these extents. False if memory is out; to be freed all the same. */
+/* Of n convex sets with these extents. False if memory is out; to be freed all the same. */
 bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n);
 void sunder_i_dop_tree_free(sunder_i_dop_tree *tree);
 
@@ -80,7 +80,7 @@ static inline float sunder_i_floats_least(sunder_i_floats v)
     return a < b ? a : b;
 }
 
-/* May a subsum of bodies with the extents u and v come near the square that is asked about? */
+/* May a subsum of convex sets with the extents u and v come near the square that is asked about? */
 static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_masks off = {0, 0, 0, 0};
@@ -93,7 +93,7 @@ static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *
     return (any[0] | any[1]) == 0;
 }
 
-/* How far inside such a subsum all of the square may be at most; it is not held where that is not positive. */
+/* How far inside such a subsum all of the square may be at most; it is not covered where that is not positive. */
 static inline float sunder_i_dop_depth(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_floats least = {INFINITY, INFINITY, INFINITY, INFINITY};

@@ -1,5 +1,5 @@
 /* Which pairs of pieces come near a square: both trees are descended together, as long as the extents of two nodes do
- * not keep them off. A pair that is not listed stays off by more than the error; one that holds the square ends it. */
+ * not keep them off. A pair that is not listed stays off by more than the error; one that covers the square ends it. */
 #include "separation/squares/squares_inner.h"
 
 #include "base/watch.h"
@@ -8,10 +8,10 @@
  * points. */
 static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
 {
-    const sunder_i_square_depth d = sunder_i_bodies_depth(q->bodies, i, j, &q->query);
-    const float e = SUNDER_I_BODIES_ERROR + q->bodies[0].vague[i] + q->bodies[1].vague[j];
+    const sunder_i_square_depth d = sunder_i_inner_convex_depth(q->inner, i, j, &q->query);
+    const float e = SUNDER_I_INNER_CONVEX_ERROR + q->inner[0].vague[i] + q->inner[1].vague[j];
     if (q->gap > 0) {
-        const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_BODIES_ERROR;
+        const float gap = (float)(2 * q->gap * sunder_i_float_scale(q->g)) + 2 * SUNDER_I_INNER_CONVEX_ERROR;
         return d.touch + gap < -e ? SUNDER_I_POSITION_OUTSIDE
                : d.in > e         ? SUNDER_I_POSITION_WITHIN
                                   : SUNDER_I_POSITION_ACROSS;
@@ -24,28 +24,28 @@ static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, ui
 /* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
 static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32_t part[2][2])
 {
-    const bool first = b >= q->bodies[1].pieces.leaves || (a < q->bodies[0].pieces.leaves && a <= b);
+    const bool first = b >= q->inner[1].pieces.leaves || (a < q->inner[0].pieces.leaves && a <= b);
     for (uint32_t k = 0; k < 2; k++) {
         part[k][0] = first ? 2 * a + k : a;
         part[k][1] = first ? b : 2 * b + k;
     }
 }
 
-/* Adds the pairs below two nodes; false once there are more than `most`, or if one of them holds the square (q->held),
- * or if memory is out. */
+/* Adds the pairs below two nodes; false once there are more than `most`, or if one of them covers the square
+ * (q->covered), or if memory is out. */
 static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 {
-    const sunder_i_dop_tree *p = &q->bodies[0].pieces, *r = &q->bodies[1].pieces;
+    const sunder_i_dop_tree *p = &q->inner[0].pieces, *r = &q->inner[1].pieces;
     if (!sunder_i_dop_near(p->extent + a, r->extent + b, &q->dop)) return true;
     if (a >= p->leaves && b >= r->leaves) {
         const uint32_t i = p->piece[a - p->leaves], j = r->piece[b - r->leaves];
         if (!sunder_i_step()) return false;
         const sunder_i_square_position where = position_to_subsum(q, i, j);
         if (where == SUNDER_I_POSITION_OUTSIDE) return true;
-        q->held = where == SUNDER_I_POSITION_WITHIN;
-        q->holder[0] = i;
-        q->holder[1] = j;
-        if (q->held) return false;
+        q->covered = where == SUNDER_I_POSITION_WITHIN;
+        q->covering[0] = i;
+        q->covering[1] = j;
+        if (q->covered) return false;
         if (q->pairs == most || !sunder_i_reserve(&q->pair, &q->pairs_capacity, q->pairs + 1, sizeof *q->pair))
             return false;
         q->pair[q->pairs][0] = i;
@@ -63,6 +63,6 @@ bool sunder_i_squares_gather(sunder_i_squares *q, const double at[4], size_t mos
     sunder_i_squares_query(q, at, less);
     q->dop = sunder_i_dop_query(q->g, at, q->gap);
     q->pairs = 0;
-    q->held = false;
+    q->covered = false;
     return gather(q, 1, 1, most);
 }

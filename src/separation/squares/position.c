@@ -1,4 +1,4 @@
-/* A square and the sum of two pieces, in doubles: what floats leave in doubt (bodies.h). */
+/* A square and the sum of two pieces, in doubles: what floats leave in doubt (inner_convex.h). */
 #include "separation/squares/squares_inner.h"
 
 #include <math.h>

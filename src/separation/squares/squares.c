@@ -1,4 +1,4 @@
-/* Squares that something holds whole (holders.c) are closed; those that few pairs of pieces come near are open,
+/* Squares that something covers whole (covering.c) are closed; those that few pairs of pieces come near are open,
  * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
  * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
 #include "base/invariant.h"
@@ -43,13 +43,13 @@ static double distance_of(const double box[4])
 bool sunder_i_squares_take_origin(sunder_i_squares *q, bool *covered)
 {
     static const double origin[4] = {0, 0, 0, 0};
-    *covered = sunder_i_squares_boxes_hold(q, origin);
+    *covered = sunder_i_squares_boxes_cover(q, origin);
     if (*covered) return true;
-    const sunder_i_holding how = sunder_i_squares_one_holds(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
-    *covered = how == SUNDER_I_HOLDING_FOUND;
-    if (*covered || how == SUNDER_I_HOLDING_NO_MEMORY) return *covered;
+    const sunder_i_covering how = sunder_i_squares_one_covers(q, origin, (uint32_t[2]){1, 1}, ORIGIN_TRIES);
+    *covered = how == SUNDER_I_COVERING_FOUND;
+    if (*covered || how == SUNDER_I_COVERING_NO_MEMORY) return *covered;
     const bool all = sunder_i_squares_gather(q, origin, SIZE_MAX);
-    *covered = q->held;
+    *covered = q->covered;
     return *covered || (all && sunder_i_squares_take_subsums(q));
 }
 
@@ -68,26 +68,26 @@ bool sunder_i_squares_cut(sunder_i_squares *q, const sunder_i_square *s)
     return true;
 }
 
-static uint32_t tries_to_hold(int depth)
+static uint32_t tries_to_cover(int depth)
 {
-    const int doublings = depth > HOLD_PATIENT ? depth - HOLD_PATIENT : 0;
-    return (uint32_t)HOLD_TRIES << (doublings < HOLD_MOST ? doublings : HOLD_MOST);
+    const int doublings = depth > COVER_PATIENT ? depth - COVER_PATIENT : 0;
+    return (uint32_t)COVER_TRIES << (doublings < COVER_MOST ? doublings : COVER_MOST);
 }
 
 sunder_i_square_state sunder_i_squares_look(sunder_i_squares *q, const sunder_i_square *s)
 {
     const int patience = s->depth > PATIENT ? s->depth - PATIENT : 0;
-    q->held = q->gap == 0 && sunder_i_squares_boxes_hold(q, s->box); /* with a gap it is asked what holds it */
+    q->covered = q->gap == 0 && sunder_i_squares_boxes_cover(q, s->box); /* with a gap it is asked what covers it */
     q->pairs = 0;
     if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
-    if (q->held) return SUNDER_I_SQUARE_CLOSED;
-    const sunder_i_holding how = sunder_i_squares_one_holds(q, s->box, s->best, tries_to_hold(s->depth));
-    if (how == SUNDER_I_HOLDING_NO_MEMORY) return SUNDER_I_SQUARE_NO_MEMORY;
-    if (how != SUNDER_I_HOLDING_NONE)
-        return how == SUNDER_I_HOLDING_FOUND ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
+    if (q->covered) return SUNDER_I_SQUARE_CLOSED;
+    const sunder_i_covering how = sunder_i_squares_one_covers(q, s->box, s->best, tries_to_cover(s->depth));
+    if (how == SUNDER_I_COVERING_NO_MEMORY) return SUNDER_I_SQUARE_NO_MEMORY;
+    if (how != SUNDER_I_COVERING_NONE)
+        return how == SUNDER_I_COVERING_FOUND ? SUNDER_I_SQUARE_CLOSED : SUNDER_I_SQUARE_IN_PARTS;
     const size_t few = (size_t)FEW_PAIRS << patience;
     if (sunder_i_squares_gather(q, s->box, few)) return q->pairs ? SUNDER_I_SQUARE_OPEN : SUNDER_I_SQUARE_CLOSED;
-    if (q->held) return SUNDER_I_SQUARE_CLOSED;
+    if (q->covered) return SUNDER_I_SQUARE_CLOSED;
     return q->pairs == few ? SUNDER_I_SQUARE_IN_PARTS : SUNDER_I_SQUARE_NO_MEMORY;
 }
 
@@ -146,8 +146,8 @@ sunder_i_squares *sunder_i_squares_new(sunder_i_operands *g, double reach, doubl
     q->reach = (float)(sunder_i_float_scale(g) * r);
     for (int k = 0; k < SUNDER_I_SQUARES_MEMORY * SUNDER_I_SQUARES_MEMORY; k++) q->memory[k][0] = q->memory[k][1] = 1;
     const bool ok = sunder_i_quadtree_build(&q->quadtree[0], g, 0) && sunder_i_quadtree_build(&q->quadtree[1], g, 1) &&
-                    sunder_i_bodies_build(&q->bodies[0], g, 0, &q->quadtree[0]) &&
-                    sunder_i_bodies_build(&q->bodies[1], g, 1, &q->quadtree[1]) && make_tables(q, 0) &&
+                    sunder_i_inner_convex_build(&q->inner[0], g, 0, &q->quadtree[0]) &&
+                    sunder_i_inner_convex_build(&q->inner[1], g, 1, &q->quadtree[1]) && make_tables(q, 0) &&
                     make_tables(q, 1) && push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
     if (ok) return q;
     sunder_i_squares_free(q);
@@ -159,7 +159,7 @@ void sunder_i_squares_free(sunder_i_squares *q)
     if (!q) return;
     for (int k = 0; k < 2; k++) {
         sunder_i_quadtree_free(&q->quadtree[k]);
-        sunder_i_bodies_free(&q->bodies[k]);
+        sunder_i_inner_convex_free(&q->inner[k]);
         sunder_i_free(q->first_piece[k]);
         sunder_i_free(q->corner[k]);
         sunder_i_free(q->state[k]);

@@ -1,6 +1,6 @@
-/* The plane of translations in squares, nearest to the origin first: those that are held whole are closed at once, and
- * what is open is cut up until few pairs of pieces come near it. For operands so large that all their pairs would be
- * too many to be listed. */
+/* The plane of translations in squares, nearest to the origin first: those that are covered whole are closed at once,
+ * and what is open is cut up until few pairs of pieces come near it. For operands so large that all their pairs would
+ * be too many to be listed. */
 #ifndef SUNDER_I_SQUARES_H
 #define SUNDER_I_SQUARES_H
 

@@ -17,14 +17,14 @@
  * in one point, and then no cutting helps. */
 #define FEW_PAIRS 32
 #define PATIENT 8
-/* So many sums are tried to hold a square; past HOLD_PATIENT halvings twice as many for each, up to HOLD_MOST
+/* So many sums are tried to cover a square; past COVER_PATIENT halvings twice as many for each, up to COVER_MOST
  * doublings, for there may be one that does among thousands that nearly do, as of two stars. */
-#define HOLD_TRIES 16
-#define HOLD_PATIENT 5
-#define HOLD_MOST 18
-/* And to hold the origin, which is asked once and ends the search for two sets that are apart. */
+#define COVER_TRIES 16
+#define COVER_PATIENT 5
+#define COVER_MOST 18
+/* And to cover the origin, which is asked once and ends the search for two sets that are apart. */
 #define ORIGIN_TRIES 1024
-/* By then a square is far smaller than what floats tell apart (bodies.h); and the tries can still be numbered. */
+/* By then a square is far smaller than what floats tell apart (inner_convex.h); and the tries can still be numbered. */
 #define DEEPEST_SQUARE 28
 /* So many squares, so many for each piece, and one for so many pairs of pieces are looked at: each is worth some
  * microseconds, and what else could be done takes all pairs of pieces. */
@@ -32,24 +32,24 @@
 #define MOST_EACH 8
 #define MOST_PAIRS 32
 
-/* ---- What holds a square (holders.c) ---- */
+/* ---- What covers a square (covering.c) ---- */
 
-/* Pairs of boxes that are looked at to hold one square; what so many do not hold is sooner held in parts. */
+/* Pairs of boxes that are looked at to cover one square; what so many do not cover is sooner covered in parts. */
 #define MOST_BOX_PAIRS 1000
 /* Nodes are taken by how deep the square is in the sum of their chiefs, and by this much of how deep it can be in any
- * by their extents. Those about the pair that held nearly the square that this is a quarter of, so many levels up, come
- * along with the roots. By measurement on stars; nothing of it matters much. */
+ * by their extents. Those about the pair that covered nearly the square that this is a quarter of, so many levels up,
+ * come along with the roots. By measurement on stars; nothing of it matters much. */
 #define EXTENTS_COUNT 0.25f
 #define LEVELS_UP 2
 
-/* ---- Boxes inside an operand (quadtree.c, bodies.c) ---- */
+/* ---- Boxes inside an operand (quadtree.c, inner_convex.c) ---- */
 
 /* The quadtree is no deeper than this, where a box has 2^-14 of the operand's width and holds little; */
 #define DEEPEST_BOX 14
 /* and not so deep that boundary passes through more boxes than so many for each edge: many edges that are long beside
  * the operand, as of a star, pass through nearly all. */
 #define BOXES_EACH 16
-/* Of the boxes inside so many are bodies, the largest, and as many as a quarter of the pieces besides: small
+/* Of the boxes inside so many are asked, the largest, and as many as a quarter of the pieces besides: small
  * boxes hold little beside the pieces about them. */
 #define BOXES_LEAST 64
 /* Where in a box it is asked whether an operand has it: off its middle and its diagonals, through which sides of pieces

@@ -1,14 +1,14 @@
-/* What holds a square whole: a box inside P and one inside -Q whose sum, a box, has it in its interior, so that any
+/* What covers a square whole: a box inside P and one inside -Q whose sum, a box, has it in its interior, so that any
  * placement from the square makes the two overlap; or a subsum. And where nothing does, the pairs of pieces that come
  * near it.
  *
- * Where the operands overlap deeply a few large boxes hold large squares. Spikes have no boxes inside, but the sum of
- * two that cross is a parallelogram that holds many a square. Among millions of pairs one is found in the two trees of
- * bodies, the most promising nodes first: the sum of their chiefs is asked itself, and says for all of their bodies how
- * deep the square can be. If that leads nowhere soon there are many that nearly hold it, and its quarters are better
+ * Where the operands overlap deeply a few large boxes cover large squares. Spikes have no boxes inside, but the sum of
+ * two that cross is a parallelogram that covers many a square. Among millions of pairs one is found in the two trees of
+ * convex sets, the most promising nodes first: the sum of their chiefs is asked itself, and says for all below them how
+ * deep the square can be. If that leads nowhere soon there are many that nearly cover it, and its quarters are better
  * asked; it is not worth while then to list who comes near.
  *
- * All in doubles or floats and one-sided: held is certain, and a pair that is not listed stays off by more than the
+ * All in doubles or floats and one-sided: covered is certain, and a pair that is not listed stays off by more than the
  * error. */
 #include "separation/squares/squares_inner.h"
 
@@ -21,10 +21,10 @@
 
 /* ---- Boxes ---- */
 
-/* The nodes a and b of the two quarterings, with their boxes. Parts of a box whose sum does not hold the square do not
+/* The nodes a and b of the two quarterings, with their boxes. Parts of a box whose sum does not cover the square do not
  * either. */
-static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const double abox[4], int32_t b,
-                 const double bbox[4])
+static bool boxes_cover(sunder_i_squares *q, const double at[4], int32_t a, const double abox[4], int32_t b,
+                        const double bbox[4])
 {
     const double e = 8 * q->g->error;
     for (int k = 0; k < 2; k++)
@@ -38,41 +38,41 @@ static bool hold(sunder_i_squares *q, const double at[4], int32_t a, const doubl
     for (int k = 0; k < 4; k++) {
         double part[4];
         sunder_i_quadtree_quarter(of_p ? abox : bbox, k, part);
-        if (of_p ? hold(q, at, u + k, part, b, bbox) : hold(q, at, a, abox, v + k, part)) return true;
+        if (of_p ? boxes_cover(q, at, u + k, part, b, bbox) : boxes_cover(q, at, a, abox, v + k, part)) return true;
     }
     return false;
 }
 
-bool sunder_i_squares_boxes_hold(sunder_i_squares *q, const double at[4])
+bool sunder_i_squares_boxes_cover(sunder_i_squares *q, const double at[4])
 {
     q->tries = 0;
-    return hold(q, at, 0, q->quadtree[0].box, 0, q->quadtree[1].box);
+    return boxes_cover(q, at, 0, q->quadtree[0].box, 0, q->quadtree[1].box);
 }
 
-/* ---- Bodies ---- */
+/* ---- Sums of convex sets ---- */
 
-/* A sum grown by a disc of radius g holds a square if one grown by a square of half the width g / sqrt(2) does, and
- * that if the sum itself holds what is left of the square, so much smaller; somewhat less than that, for rounding. */
+/* A sum grown by a disc of radius g covers a square if one grown by a square of half the width g / sqrt(2) does, and
+ * that if the sum itself covers what is left of the square, so much smaller; somewhat less than that, for rounding. */
 #define SQUARE_IN_DISC 0.70
 
 void sunder_i_squares_query(sunder_i_squares *q, const double at[4], double less[4])
 {
     const double by = SQUARE_IN_DISC * q->gap;
     for (int k = 0; k < 4; k++) less[k] = k < 2 ? at[k] + by : at[k] - by;
-    q->query = sunder_i_bodies_query(q->g, less);
+    q->query = sunder_i_inner_convex_query(q->g, less);
     q->at = less;
 }
 
-/* Does the sum of the chiefs of two nodes hold the square? It is remembered whose holds it, or does so most nearly. */
-static bool holds(sunder_i_squares *q, const uint32_t node[2], float *in)
+/* Does the sum of the chiefs of two nodes cover the square? It is remembered whose does, or most nearly does. */
+static bool sum_covers(sunder_i_squares *q, const uint32_t node[2], float *in)
 {
-    const uint32_t i = q->bodies[0].node[node[0]].chief, j = q->bodies[1].node[node[1]].chief;
-    *in = sunder_i_bodies_depth(q->bodies, i, j, &q->query).in;
+    const uint32_t i = q->inner[0].node[node[0]].chief, j = q->inner[1].node[node[1]].chief;
+    *in = sunder_i_inner_convex_depth(q->inner, i, j, &q->query).in;
     if (*in > q->best_depth) {
         q->best_depth = *in;
         memcpy(q->best, node, sizeof q->best);
     }
-    if (fabsf(*in) > SUNDER_I_BODIES_ERROR) return *in > 0;
+    if (fabsf(*in) > SUNDER_I_INNER_CONVEX_ERROR) return *in > 0;
     const bool pieces = i < q->g->shape[0]->pieces && j < q->g->shape[1]->pieces;
     return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_POSITION_WITHIN;
 }
@@ -85,16 +85,16 @@ static bool before(const void *a, const void *b)
 static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
 {
     if (!sunder_i_reserve(&q->node, &q->nodes_capacity, q->nodes + 1, sizeof *q->node)) return false;
-    if (v.node[0] >= q->bodies[0].all.leaves && v.node[1] >= q->bodies[1].all.leaves) return true; /* none below */
+    if (v.node[0] >= q->inner[0].all.leaves && v.node[1] >= q->inner[1].all.leaves) return true; /* none below */
     sunder_i_heap_push(q->node, &q->nodes, sizeof v, &v, before);
     return true;
 }
 
 /* Of two nodes the one with more that stands out of its chief is opened. Its parts are looked at by their chiefs; those
- * of which no sum can hold the square are dropped. */
-static sunder_i_holding open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
+ * of which no sum can cover the square are dropped. */
+static sunder_i_covering open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
 {
-    const sunder_i_bodies *b = q->bodies;
+    const sunder_i_inner_convex *b = q->inner;
     const float reach[2] = {b[0].node[v->node[0]].reach, b[1].node[v->node[1]].reach};
     const int side = v->node[0] >= b[0].all.leaves || (v->node[1] < b[1].all.leaves && reach[1] > reach[0]);
     const uint32_t chief = b[side].node[v->node[side]].chief;
@@ -105,19 +105,19 @@ static sunder_i_holding open_pair(sunder_i_squares *q, const sunder_i_node_pair 
         const float depth = sunder_i_dop_depth(extent[0], extent[1], &q->dop);
         if (!(depth > 0)) continue;
         if (b[side].node[part.node[side]].chief != chief) {
-            if (q->tries == 0) return SUNDER_I_HOLDING_UNDECIDED;
+            if (q->tries == 0) return SUNDER_I_COVERING_UNDECIDED;
             q->tries--;
-            if (holds(q, part.node, &part.in)) return SUNDER_I_HOLDING_FOUND;
+            if (sum_covers(q, part.node, &part.in)) return SUNDER_I_COVERING_FOUND;
         }
         const float out = b[0].node[part.node[0]].reach + b[1].node[part.node[1]].reach;
         if (part.in + out <= 0) continue;
         part.key = part.in + EXTENTS_COUNT * depth;
-        if (!push_node(q, part)) return SUNDER_I_HOLDING_NO_MEMORY;
+        if (!push_node(q, part)) return SUNDER_I_COVERING_NO_MEMORY;
     }
-    return SUNDER_I_HOLDING_NONE;
+    return SUNDER_I_COVERING_NONE;
 }
 
-/* The pair of nodes that held the last square about there, if any did. */
+/* The pair of nodes that covered the last square about there, if any did. */
 static uint32_t *remembered(sunder_i_squares *q)
 {
     const float per_unit = SUNDER_I_SQUARES_MEMORY / (2 * q->reach);
@@ -126,30 +126,30 @@ static uint32_t *remembered(sunder_i_squares *q)
     return q->memory[(y < 0 ? 0 : y > most ? most : y) * SUNDER_I_SQUARES_MEMORY + (x < 0 ? 0 : x > most ? most : x)];
 }
 
-static sunder_i_holding search_nodes(sunder_i_squares *q, const uint32_t first[2])
+static sunder_i_covering search_nodes(sunder_i_squares *q, const uint32_t first[2])
 {
     sunder_i_node_pair near = {.node = {first[0], first[1]}}, all = {.node = {1, 1}};
     q->nodes = 0;
-    if (holds(q, first, &near.in) || holds(q, remembered(q), &all.in) || holds(q, all.node, &all.in))
-        return SUNDER_I_HOLDING_FOUND;
+    if (sum_covers(q, first, &near.in) || sum_covers(q, remembered(q), &all.in) || sum_covers(q, all.node, &all.in))
+        return SUNDER_I_COVERING_FOUND;
     for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS_UP ? q->best[k] >> LEVELS_UP : 1;
-    if ((near.node[0] > 1 || near.node[1] > 1) && holds(q, near.node, &near.in)) return SUNDER_I_HOLDING_FOUND;
+    if ((near.node[0] > 1 || near.node[1] > 1) && sum_covers(q, near.node, &near.in)) return SUNDER_I_COVERING_FOUND;
     near.key = near.in;
     all.key = all.in;
-    if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_HOLDING_NO_MEMORY;
-    if (!push_node(q, all)) return SUNDER_I_HOLDING_NO_MEMORY;
+    if ((near.node[0] > 1 || near.node[1] > 1) && !push_node(q, near)) return SUNDER_I_COVERING_NO_MEMORY;
+    if (!push_node(q, all)) return SUNDER_I_COVERING_NO_MEMORY;
     while (q->nodes) {
         sunder_i_node_pair top;
         sunder_i_heap_pop(q->node, &q->nodes, sizeof top, &top, before);
-        const sunder_i_holding how = open_pair(q, &top);
-        if (how != SUNDER_I_HOLDING_NONE) return how;
-        if (!sunder_i_step()) return SUNDER_I_HOLDING_NO_MEMORY;
+        const sunder_i_covering how = open_pair(q, &top);
+        if (how != SUNDER_I_COVERING_NONE) return how;
+        if (!sunder_i_step()) return SUNDER_I_COVERING_NO_MEMORY;
     }
-    return SUNDER_I_HOLDING_NONE;
+    return SUNDER_I_COVERING_NONE;
 }
 
-sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *q, const double at[4], const uint32_t first[2],
-                                            uint32_t tries)
+sunder_i_covering sunder_i_squares_one_covers(sunder_i_squares *q, const double at[4], const uint32_t first[2],
+                                              uint32_t tries)
 {
     double less[4];
     sunder_i_squares_query(q, at, less);
@@ -157,10 +157,10 @@ sunder_i_holding sunder_i_squares_one_holds(sunder_i_squares *q, const double at
     q->tries = tries;
     q->best_depth = -INFINITY;
     q->best[0] = q->best[1] = 1;
-    const sunder_i_holding how = search_nodes(q, first);
-    q->held = how == SUNDER_I_HOLDING_FOUND;
-    if (!q->held) return how;
+    const sunder_i_covering how = search_nodes(q, first);
+    q->covered = how == SUNDER_I_COVERING_FOUND;
+    if (!q->covered) return how;
     memcpy(remembered(q), q->best, sizeof q->best);
-    for (int k = 0; k < 2; k++) q->holder[k] = q->bodies[k].node[q->best[k]].chief;
+    for (int k = 0; k < 2; k++) q->covering[k] = q->inner[k].node[q->best[k]].chief;
     return how;
 }

@@ -1,6 +1,6 @@
-/* Bodies are floats, which is half as much to be fetched from memory: they are asked by the million. What they hold
- * they hold for certain. */
-#include "separation/squares/bodies.h"
+/* Convex sets inside an operand, in floats, which is half as much to be fetched from memory: they are asked by the
+ * million. What they cover they cover for certain. */
+#include "separation/squares/inner_convex.h"
 
 #include "base/watch.h"
 #include "separation/squares/tuning.h"
@@ -14,16 +14,16 @@ static double length_of(double x, double y) { return sqrt(x * x + y * y); }
 
 static float length_f(float x, float y) { return sqrtf(x * x + y * y); }
 
-/* A body with n corners, at xy or at those of its places that are named. Where the difference of corners is rounded the
- * directions of short sides are off by more than floats are. */
-static void add_body(sunder_i_bodies *b, const sunder_i_operands *g, const double *xy, const uint32_t *vertex,
-                     uint32_t n)
+/* A convex set with n corners, at xy or at those of its places that are named. Where the difference of corners is
+ * rounded the directions of short sides are off by more than floats are. */
+static void add_set(sunder_i_inner_convex *b, const sunder_i_operands *g, const double *xy, const uint32_t *vertex,
+                    uint32_t n)
 {
     const uint32_t first = b->n ? b->end[b->n - 1] : 0, blocks = (n + 3) / 4;
     const double scale = sunder_i_float_scale(g);
     double shortest = INFINITY;
     for (uint32_t k = 0; k < 4 * blocks; k++) {
-        sunder_i_body_block *to = b->block + first + k / 4;
+        sunder_i_inner_convex_block *to = b->block + first + k / 4;
         const uint32_t i = k < n ? k : 0, j = i + 1 < n ? i + 1 : 0, m = k % 4;
         const double *c = xy + 2 * (size_t)(vertex ? vertex[i] : i), *d = xy + 2 * (size_t)(vertex ? vertex[j] : j);
         const double dx = d[0] - c[0], dy = d[1] - c[1], length = length_of(dx, dy);
@@ -41,22 +41,22 @@ static void add_body(sunder_i_bodies *b, const sunder_i_operands *g, const doubl
     b->end[b->n++] = first + blocks;
 }
 
-static void add_pieces(sunder_i_bodies *b, const sunder_i_operands *g, int side)
+static void add_pieces(sunder_i_inner_convex *b, const sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
     for (uint32_t i = 0, k = 0; i < s->pieces; k = s->piece_end[i++])
-        add_body(b, g, g->xy[side], s->piece_vertex + k, s->piece_end[i] - k);
+        add_set(b, g, g->xy[side], s->piece_vertex + k, s->piece_end[i] - k);
 }
 
 /* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
-static bool add_box(sunder_i_bodies *b, const sunder_i_operands *g, const double box[4])
+static bool add_box(sunder_i_inner_convex *b, const sunder_i_operands *g, const double box[4])
 {
     double at[4] = {box[0], box[1], box[2], box[3]};
     for (int k = 0; k < 4 && g->placed.lattice.narrow; k++) at[k] = k < 2 ? ceil(box[k]) : floor(box[k]);
     if (at[0] >= at[2] || at[1] >= at[3]) return false;
     const double xy[8] = {at[0], at[1], at[2], at[1], at[2], at[3], at[0], at[3]};
     memcpy(b->box + 4 * (size_t)b->boxes++, at, sizeof at);
-    add_body(b, g, xy, NULL, 4);
+    add_set(b, g, xy, NULL, 4);
     return true;
 }
 
@@ -67,7 +67,8 @@ typedef struct place {
 } place;
 
 /* The full boxes, level by level, so the largest first, until there are `most` more; false if memory is out. */
-static bool add_boxes(sunder_i_bodies *b, const sunder_i_operands *g, const sunder_i_quadtree *quadtree, uint32_t most)
+static bool add_boxes(sunder_i_inner_convex *b, const sunder_i_operands *g, const sunder_i_quadtree *quadtree,
+                      uint32_t most)
 {
     place *queue = sunder_i_alloc(quadtree->nodes, sizeof *queue);
     size_t n = 1;
@@ -90,7 +91,7 @@ static bool add_boxes(sunder_i_bodies *b, const sunder_i_operands *g, const sund
 /* ---- Chiefs ---- */
 
 /* Of a point that is outside of side m of a block, which ends at (ex, ey). */
-static float distance_from_side(const sunder_i_body_block *c, int m, float ex, float ey, float x, float y)
+static float distance_from_side(const sunder_i_inner_convex_block *c, int m, float ex, float ey, float x, float y)
 {
     const float tx = -c->ny[m], ty = c->nx[m], along = tx * (x - c->x[m]) + ty * (y - c->y[m]);
     if (along <= 0) return length_f(x - c->x[m], y - c->y[m]);
@@ -98,14 +99,15 @@ static float distance_from_side(const sunder_i_body_block *c, int m, float ex, f
     return c->nx[m] * x + c->ny[m] * y - c->support[m];
 }
 
-static float distance_from_body(const sunder_i_bodies *b, uint32_t body, float x, float y)
+static float distance_from_set(const sunder_i_inner_convex *b, uint32_t set, float x, float y)
 {
-    const uint32_t first = body ? b->end[body - 1] : 0, end = b->end[body];
+    const uint32_t first = set ? b->end[set - 1] : 0, end = b->end[set];
     float least = INFINITY;
     bool inside = true;
     for (uint32_t k = first; k < end; k++)
         for (int m = 0; m < 4; m++) {
-            const sunder_i_body_block *c = b->block + k, *d = m < 3 ? c : b->block + (k + 1 < end ? k + 1 : first);
+            const sunder_i_inner_convex_block *c = b->block + k,
+                                              *d = m < 3 ? c : b->block + (k + 1 < end ? k + 1 : first);
             if (c->nx[m] * x + c->ny[m] * y <= c->support[m]) continue;
             const float v = distance_from_side(c, m, d->x[(m + 1) % 4], d->y[(m + 1) % 4], x, y);
             least = v < least ? v : least;
@@ -114,16 +116,16 @@ static float distance_from_body(const sunder_i_bodies *b, uint32_t body, float x
     return inside ? 0 : least;
 }
 
-/* How much deeper body i can hold a square than body k is seen to hold it. */
-static float stands_out(const sunder_i_bodies *b, uint32_t i, uint32_t k)
+/* How much deeper convex set i can cover a square than convex set k is seen to cover it. */
+static float stands_out(const sunder_i_inner_convex *b, uint32_t i, uint32_t k)
 {
     float most = 0;
     for (uint32_t c = i ? b->end[i - 1] : 0; c < b->end[i]; c++)
         for (int m = 0; m < 4; m++) {
-            const float v = distance_from_body(b, k, b->block[c].x[m], b->block[c].y[m]);
+            const float v = distance_from_set(b, k, b->block[c].x[m], b->block[c].y[m]);
             if (!(v <= most)) most = v;
         }
-    return most + SUNDER_I_BODIES_ERROR + 2 * b->vague[k];
+    return most + SUNDER_I_INNER_CONVEX_ERROR + 2 * b->vague[k];
 }
 
 /* Its extents in all ways together. */
@@ -134,23 +136,23 @@ static float size_of(const sunder_i_dop *extent)
     return size;
 }
 
-/* The largest body of each node, by what is known of its children. */
-static bool name_chiefs(sunder_i_bodies *b, const sunder_i_dop *extent)
+/* The largest convex set of each node, by what is known of its children. */
+static bool name_chiefs(sunder_i_inner_convex *b, const sunder_i_dop *extent)
 {
     const uint32_t leaves = b->all.leaves;
     b->node = sunder_i_alloc(2 * (size_t)leaves, sizeof *b->node);
     if (!b->node) return false;
     for (uint32_t k = 2 * leaves; --k > 0;) {
         if (k >= leaves) {
-            const uint32_t body = b->all.piece[k - leaves];
-            b->node[k].chief = body;
-            b->node[k].reach = body == UINT32_MAX ? 0 : SUNDER_I_BODIES_ERROR + 2 * b->vague[body];
+            const uint32_t set = b->all.piece[k - leaves];
+            b->node[k].chief = set;
+            b->node[k].reach = set == UINT32_MAX ? 0 : SUNDER_I_INNER_CONVEX_ERROR + 2 * b->vague[set];
             continue;
         }
-        const sunder_i_body_node u = b->node[2 * k], v = b->node[2 * k + 1];
+        const sunder_i_inner_convex_node u = b->node[2 * k], v = b->node[2 * k + 1];
         const bool first =
             v.chief == UINT32_MAX || (u.chief != UINT32_MAX && size_of(extent + u.chief) >= size_of(extent + v.chief));
-        const sunder_i_body_node other = first ? v : u;
+        const sunder_i_inner_convex_node other = first ? v : u;
         b->node[k] = first ? u : v;
         if (!sunder_i_step()) return false;
         if (other.chief == UINT32_MAX) continue;
@@ -162,7 +164,7 @@ static bool name_chiefs(sunder_i_bodies *b, const sunder_i_dop *extent)
 
 /* ---- All together ---- */
 
-static bool plant(sunder_i_bodies *b, uint32_t pieces)
+static bool plant(sunder_i_inner_convex *b, uint32_t pieces)
 {
     sunder_i_dop *extent = sunder_i_alloc(b->n, sizeof *extent);
     if (!extent) return false;
@@ -177,21 +179,22 @@ static bool plant(sunder_i_bodies *b, uint32_t pieces)
     return ok;
 }
 
-bool sunder_i_bodies_build(sunder_i_bodies *b, const sunder_i_operands *g, int side, const sunder_i_quadtree *quadtree)
+bool sunder_i_inner_convex_build(sunder_i_inner_convex *b, const sunder_i_operands *g, int side,
+                                 const sunder_i_quadtree *quadtree)
 {
     const sunder_shape *s = g->shape[side];
     const uint32_t boxes = s->pieces / 4 + BOXES_LEAST;
     const size_t n = (size_t)s->pieces + boxes, blocks = s->piece_end[s->pieces - 1] / 4 + n;
-    *b = (sunder_i_bodies){.end = sunder_i_alloc(n, sizeof *b->end),
-                           .block = sunder_i_alloc(blocks, sizeof *b->block),
-                           .vague = sunder_i_alloc(n, sizeof *b->vague),
-                           .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
+    *b = (sunder_i_inner_convex){.end = sunder_i_alloc(n, sizeof *b->end),
+                                 .block = sunder_i_alloc(blocks, sizeof *b->block),
+                                 .vague = sunder_i_alloc(n, sizeof *b->vague),
+                                 .box = sunder_i_alloc(boxes, 4 * sizeof *b->box)};
     if (!b->end || !b->block || !b->vague || !b->box) return false;
     add_pieces(b, g, side);
     return add_boxes(b, g, quadtree, boxes) && plant(b, s->pieces);
 }
 
-void sunder_i_bodies_free(sunder_i_bodies *b)
+void sunder_i_inner_convex_free(sunder_i_inner_convex *b)
 {
     sunder_i_free(b->end);
     sunder_i_free(b->block);
@@ -205,23 +208,23 @@ void sunder_i_bodies_free(sunder_i_bodies *b)
 
 /* ---- Depths ---- */
 
-sunder_i_square_query sunder_i_bodies_query(const sunder_i_operands *g, const double at[4])
+sunder_i_square_query sunder_i_inner_convex_query(const sunder_i_operands *g, const double at[4])
 {
     const double scale = sunder_i_float_scale(g);
     return (sunder_i_square_query){(float)(scale * (at[0] / 2 + at[2] / 2)), (float)(scale * (at[1] / 2 + at[3] / 2)),
                                    (float)(scale * (at[2] / 2 - at[0] / 2)), (float)(scale * (at[3] / 2 - at[1] / 2))};
 }
 
-/* The sides of one body, each at the corner of the other that is farthest out. Four at a time, without branches. */
-static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunder_i_bodies *o, uint32_t j,
+/* The sides of one set, each at the corner of the other that is farthest out. Four at a time, without branches. */
+static inline void below_sides(const sunder_i_inner_convex *b, uint32_t i, const sunder_i_inner_convex *o, uint32_t j,
                                const sunder_i_square_query *query, sunder_i_floats *in, sunder_i_floats *touch)
 {
-    const sunder_i_body_block *from = o->block + (j ? o->end[j - 1] : 0), *to = o->block + o->end[j];
+    const sunder_i_inner_convex_block *from = o->block + (j ? o->end[j - 1] : 0), *to = o->block + o->end[j];
     for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++) {
-        const sunder_i_body_block *s = b->block + k;
+        const sunder_i_inner_convex_block *s = b->block + k;
         const sunder_i_floats nx = sunder_i_floats_at(s->nx), ny = sunder_i_floats_at(s->ny);
         sunder_i_floats most = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
-        for (const sunder_i_body_block *c = from; c < to; c++)
+        for (const sunder_i_inner_convex_block *c = from; c < to; c++)
             for (int m = 0; m < 4; m++) most = sunder_i_floats_max(most, nx * c->x[m] + ny * c->y[m]);
         const sunder_i_floats depth = sunder_i_floats_at(s->support) + most - (nx * query->x + ny * query->y);
         const sunder_i_floats half =
@@ -231,8 +234,8 @@ static inline void below_sides(const sunder_i_bodies *b, uint32_t i, const sunde
     }
 }
 
-/* How far a body reaches to the right, up, to the left and down. */
-static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
+/* How far a convex set reaches to the right, up, to the left and down. */
+static sunder_i_floats reach_of(const sunder_i_inner_convex *b, uint32_t i)
 {
     sunder_i_floats r = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
     for (uint32_t k = i ? b->end[i - 1] : 0; k < b->end[i]; k++)
@@ -243,8 +246,8 @@ static sunder_i_floats reach_of(const sunder_i_bodies *b, uint32_t i)
     return r;
 }
 
-sunder_i_square_depth sunder_i_bodies_depth(const sunder_i_bodies b[2], uint32_t i, uint32_t j,
-                                            const sunder_i_square_query *query)
+sunder_i_square_depth sunder_i_inner_convex_depth(const sunder_i_inner_convex b[2], uint32_t i, uint32_t j,
+                                                  const sunder_i_square_query *query)
 {
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
     below_sides(b, i, b + 1, j, query, &in, &touch);
