@@ -9,7 +9,6 @@
  * is set aside meanwhile. If others run into it, they go back too. */
 #include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
-#include "displacement/layer/rounding.h"
 
 #include "base/union_find.h"
 
@@ -81,7 +80,7 @@ static void find_offenders(sunder_i_solver *s, bool *root)
     const sunder_i_model *model = &s->model;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!model->body[b].fixed &&
-            (s->aside[b] || !sunder_i_within(model->move + 2 * (size_t)b, model->body[b].limit)))
+            (s->aside[b] || !sunder_i_is_within_limit(model->move + 2 * (size_t)b, model->body[b].limit)))
             root[sunder_i_union_find(s->parent, b)] = true;
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];

@@ -124,7 +124,7 @@ static void carry(sunder_i_solver *s, uint32_t f, uint32_t g)
         const uint32_t holder = model->body_of[e ? g : f], inner = model->body_of[e ? f : g];
         const double *t = model->move + 2 * (size_t)holder, *own = model->move + 2 * (size_t)inner;
         if (sunder_i_keeps_inside(model, e ? g : f, e ? f : g, &state) && own[0] == 0 && own[1] == 0 &&
-            sunder_i_may_move(&model->body[inner]) && sunder_i_within(t, model->body[inner].limit))
+            sunder_i_may_move(&model->body[inner]) && sunder_i_is_within_limit(t, model->body[inner].limit))
             s->carrier[inner] = holder;
     }
 }

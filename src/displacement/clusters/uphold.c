@@ -120,7 +120,7 @@ static bool can_go(const trial *t, const double to[2])
         double exact[2], goal[2];
         goal_of(t, k, to, goal);
         any = any || t->stood[2 * k] != goal[0] || t->stood[2 * k + 1] != goal[1];
-        if (!sunder_i_within(goal, t->solver->model.body[t->body[k]].limit) ||
+        if (!sunder_i_is_within_limit(goal, t->solver->model.body[t->body[k]].limit) ||
             !sunder_i_round_move(&t->solver->model, t->body[k], goal, exact, NULL) || exact[0] != goal[0] ||
             exact[1] != goal[1])
             return false;

@@ -1,23 +1,10 @@
-/* The layer as the caller gives it, and the options with their defaults. */
+/* The layer as the caller gives it: its features, of which weights and limits are numbers that make sense. */
 #include "displacement/layer/layer.h"
 
 #include "base/memory.h"
-#include "base/watch.h"
 
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
-
-/* More would wait for each other: no layer has so many clusters of a size that matters. */
-#define MOST_THREADS 256
-
-void sunder_layer_options_init(sunder_layer_options *options)
-{
-    memset(options, 0, sizeof *options);
-    options->touch_tolerance = -1;
-    options->contained = SUNDER_CONTAINMENT_BLOCK;
-    options->threads = 1;
-}
 
 sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_layer **out, sunder_error *err)
 {
@@ -50,41 +37,4 @@ void sunder_layer_free(sunder_layer *layer)
     if (!layer) return;
     sunder_i_free(layer->feature);
     sunder_i_free(layer);
-}
-
-static unsigned processors(void)
-{
-    const long n = sysconf(_SC_NPROCESSORS_ONLN);
-    return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
-}
-
-sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
-{
-    sunder_layer_options defaults;
-    sunder_layer_options_init(&defaults);
-    const sunder_layer_options *o = options ? options : &defaults;
-    if (!(o->gap >= 0) || !isfinite(o->gap))
-        return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", o->gap);
-    if (isnan(o->touch_tolerance) || o->touch_tolerance == INFINITY)
-        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", o->touch_tolerance);
-    const double tolerance = o->touch_tolerance < 0 ? o->gap / 10 : o->touch_tolerance;
-    if (o->gap > 0 && tolerance >= o->gap)
-        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance,
-                             o->gap);
-    if ((int)o->contained < SUNDER_CONTAINMENT_BLOCK || (int)o->contained > SUNDER_CONTAINMENT_SEPARATE)
-        return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
-    rules->gap = o->gap;
-    rules->tolerance = tolerance;
-    rules->joins = !o->no_blocks;
-    rules->list_inside = o->list_inside;
-    rules->contained = o->contained;
-    rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
-    rules->progress = o->progress;
-    rules->progress_user = o->progress_user;
-    return SUNDER_OK;
-}
-
-bool sunder_i_progress(const sunder_i_rules *rules, double fraction)
-{
-    return rules->progress ? rules->progress(fraction, rules->progress_user) : sunder_i_look();
 }

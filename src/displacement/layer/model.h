@@ -89,4 +89,9 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
 
+/* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
+
+/* |t| <= limit? Exact. limit may be infinite. */
+bool sunder_i_is_within_limit(const double t[2], double limit);
+
 #endif

@@ -3,6 +3,7 @@
 #define SUNDER_I_RELATE_H
 
 #include "displacement/layer/layer.h"
+#include "displacement/layer/rules.h"
 
 /* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the
  * shape that is written, with no translation. */
@@ -33,7 +34,7 @@ typedef struct sunder_i_relations {
 
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
 
-/* ---- tolerance.c ------------------------------------------------------------------------------------------------- */
+/* ---- grown_shape.c ----------------------------------------------------------------------------------------------- */
 
 /* Q + D as a shape, where D is a polygon of 16 corners in the disc whose radius is the tolerance (> 0); its corners are
  * the nearest doubles. */

@@ -2,7 +2,7 @@
  *
  * The moves of Q that take it off P are the complement of an open set, and the least of them is known from the
  * separation of two shapes. The moves that take Q into P are the erosion { x : Q + x in P }, exact too; up to the
- * tolerance, into P + D (tolerance.c). What resolves the pair is in the union of the three sets (Q off P, Q in P, P
+ * tolerance, into P + D (grown_shape.c). What resolves the pair is in the union of the three sets (Q off P, Q in P, P
  * in Q), so the least length is the least of theirs. Boxes tell beforehand where an erosion is empty or too far
  * away. */
 #include "displacement/layer/resolution.h"

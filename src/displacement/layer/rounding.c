@@ -66,35 +66,6 @@ static bool all_exact(const sunder_i_model *model, const sunder_i_body *body, co
     return true;
 }
 
-bool sunder_i_within(const double t[2], double limit)
-{
-    if (limit == INFINITY) return true;
-    /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and
-     * underflow. */
-    const double a = t[0] * t[0] + t[1] * t[1], b = limit * limit;
-    if (a > 0x1p-900 && a < 0x1p900 && b > 0x1p-900 && b < 0x1p900) {
-        if (a < b * (1 - 0x1p-48)) return true;
-        if (a > b * (1 + 0x1p-48)) return false;
-    }
-    sunder_i_arena arena;
-    sunder_i_arena_init(&arena);
-    int e[3], least = INT32_MAX;
-    sunder_i_big m[3];
-    const double value[3] = {t[0], t[1], limit};
-    for (int k = 0; k < 3; k++) {
-        m[k] = sunder_i_big_double(&arena, value[k], &e[k]);
-        if (sunder_i_big_sign(m[k]) && e[k] < least) least = e[k];
-    }
-    for (int k = 0; k < 3; k++) {
-        if (sunder_i_big_sign(m[k])) m[k] = sunder_i_big_shl(&arena, m[k], (unsigned long)(e[k] - least));
-        m[k] = sunder_i_big_mul(&arena, m[k], m[k]);
-    }
-    const bool within = sunder_i_big_cmp(sunder_i_big_add(&arena, m[0], m[1]), m[2]) <= 0;
-    const bool failed = arena.failed;
-    sunder_i_arena_free(&arena);
-    return within && !failed; /* without memory for the proof the longer move is refused */
-}
-
 bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)
 {
     const sunder_i_body *body = &model->body[b];
@@ -111,18 +82,18 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
         }
     }
     if (unit) *unit = fmax(u[0], u[1]);
-    if (!sunder_i_within(out, body->limit))
+    if (!sunder_i_is_within_limit(out, body->limit))
         for (size_t c = 0; c < 2; c++) {
             if (move[c] == 0) continue;
             out[c] = u[c] * trunc(move[c] / u[c]);
         }
     /* A move that still is too long came in too long; shrink it towards zero by whole units. */
-    for (int k = 0; k < 64 && !sunder_i_within(out, body->limit); k++) {
+    for (int k = 0; k < 64 && !sunder_i_is_within_limit(out, body->limit); k++) {
         const double length = hypot(out[0], out[1]), shrink = body->limit / length * (1 - ldexp(1, k - 52));
         for (size_t c = 0; c < 2; c++)
             if (move[c] != 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
     }
-    if (!sunder_i_within(out, body->limit)) out[0] = out[1] = 0;
+    if (!sunder_i_is_within_limit(out, body->limit)) out[0] = out[1] = 0;
     SUNDER_I_ASSERT(isfinite(out[0] + out[1]) && hypot(out[0], out[1]) <= body->limit * (1 + 0x1p-40));
     return all_exact(model, body, out);
 }

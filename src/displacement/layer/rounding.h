@@ -7,7 +7,5 @@
 /* Rounds the move of a body so that the coordinates of its members plus the move are doubles, if any near move does;
  * false if none. Never longer than the body's limit. The coarsest unit of a coordinate goes to *unit. */
 bool sunder_i_round_move(const sunder_i_model *model, uint32_t body, const double move[2], double out[2], double *unit);
-/* |t| <= limit? Exact. limit may be infinite. */
-bool sunder_i_within(const double t[2], double limit);
 
 #endif
