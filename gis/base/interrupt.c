@@ -3,7 +3,7 @@
 #define _GNU_SOURCE
 #include "base/interrupt.h"
 
-#include "base/take_away.h"
+#include "base/remove_tree.h"
 #include "sunder.h"
 
 #include <cpl_conv.h>
@@ -39,7 +39,7 @@ static void clear_away(void)
         if (each->back_to && now != GIS_DECIDED)
             (void)!rename(each->path, each->back_to);
         else if (each->stays == GIS_OPEN || now < (int)each->stays)
-            gis_take_away(each->path);
+            gis_remove_tree(each->path);
     }
 }
 

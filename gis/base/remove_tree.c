@@ -1,7 +1,7 @@
-/* take_away.c: see take_away.h. Everything is relative to open directories (unlinkat, openat without following links):
- * so no path is put together, which would need memory, and nobody can lead the removal elsewhere meanwhile. */
+/* remove_tree.c: see remove_tree.h. Everything is relative to open directories (unlinkat, openat without following
+ * links): so no path is put together, which would need memory, and nobody can lead the removal elsewhere meanwhile. */
 #define _GNU_SOURCE
-#include "base/take_away.h"
+#include "base/remove_tree.h"
 
 #include <fcntl.h>
 #include <stdint.h>
@@ -46,11 +46,11 @@ static void empty(int directory, int depth)
     }
 }
 
-void gis_take_away(const char *path) { remove_entry(AT_FDCWD, path, 0); }
+void gis_remove_tree(const char *path) { remove_entry(AT_FDCWD, path, 0); }
 
 #else
 
-void gis_take_away(const char *path)
+void gis_remove_tree(const char *path)
 {
     if (unlink(path) != 0) rmdir(path);
 }
