@@ -224,7 +224,7 @@ static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, cons
         united.deviation += all->result.deviation;
         united.repaired += all->result.repaired;
         all->result = united;
-        all->area = gis_buffer_area(&united.set);
+        all->area = gis_polygons_area(&united.set);
     }
     sunder_sum_free(sum);
     sunder_shape_free(shape);

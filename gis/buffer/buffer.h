@@ -57,8 +57,6 @@ bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const su
 /* All its members as one shape; *deviation is raised to what that moved. */
 bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
                      gis_error *error);
-/* The area of polygons without overlaps. */
-double gis_buffer_area(const gis_polygons *set);
 void gis_buffer_set_clear(gis_buffer_set *set);
 /* --align (align.c): turns the shape to the main direction of a set of features; */
 bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);

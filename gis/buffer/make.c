@@ -1,5 +1,5 @@
-/* make.c: all sets, on several threads. Which thread takes which set is left to chance; what comes of it is not: a set
- * is made of what was read alone, and of several that fail the first one is told. */
+/* make.c: all sets, on several threads (one of them: make_set.c). Which thread takes which set is left to chance; what
+ * comes of it is not: a set is made of what was read alone, and of several that fail the first one is told. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"

@@ -5,6 +5,8 @@
 #include "base/message.h"
 #include "layer/fields.h"
 
+#include <stdlib.h>
+
 bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_error *error)
 {
     gis_layer_input *input = &out->input;
@@ -19,4 +21,14 @@ bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_err
         gis_say_warning("%s: %zu features are no polygons; they are written without geometry",
                         gis_source_name(input->source), input->other);
     return gis_buffer_gather(out, error);
+}
+
+void gis_buffer_clear(gis_buffer *buffer)
+{
+    for (size_t k = 0; k < buffer->sets; k++) gis_buffer_set_clear(&buffer->set[k]);
+    free(buffer->set);
+    free(buffer->member);
+    sunder_shape_free(buffer->shape);
+    gis_source_close(buffer->shape_source);
+    gis_layer_input_clear(&buffer->input);
 }

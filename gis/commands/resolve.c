@@ -204,11 +204,11 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
     return true;
 }
 
-static bool resolve_place(const gis_options *options, gis_option_id id, gis_place *out, gis_error *error)
+static bool resolve_coordinate(const gis_options *options, gis_option_id id, gis_coordinate *out, gis_error *error)
 {
     const char *name = gis_option_table[id].names, *text = options->text[id];
     if (!text) return gis_fail_usage(error, "%s X,Y is missing", name);
-    return gis_place_parse(text, out) ||
+    return gis_coordinate_parse(text, out) ||
            gis_fail_usage(error, "%s %s: expected X,Y, each a decimal or num/den", name, text);
 }
 
@@ -223,7 +223,8 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
     };
     if (out->free_space && !output_of(options))
         return gis_fail_usage(error, "--free-space needs OUTPUT: it writes layers");
-    if (!resolve_place(options, OPT_FROM, &out->from, error) || !resolve_place(options, OPT_TO, &out->to, error))
+    if (!resolve_coordinate(options, OPT_FROM, &out->from, error) ||
+        !resolve_coordinate(options, OPT_TO, &out->to, error))
         return false;
     if (!options->text[OPT_ROBOT]) return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
     if (!resolve_invalid(options, &out->invalid, error)) return false;

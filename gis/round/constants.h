@@ -24,8 +24,8 @@
 enum {
     GIS_STRAIGHT_ROW = 8,    /* corners taken out in a row at most: each is held against the side that comes of it */
     GIS_BENDS_IN_A_ROW = 4,  /* one more would be found seldom, and the next round will see it */
-    GIS_MENDING_ROUNDS = 12, /* one nearly always does, three have been seen; a polygon still broken then is given up */
-    GIS_APART_ROUNDS = 12    /* likewise of groups of polygons */
+    GIS_POLYGON_ROUNDS = 12, /* one nearly always does, three have been seen; a polygon still broken then is given up */
+    GIS_MULTIPOLYGON_ROUNDS = 12 /* likewise of groups of polygons */
 };
 
 #endif

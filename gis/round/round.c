@@ -1,8 +1,8 @@
 /* round.c: a sum in doubles that is valid.
  *
  * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. Rings that fall together so are
- * left out, polygons that rounding has broken are mended (mend.c), and those that it has brought into each other are
- * united there (apart.c). The core's exact validation says what is well, before and after. */
+ * left out, polygons that rounding has broken are mended (mend_polygon.c), and those that it has brought into each
+ * other are united there (mend_multipolygon.c). The core's exact validation says what is well, before and after. */
 #include "round/steps.h"
 
 #include "base/array.h"
@@ -139,7 +139,7 @@ bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)
 {
     gis_rounded rounded = {0};
     gis_suspects suspects = {0};
-    bool ok = gis_round_polygons(sum, &rounded, &suspects, error) && gis_part_polygons(&rounded, &suspects, error);
+    bool ok = gis_round_polygons(sum, &rounded, &suspects, error) && gis_mend_multipolygon(&rounded, &suspects, error);
     gis_suspects_clear(&suspects);
     if (ok)
         *out = rounded;

@@ -14,12 +14,12 @@ bool gis_suspect(gis_suspects *suspects, size_t polygon, gis_error *error);
 void gis_suspects_clear(gis_suspects *suspects);
 
 /* The two halves of rounding a sum: polygons that are valid each by itself (round.c), and as one multipolygon
- * (apart.c). */
+ * (mend_multipolygon.c). */
 bool gis_round_polygons(const sunder_sum *sum, gis_rounded *out, gis_suspects *suspects, gis_error *error);
-bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *error);
+bool gis_mend_multipolygon(gis_rounded *rounded, gis_suspects *suspects, gis_error *error);
 
-/* Steps of both (mend.c). Appends a set with every edge bent through the vertices of the set that lie within a few ulps
- * of it, in later rounds within a half; adds how far that moves one to *moved. */
+/* Steps of both (mend_polygon.c). Appends a set with every edge bent through the vertices of the set that lie within
+ * GIS_BEND_ULPS of it, in later rounds within GIS_PIXEL_ULPS (constants.h); adds how far that moves one to *moved. */
 bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double *moved, gis_error *error);
 /* Ends the ring that began at vertex `first`, unless it has no area: then it is taken back. */
 bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_error *error);

@@ -66,7 +66,7 @@ bool gis_straighten(gis_rounded *rounded, gis_error *error)
         ok = ok && gis_end_valid_polygon(&to.set, first, &mended, &to.repaired, error);
     }
     to.deviation = rounded->deviation + moved + mended;
-    ok = ok && gis_part_polygons(&to, &none, error);
+    ok = ok && gis_mend_multipolygon(&to, &none, error);
     gis_suspects_clear(&none);
     if (ok) {
         gis_rounded_clear(rounded);

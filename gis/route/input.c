@@ -221,6 +221,6 @@ void gis_route_input_clear(gis_route_input *input)
 
 void gis_route_request_clear(gis_route_request *request)
 {
-    gis_place_clear(&request->from);
-    gis_place_clear(&request->to);
+    gis_coordinate_clear(&request->from);
+    gis_coordinate_clear(&request->to);
 }

@@ -3,14 +3,14 @@
 #define GIS_ROUTE_INPUT_H
 
 #include "read/shape.h"
-#include "route/place.h"
+#include "route/coordinate.h"
 
 /* What a route is asked of. Strings and lists are borrowed until the input is cleared. */
 typedef struct gis_route_request {
     const char *obstacles;     /* a data source, or a text */
     gis_source_request source; /* what is selected from it, if it is one; path and what it takes are filled in */
     gis_shape_request robot;
-    gis_place from, to; /* owned */
+    gis_coordinate from, to; /* owned */
     gis_optional_length gap;
     double scale; /* N of 1:N; 0: not given */
     gis_invalid invalid;

@@ -1,6 +1,6 @@
-/* apart.c: the polygons of one rounded set against each other.
+/* mend_multipolygon.c: the polygons of one rounded set against each other: one valid multipolygon is made of them.
  *
- * Each polygon is valid by itself by now (round.c, mend.c). Together they are a valid multipolygon if their
+ * Each polygon is valid by itself by now (round.c, mend_polygon.c). Together they are a valid multipolygon if their
  * interiors are disjoint and their boundaries meet in points only. Before rounding that held. Rounding moved vertices
  * by a hair: where two polygons met in a corner, or came nearer than a unit in the last place, they may now overlap or
  * share a piece of wall.
@@ -20,7 +20,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* ---- Groups: disjoint sets of polygons, by parents --------------------------------------------------------------- */
+/* ---- Groups of polygons: union-find ------------------------------------------------------------------------------ */
 
 static size_t root_of(size_t *parent, size_t p)
 {
@@ -274,7 +274,7 @@ static void list_members(size_t *parent, size_t n, size_t *count, size_t *member
 }
 
 /* One round; *again: some group was mended, and all are to be looked at once more. */
-static bool part_once(gis_rounded *rounded, int round, gis_suspects *suspects, bool *again, gis_error *error)
+static bool mend_once(gis_rounded *rounded, int round, gis_suspects *suspects, bool *again, gis_error *error)
 {
     const gis_polygons *set = &rounded->set;
     size_t n = set->polygons, *parent = malloc((n + 1) * sizeof *parent);
@@ -308,14 +308,14 @@ static bool part_once(gis_rounded *rounded, int round, gis_suspects *suspects, b
     return ok;
 }
 
-bool gis_part_polygons(gis_rounded *rounded, gis_suspects *suspects, gis_error *error)
+bool gis_mend_multipolygon(gis_rounded *rounded, gis_suspects *suspects, gis_error *error)
 {
     bool again = rounded->set.polygons > 1 && rounded->deviation > 0;
     for (int round = 0; again; round++) {
-        if (round == GIS_APART_ROUNDS)
+        if (round == GIS_MULTIPOLYGON_ROUNDS)
             return gis_fail(error, "rounded to doubles the polygons are no longer apart; `sunder sum --exact` gives "
                                    "exact ones as JSON");
-        if (!part_once(rounded, round, suspects, &again, error)) return false;
+        if (!mend_once(rounded, round, suspects, &again, error)) return false;
     }
     return true;
 }

@@ -1,4 +1,4 @@
-/* mend.c: polygons that rounding to doubles has broken.
+/* mend_polygon.c: polygons that rounding to doubles has broken.
  *
  * Vertices have moved by less than an ulp. That breaks a polygon where it was tight to begin with, and sums often are:
  * rings meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps mend it:
@@ -295,7 +295,7 @@ static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *erro
     bool ok = gis_polygons_append(&work, set, first, set->rings, error);
     set->vertices = first ? set->ring_end[first - 1] : 0;
     set->rings = first;
-    for (int round = 0; ok && round < GIS_MENDING_ROUNDS && work.polygons; round++) {
+    for (int round = 0; ok && round < GIS_POLYGON_ROUNDS && work.polygons; round++) {
         gis_polygons again = {0};
         double now = 0;
         for (size_t p = 0; ok && p < work.polygons; p++)
