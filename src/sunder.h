@@ -65,7 +65,7 @@ SUNDER_API void sunder_set_allocator(void *(*allocate)(size_t), void *(*realloca
 /* Frees memory that the library handed out as plain text or arrays. */
 SUNDER_API void sunder_free(void *memory);
 
-/* What was done, in the units that the literature counts (Agarwal, Flato, Halperin 2000, section 3). */
+/* What was done, in the units that the literature counts [AFH00, section 3]. */
 typedef struct sunder_counts {
     uint64_t comparisons;           /* order of two points, or of two crossings along a line */
     uint64_t orientation_tests;     /* side of a point to a line */
@@ -512,7 +512,7 @@ typedef struct sunder_layer_summary {
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
-/* Takes the features apart at little cost; see DESIGN notes in src/displacement/README.
+/* Takes the features apart at little cost; src/displacement/README tells how.
  *
  * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
  * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict

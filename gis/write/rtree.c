@@ -4,7 +4,7 @@
  * blobs, _rowid tells the leaf of each row, _parent the parent of each node but the root, which is node 1. A node is,
  * big-endian: two bytes of depth (in the root only), two bytes that count its cells, then cells of 24 bytes: the row or
  * child in 8 and four floats. Leaves are filled with consecutive boxes along a Hilbert curve through their centres
- * [Kamel and Faloutsos, On packing R-trees, CIKM 1993], the levels above with consecutive nodes. */
+ * [KF93], the levels above with consecutive nodes. */
 #include "write/rtree.h"
 
 #include "base/array.h"

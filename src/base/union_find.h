@@ -1,8 +1,7 @@
 /* Disjoint sets of the numbers 0 .. n - 1, as a forest: parent[x] is x itself at a root.
  *
  * The root of a set is its least member, whatever the order of joining: so results may depend on it. That gives up
- * union by rank; halving paths alone keeps m operations within O(m log n) [Tarjan and van Leeuwen, "Worst-case analysis
- * of set union algorithms", J. ACM 31, 1984]. */
+ * union by rank; halving paths alone keeps m operations within O(m log n) [TL84]. */
 #ifndef SUNDER_I_UNION_FIND_H
 #define SUNDER_I_UNION_FIND_H
 

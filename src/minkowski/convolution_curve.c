@@ -85,7 +85,8 @@ static bool move_sides(mover *t)
     return true;
 }
 
-/* A hole with a box that fits into Q's may lie inside a translate of -Q, where winding numbers do not count pieces. */
+/* A hole with a box that fits into Q's may lie inside a translate of -Q, where winding numbers do not count pieces.
+ * Such holes could be filled [BFHHM15]; they are left to the general road. */
 static bool holes_are_large(const mover *t)
 {
     const sunder_shape *p = t->curve->p;

@@ -1,9 +1,8 @@
-/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [Kamel and Faloutsos, "On
- * packing R-trees", CIKM 1993]. It answers with closed boxes and loses nothing: boxes above are the exact hulls of
- * those below, also when a box moves, which then are made anew from the leaf to the root. Which leaf is in which node
- * stays as it was, so that nodes sprawl as their members part; when they have become half as large again the tree is
- * worn, and whoever moves boxes builds it anew. Where the curve's grid is too coarse to tell centres apart only speed
- * suffers. */
+/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [KF93]. It answers with
+ * closed boxes and loses nothing: boxes above are the exact hulls of those below, also when a box moves, which then are
+ * made anew from the leaf to the root. Which leaf is in which node stays as it was, so that nodes sprawl as their
+ * members part; when they have become half as large again the tree is worn, and whoever moves boxes builds it anew.
+ * Where the curve's grid is too coarse to tell centres apart only speed suffers. */
 #include "spatial/rtree.h"
 
 #include <math.h>

@@ -26,7 +26,7 @@ static int unit_exponent(double v)
 
 static bool sum_is_exact(double x, double t)
 {
-    /* The rounding error of a sum is itself a double [Knuth, TAOCP 2, 4.2.2; Dekker 1971]. */
+    /* The rounding error of a sum is itself a double [Knu97, 4.2.2; Dek71]. */
     const double s = x + t, b = s - x, e = (x - (s - b)) + (t - b);
     return isfinite(s) && e == 0;
 }

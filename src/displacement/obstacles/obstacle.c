@@ -2,7 +2,7 @@
  *
  * B + u misses the interior of A exactly when u lies outside the interior of A + (-B). For every unit vector n,
  *     n.u >= h_A(n) + h_B(-n) + gap
- * keeps B + u at least the gap from A, wherever u is [Li and Milenkovic 1995]: it is a *global* constraint, and the
+ * keeps B + u at least the gap from A, wherever u is [LM95]: it is a *global* constraint, and the
  * only choice is that of n. Chosen where u stands now, as the direction of the nearest point, it is tight there, so
  * that a feasible u stays feasible. */
 #include "displacement/obstacles/obstacle.h"

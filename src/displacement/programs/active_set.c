@@ -1,9 +1,9 @@
 /* The acting constraints as linear equations.
  *
  * G f = d with G the Gram matrix of the acting constraints in the metric of the masses, by Cholesky; and the set
- * corrected as by Lawson and Hanson (Solving Least Squares Problems, 1974, chapter 23): forces that turn negative are
- * dropped, violated constraints added. At the end all forces are positive, the acting constraints hold with equality
- * and no other is violated: that is the optimum. */
+ * corrected as by Lawson and Hanson [LH74, chapter 23]: forces that turn negative are dropped, violated constraints
+ * added. At the end all forces are positive, the acting constraints hold with equality and no other is violated: that
+ * is the optimum. */
 #include "displacement/programs/methods.h"
 #include "displacement/programs/tuning.h"
 

@@ -1,5 +1,5 @@
-/* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dostal, Optimal
- * Quadratic Programming Algorithms, Springer 2009, algorithm 5.8].
+/* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dos09,
+ * algorithm 5.8].
  *
  * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the forces that are positive it takes conjugate gradient steps;
  * where such a step would make one negative it stops there and takes a short projected gradient step instead; where the

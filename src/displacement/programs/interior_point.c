@@ -1,7 +1,6 @@
 /* An interior point method for the same program, for clusters in which thousands of constraints compete.
  *
- * Mehrotra's predictor-corrector [Nocedal and Wright, Numerical Optimization, 2nd edition, section 16.6]: with slacks s
- * and forces f, both positive,
+ * Mehrotra's predictor-corrector [NW06, section 16.6]: with slacks s and forces f, both positive,
  *
  *     H x = A'f,   A x + softness f = d + s,   s f = mu -> 0,
  *

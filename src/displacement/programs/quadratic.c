@@ -1,12 +1,11 @@
 /* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: four methods, one after the other.
  *
  * The dual has one multiplier (a force) a constraint, and t follows from the forces: 2 w_i t_i = sum of the forces on
- * i. Hildreth's method [Hildreth, "A quadratic programming procedure", NRLQ 4, 1957] takes one constraint after another
- * and gives its force the value that makes it hold with equality, or zero. It is quick to find which constraints act,
- * slow to find how strongly where contacts form long chains. There conjugate gradients that keep the forces
- * non-negative (conjugate_gradients.c) are far quicker, and when the acting set is known, or nearly, linear equations
- * (active_set.c) give the rest of the digits. What resists, and what is large, goes to an interior point method
- * (interior_point.c).
+ * i. Hildreth's method [Hil57] takes one constraint after another and gives its force the value that makes it hold with
+ * equality, or zero. It is quick to find which constraints act, slow to find how strongly where contacts form long
+ * chains. There conjugate gradients that keep the forces non-negative (conjugate_gradients.c) are far quicker, and when
+ * the acting set is known, or nearly, linear equations (active_set.c) give the rest of the digits. What resists, and
+ * what is large, goes to an interior point method (interior_point.c).
  *
  * With softness s each constraint may be missed by s * (mass_i + mass_j) * force, which adds that to the diagonal of
  * the dual: contradictions then have a compromise. */

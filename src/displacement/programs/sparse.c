@@ -1,9 +1,9 @@
 /* Sparse Cholesky: minimum degree order, left-looking factorisation.
  *
  * Who is in contact with few goes first. Bodies in a plane touch few others, and an outline that holds hundreds of
- * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [George and Liu, Computer
- * Solution of Large Sparse Positive Definite Systems, 1981, chapter 5]. Eliminating a node joins its neighbours to each
- * other; the lists of neighbours at that moment are the columns of the factor. */
+ * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5].
+ * Eliminating a node joins its neighbours to each other; the lists of neighbours at that moment are the columns of the
+ * factor. */
 #include "displacement/programs/sparse.h"
 
 #include "base/invariant.h"

@@ -48,7 +48,7 @@
 #define LEAST_STEP 1e-8
 /* The products of slacks and forces that are left, as a share of the cost: then the method has converged. */
 #define GAP_LEFT 1e-8
-/* A step goes this share of the way to where a slack or force would be zero [Mehrotra 1992]. */
+/* A step goes this share of the way to where a slack or force would be zero [Meh92]. */
 #define SHARE_OF_STEP 0.99
 /* Slacks begin no less than this share of a length such as bodies move by, forces so that the products are alike. */
 #define FIRST_SLACK 0.1

@@ -4,7 +4,7 @@
  * nearer than they owe; one of them is chosen, and each of its ways (ways.c) is a case: beyond this line, and behind
  * those before it. If the proof of a case does not use what the case says, it is a proof of the node as well, and the
  * other cases need not be looked at: so choices that have nothing to do with a contradiction do not multiply it
- * [conflict-directed backjumping; Prosser 1993]. */
+ * [conflict-directed backjumping, Pro93]. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 

@@ -5,12 +5,12 @@
  *
  *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
  *
- * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; Boyd and
- * Vandenberghe, Convex Optimization, section 5.8]. The program's own forces are tried, whatever it restored with.
+ * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
+ * section 5.8]. The program's own forces are tried, whatever it restored with.
  *
  * Limits enter it as tangents, added where a solution oversteps one. The program pulls each body to a place, softly,
  * and asks a hair more of the claims than they say, so that its softness does not show. The place is the last solution,
- * and the program is solved again and again [proximal point method; Rockafellar 1976]: so the pull vanishes, and with
+ * and the program is solved again and again [proximal point method, Roc76]: so the pull vanishes, and with
  * it what it spoils of the forces' balance, where the claims contradict the limits by a millionth of them or less. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"

@@ -1,6 +1,6 @@
 /* The search with a gap: along moved sides, past what covers them. Certain steps first: from a point that a grown
  * subsum covers to another one that it covers, since it is convex. What is left at the end of a walk is the exact place
- * where the line leaves the last subsum; take_point() decides about it, and if it is covered after all, by less than
+ * where the line leaves the last subsum; points.c decides about it, and if it is covered after all, by less than
  * the margin, the way goes on from there: exactly, subsum by subsum, until certain steps are possible again. */
 #include "separation/gap/search.h"
 
