@@ -1,4 +1,5 @@
 /* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
+#include "motion/path_length.h"
 #include "motion/shortest_path.h"
 
 #include "base/watch.h"
@@ -119,7 +120,7 @@ static sunder_status keep_path(sunder_route *r, const sunder_i_filtered_point *p
     for (size_t i = 0; status == SUNDER_OK && i < n; i++) status = take_stop(r, &place[path[i]], err);
     if (status == SUNDER_OK) status = prove(r, place, path, err);
     if (status != SUNDER_OK) return status;
-    r->length = sunder_i_path_length(&r->space, place, path, n);
+    r->length = sunder_i_path_length(r->space.filter.lattice, place, path, n);
     return isnan(r->length) ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 

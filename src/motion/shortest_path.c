@@ -6,19 +6,18 @@
  * that could belong to a shortest path are ever tried. A first search that overrates the distance left finds some path
  * quickly; its length keeps out of the second search all edges that cannot beat it.
  *
- * Lengths are doubles until two of them are too close to tell apart; then they are taken to LENGTH_BITS bits, which is
- * more than 256 significant ones, and paths still equal are compared as sequences of places. */
+ * Lengths are doubles until two of them are too close to tell apart; then they are taken to more than 256 significant
+ * bits (path_length.c), and paths still equal are compared as sequences of places. */
 #include "motion/shortest_path.h"
 
 #include "base/heap.h"
 #include "base/invariant.h"
+#include "motion/path_length.h"
 #include "motion/visibility.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Significant bits of a compared length: 256 asked for, and some for the sum of many legs. */
-#define LENGTH_BITS 320
 /* How the first search overrates: three times gives paths a few percent too long in a few expansions. */
 #define HASTE 3.0
 
@@ -146,21 +145,7 @@ static size_t straighten(const search *s, uint32_t *path, size_t n)
 /* 2^bits times the length of a path of nodes, less than two a leg too small. */
 static sunder_i_big total(const search *s, sunder_i_arena *arena, const uint32_t *path, size_t n, unsigned long bits)
 {
-    sunder_i_big sum = sunder_i_big_i64(arena, 0);
-    for (size_t i = 0; i + 1 < n; i++)
-        sum = sunder_i_big_add(arena, sum,
-                               sunder_i_filtered_distance(arena, place_of(s, path[i]), place_of(s, path[i + 1]), bits));
-    return sum;
-}
-
-/* So that a length that is about `length` has LENGTH_BITS bits, or, if it is short, at least that many behind the
- * point. */
-static unsigned long bits_for(const sunder_i_lattice *l, double length)
-{
-    int e = 0;
-    frexp(length, &e);
-    const long bits = LENGTH_BITS - (long)e - (long)l->approx_shift;
-    return bits > 64 ? (unsigned long)bits : 64;
+    return sunder_i_path_length_scaled(arena, s->corners->place, s->corners->node, path, n, bits);
 }
 
 /* 2 or -2 where lengths differ, else 1, 0 or -1. What the two begin with in common is left out of the comparison. */
@@ -171,7 +156,7 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
     sunder_i_arena *arena = &s->space->filter.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
-    const unsigned long bits = bits_for(s->space->filter.lattice, length);
+    const unsigned long bits = sunder_i_path_length_bits(s->space->filter.lattice, length);
     const size_t from = same ? same - 1 : 0;
     const sunder_i_big d =
         sunder_i_big_sub(arena, total(s, arena, p + from, m - from, bits), total(s, arena, q + from, n - from, bits));
@@ -375,28 +360,4 @@ sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_
     sunder_i_free(s.heap);
     sunder_i_free(s.tie);
     return status;
-}
-
-static double distance(const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
-{
-    return hypot(a->ax - b->ax, a->ay - b->ay);
-}
-
-double sunder_i_path_length(const sunder_i_free_space *space, const sunder_i_filtered_point *place,
-                            const uint32_t *path, size_t n)
-{
-    sunder_i_lattice *l = space->filter.lattice;
-    sunder_i_arena arena = {0};
-    double about = 0;
-    for (size_t i = 0; i + 1 < n; i++) about += distance(&place[path[i]], &place[path[i + 1]]);
-    const unsigned long bits = bits_for(l, about);
-    sunder_i_big sum = sunder_i_big_i64(&arena, 0);
-    for (size_t i = 0; i + 1 < n; i++)
-        sum = sunder_i_big_add(&arena, sum,
-                               sunder_i_filtered_distance(&arena, &place[path[i]], &place[path[i + 1]], bits));
-    const double length = arena.failed
-                              ? (double)NAN
-                              : sunder_i_big_ratio(&arena, sum, sunder_i_big_i64(&arena, 1), l->exponent - (long)bits);
-    sunder_i_arena_free(&arena);
-    return length;
 }

@@ -9,8 +9,4 @@
 sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_corners *corners,
                                      const sunder_sum_options *options, uint32_t **path, size_t *n, sunder_error *err);
 
-/* The length of a path of places to the nearest double, in units of the input. NaN if memory is out. */
-double sunder_i_path_length(const sunder_i_free_space *space, const sunder_i_filtered_point *place,
-                            const uint32_t *path, size_t n);
-
 #endif
