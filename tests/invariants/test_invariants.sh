@@ -18,7 +18,7 @@ int main(int argc, char **argv)
     return 0;
 }
 X
-cc -I "$SUNDER_SOURCE/src" -o "$build/broken" "$build/broken.c"
+cc -I "$SUNDER_SOURCE/src" -o "$build/broken" "$build/broken.c" "$(find "$build" -name libsunder.a)" -lgmp -lm -pthread
 ! ("$build/broken" 2>/dev/null) && ! ("$build/broken" x 2>/dev/null) && "$build/broken" x x || { echo "assertions are off"; exit 1; }
 cd "$build"
 ctest --output-on-failure -j "$(nproc)" -L '^(unit|golden|property)$'
