@@ -9,7 +9,6 @@
  * bodies that may move; a fixed body is a member of every cluster that has an edge to it, and joins none. Edges are
  * never removed, so each round either adds an edge between clusters, or widens the margin of a cluster whose result
  * failed the exact check (a limited number of times), or is the last: the loop ends. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/report/report.h"
 

@@ -1,4 +1,4 @@
-/* Bodies in conflict make edges, edges make clusters. */
+/* The state of the work on one layer. Bodies in conflict make edges, edges make clusters. */
 #include "displacement/clusters/solver.h"
 
 #include "base/invariant.h"
@@ -62,6 +62,21 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
+/* ---- Conflicts and edges ----------------------------------------------------------------------------------------- */
+
+void sunder_i_solver_join_conflicts(const sunder_i_solver *s, uint32_t *root)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_union_init(root, model->bodies);
+    for (size_t k = 0; k < s->start.n; k++) {
+        const sunder_i_relation *r = &s->start.pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (!sunder_i_is_conflict_of_bodies(model, r) || model->body[i].fixed || model->body[j].fixed) continue;
+        sunder_i_union_join(root, i, j);
+    }
+    for (size_t b = 0; b < model->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
+}
+
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */
 
 bool sunder_i_solver_add_edge(sunder_i_solver *s, uint32_t i, uint32_t j)
@@ -71,8 +86,7 @@ bool sunder_i_solver_add_edge(sunder_i_solver *s, uint32_t i, uint32_t j)
     const bool fi = s->model.body[i].fixed, fj = s->model.body[j].fixed;
     if (!fi) s->dirty[i] = true;
     if (!fj) s->dirty[j] = true;
-    if (fi || fj) return true;
-    sunder_i_union_join(s->parent, i, j);
+    if (!fi && !fj) sunder_i_union_join(s->parent, i, j);
     return true;
 }
 
@@ -173,4 +187,20 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
     }
     SUNDER_I_CHECK(check(s), s->members);
     return SUNDER_OK;
+}
+
+sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *s, sunder_error *err)
+{
+    bool *seen = sunder_i_calloc(s->model.bodies, sizeof *seen);
+    uint32_t *body = sunder_i_alloc(s->members, sizeof *body);
+    sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n = 0;
+    for (size_t k = 0; !status && k < s->members; k++) {
+        if (!seen[s->body[k]]) body[n++] = s->body[k];
+        seen[s->body[k]] = true;
+    }
+    if (!status) status = sunder_i_model_unite(&s->model, body, n, err);
+    sunder_i_free(seen);
+    sunder_i_free(body);
+    return status;
 }

@@ -1,7 +1,6 @@
 /* Pairs that limits cannot part, of which the one may go inside the other: it is sent there, and kept there from
  * then on like what lay in it at the start (inclusion.c). Where that fails it is let go, and the pair becomes one like
  * any other. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/layer/rounding.h"
 

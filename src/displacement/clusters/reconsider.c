@@ -2,7 +2,6 @@
  * the layer's conflicts (proofs/feasibility.c): either it is proved that limits and fixed features leave no room for
  * all of them, or there is a solution to go on from, or the question stays open. What is said of those that remain
  * is for report/no_room.c. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/rounding.h"
@@ -26,7 +25,7 @@ typedef struct component {
 
 /* The layer's conflicts at the start, by components; a fixed body joins none. */
 typedef struct components {
-    uint32_t *parent; /* [bodies] */
+    uint32_t *root_of; /* [bodies] */
     component *component;
     size_t n;
     sunder_i_id_pair *pair;
@@ -45,23 +44,18 @@ static int by_root(const void *a, const void *b)
     return sunder_i_by_id_pair(&p->pair, &q->pair);
 }
 
-static size_t list_pairs(const sunder_i_solver *s, uint32_t *parent, rooted *list)
+static size_t list_pairs(const sunder_i_solver *s, uint32_t *root_of, rooted *list)
 {
     const sunder_i_model *model = &s->model;
     size_t n = 0;
-    sunder_i_union_init(parent, model->bodies);
+    sunder_i_solver_join_conflicts(s, root_of);
     for (size_t k = 0; k < s->start.n; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (model->body[i].fixed && model->body[j].fixed) continue;
-        list[n++].pair = i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
-        if (model->body[i].fixed || model->body[j].fixed) continue;
-        sunder_i_union_join(parent, i, j);
-    }
-    for (size_t k = 0; k < n; k++) {
-        const sunder_i_id_pair c = list[k].pair;
-        list[k].root = sunder_i_union_find(parent, model->body[c.a].fixed ? c.b : c.a);
+        list[n++] = (rooted){root_of[model->body[i].fixed ? j : i],
+                             i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}};
     }
     if (n) qsort(list, n, sizeof *list, by_root);
     size_t out = 0;
@@ -72,7 +66,7 @@ static size_t list_pairs(const sunder_i_solver *s, uint32_t *parent, rooted *lis
 
 static void free_components(components *c)
 {
-    sunder_i_free(c->parent);
+    sunder_i_free(c->root_of);
     sunder_i_free(c->component);
     sunder_i_free(c->pair);
     sunder_i_free(c->body);
@@ -81,16 +75,16 @@ static void free_components(components *c)
 static sunder_status find_components(const sunder_i_solver *s, components *out, sunder_error *err)
 {
     const size_t most = s->start.n;
-    *out = (components){.parent = sunder_i_alloc(s->model.bodies, sizeof *out->parent),
+    *out = (components){.root_of = sunder_i_alloc(s->model.bodies, sizeof *out->root_of),
                         .component = sunder_i_alloc(most, sizeof *out->component),
                         .pair = sunder_i_alloc(most, sizeof *out->pair),
                         .body = sunder_i_alloc(2 * most, sizeof *out->body)};
     rooted *list = sunder_i_alloc(most, sizeof *list);
-    if (!out->parent || !out->component || !out->pair || !out->body || !list) {
+    if (!out->root_of || !out->component || !out->pair || !out->body || !list) {
         sunder_i_free(list);
         return sunder_i_no_memory(err);
     }
-    const size_t n = list_pairs(s, out->parent, list);
+    const size_t n = list_pairs(s, out->root_of, list);
     for (size_t first = 0, end; first < n; first = end) {
         uint32_t *body = out->body + 2 * first;
         for (end = first; end < n && list[end].root == list[first].root; end++) {
@@ -156,7 +150,7 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
 
 static void mark(const components *all, const sunder_i_model *model, uint32_t body, bool *by_root_of)
 {
-    if (!model->body[body].fixed) by_root_of[sunder_i_union_find(all->parent, body)] = true;
+    if (!model->body[body].fixed) by_root_of[all->root_of[body]] = true;
 }
 
 /* What was proved infeasible is held to the clearance of its relaxation; ascending, as relaxations are. */

@@ -1,4 +1,5 @@
-/* The work on one layer, from its relations to its moves: what the stages share; and its clusters (clusters.c). */
+/* The work on one layer, from its relations to its moves: what the stages share. (How one cluster is solved is a
+ * question to the search: search/cluster.h.) */
 #ifndef SUNDER_I_SOLVER_H
 #define SUNDER_I_SOLVER_H
 
@@ -48,8 +49,10 @@ typedef struct sunder_i_solver {
 sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_solver_free(sunder_i_solver *solver);
 
-/* ---- Edges and clusters ------------------------------------------------------------------------------------------ */
+/* ---- clusters.c: edges and clusters ------------------------------------------------------------------------------ */
 
+/* Components of the conflicts at the start, by their roots; a fixed body joins none. root: [bodies] */
+void sunder_i_solver_join_conflicts(const sunder_i_solver *solver, uint32_t *root);
 /* An edge between bodies, which makes them dirty. False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
@@ -58,5 +61,19 @@ bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, ui
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
+/* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that
+ * no two threads do the same. */
+sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
+
+/* ---- moves.c: between the layer and its clusters ----------------------------------------------------------------- */
+
+/* Loads the moves that a cluster starts from, and lends them. */
+double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
+/* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
+void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
+/* Takes over the clusters' moves: bodies, features that changed, and whether their coordinates stayed exact. */
+void sunder_i_solver_commit(sunder_i_solver *solver);
+/* Exact relations of what changed. */
+sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
 
 #endif

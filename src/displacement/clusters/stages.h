@@ -1,4 +1,4 @@
-/* The stages before, between and after the rounds of settle.c. */
+/* The stages of the work on one layer, in about the order in which ../separate.c calls them. */
 #ifndef SUNDER_I_SOLVER_STAGES_H
 #define SUNDER_I_SOLVER_STAGES_H
 
@@ -6,38 +6,53 @@
 
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
-/* What lies in two that are in conflict is kept in one of them. */
-sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
 /* Finds, exactly, the pairs that cannot be resolved within their limits, and relaxes them; and those that cannot be
  * parted, but may go inside, which are kept there from then on. Before the model is cut. */
 sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, sunder_error *err);
 
-/* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
-
-/* Sends those there that cannot be parted, but go inside. */
-sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err);
-
-/* ---- limits.c ---------------------------------------------------------------------------------------------------- */
+/* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */
 
 /* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
 /* What went too far goes back where it came from, to be solved within its limits: *any, if there is such. */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, bool *any, sunder_error *err);
 
+/* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
+
+/* Sends those there that cannot be parted, but go inside. */
+sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err);
+
+/* ---- holders.c --------------------------------------------------------------------------------------------------- */
+
+/* What lies in two that are in conflict is kept in one of them. */
+sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
+
+/* ---- settle.c ---------------------------------------------------------------------------------------------------- */
+
+/* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
+sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, double to, sunder_error *err);
+
 /* ---- given_up.c -------------------------------------------------------------------------------------------------- */
 
 /* Takes over the relaxations that clusters made, and those that they ended. */
 sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err);
 
-/* ---- retries.c --------------------------------------------------------------------------------------------------- */
-
-/* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
-sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
-
 /* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
 
 /* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
+
+/* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
+
+/* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */
+sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
+
+/* ---- better_sides.c ---------------------------------------------------------------------------------------------- */
+
+/* Were better sides looked for since any cluster was last solved? */
+bool sunder_i_solver_is_improved(const sunder_i_solver *solver);
+/* Better sides, for every cluster that was solved since they were last looked for. */
+sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 

@@ -10,7 +10,6 @@
  *
  * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
  * stands worse: the loop ends. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
@@ -45,7 +44,7 @@ sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_
 }
 
 /* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
-static bool is_listed(const sunder_i_solver *s, const sunder_i_relation *r)
+static bool is_always_listed(const sunder_i_solver *s, const sunder_i_relation *r)
 {
     return sunder_i_is_conflict(r) && (s->model.body_of[r->a] != s->model.body_of[r->b] || (r->overlap && !r->touch));
 }
@@ -53,7 +52,7 @@ static bool is_listed(const sunder_i_solver *s, const sunder_i_relation *r)
 static sunder_status breaks_rule(const sunder_i_solver *s, const sunder_i_relation *r, bool *breaks, sunder_error *err)
 {
     *breaks = false;
-    return is_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
+    return is_always_listed(s, r) ? sunder_i_solver_is_worse(s, r, breaks, err) : SUNDER_OK;
 }
 
 sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, sunder_error *err)
@@ -104,7 +103,7 @@ static bool take(trial *t, uint32_t b)
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     trial *t = context;
-    if (!is_listed(t->solver, r)) return SUNDER_OK;
+    if (!is_always_listed(t->solver, r)) return SUNDER_OK;
     const sunder_i_relation *old = sunder_i_relations_find(&t->solver->now, r->a, r->b);
     bool breaks = !old || !sunder_i_is_conflict(old) || (r->overlap && !old->overlap);
     const sunder_status status = breaks ? SUNDER_OK : breaks_rule(t->solver, r, &breaks, err);

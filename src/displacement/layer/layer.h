@@ -1,4 +1,4 @@
-/* The layer as the caller gives it, and the order in which it is worked on. */
+/* The layer as the caller gives it, the rules that it is to keep, and the order in which it is worked on. */
 #ifndef SUNDER_I_LAYER_H
 #define SUNDER_I_LAYER_H
 
@@ -18,6 +18,22 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
     return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
 }
+
+/* ---- rules.c ----------------------------------------------------------------------------------------------------- */
+
+/* The options with every default filled in. */
+typedef struct sunder_i_rules {
+    double gap, tolerance;
+    bool joins, list_inside; /* joins: touch and containment make blocks */
+    sunder_containment contained;
+    unsigned threads;
+    sunder_progress progress; /* NULL: nobody asks how far it is */
+    void *progress_user;
+} sunder_i_rules;
+
+sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
+/* Tells how far it is; false when the caller asked to stop. */
+bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
 /* ---- order.c ----------------------------------------------------------------------------------------------------- */
 

@@ -3,7 +3,6 @@
 #define SUNDER_I_RELATE_H
 
 #include "displacement/layer/layer.h"
-#include "displacement/layer/rules.h"
 
 /* A feature as it stands: its shape, exactly translated. A feature whose translate does not fit doubles stands as the
  * shape that is written, with no translation. */

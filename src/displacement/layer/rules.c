@@ -1,5 +1,5 @@
 /* The options of a layer: their defaults, what they may be, and the rules that they make. */
-#include "displacement/layer/rules.h"
+#include "displacement/layer/layer.h"
 
 #include "base/error.h"
 #include "base/watch.h"
@@ -25,11 +25,8 @@ static unsigned processors(void)
     return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
 }
 
-sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
+sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *rules, sunder_error *err)
 {
-    sunder_layer_options defaults;
-    sunder_layer_options_init(&defaults);
-    const sunder_layer_options *o = options ? options : &defaults;
     if (!(o->gap >= 0) || !isfinite(o->gap))
         return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", o->gap);
     if (isnan(o->touch_tolerance) || o->touch_tolerance == INFINITY)

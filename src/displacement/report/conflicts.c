@@ -47,7 +47,7 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 /* ---- How bad ----------------------------------------------------------------------------------------------------- */
 
 /* A feature where it stands, as a shape whose coordinates hold the move. */
-static sunder_status settle(const sunder_i_translate *stand, sunder_shape **out, sunder_error *err)
+static sunder_status placed_shape(const sunder_i_translate *stand, sunder_shape **out, sunder_error *err)
 {
     bool exact;
     return sunder_shape_translate(stand->shape, stand->t[0], stand->t[1], out, &exact, err);
@@ -208,8 +208,8 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     for (size_t k = begin; k < end; k++) {
         sunder_conflict *c = &d->conflict[k];
         sunder_shape *a = NULL, *b = NULL;
-        sunder_status status = settle(&d->placement->translate[c->a], &a, err);
-        if (!status) status = settle(&d->placement->translate[c->b], &b, err);
+        sunder_status status = placed_shape(&d->placement->translate[c->a], &a, err);
+        if (!status) status = placed_shape(&d->placement->translate[c->b], &b, err);
         if (!status) status = measure(a, b, d->overlap[k], c, err);
         sunder_shape_free(a);
         sunder_shape_free(b);

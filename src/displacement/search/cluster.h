@@ -29,14 +29,14 @@ typedef struct sunder_i_retry {
     double missing; /* what it would take */
 } sunder_i_retry;
 
-/* ---- solve.c ----------------------------------------------------------------------------------------------------- */
+/* ---- solve_cluster.c --------------------------------------------------------------------------------------------- */
 
 /* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
  * pairs are given up, and the rest is solved. */
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 
-/* ---- retry.c ----------------------------------------------------------------------------------------------------- */
+/* ---- retry_cluster.c --------------------------------------------------------------------------------------------- */
 
 /* Pairs given up are asked once more for all that they owe, and held to it where there is a solution, the first ones
  * first. All others keep theirs, and neighbours outside the cluster stay where they are. */

@@ -3,7 +3,7 @@
  * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c): all others keep what they owe,
  * and these stand no worse than they stood. What came into a clash besides goes home, until nothing clashes; in the
  * end all are at home, where every relaxation holds. From there the cluster descends as from any other solution:
- * nobody is pushed to ease a pair that stays in conflict. (retry.c asks them again.) */
+ * nobody is pushed to ease a pair that stays in conflict. (retry_cluster.c asks them again.) */
 #include "displacement/search/stages.h"
 
 #include <stdlib.h>

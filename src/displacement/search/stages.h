@@ -35,7 +35,7 @@ void sunder_i_search_lower(sunder_i_search *search);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
-/* ---- solve.c: how a search ends ---------------------------------------------------------------------------------- */
+/* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 
 /* Rounds the moves of its bodies. */
 void sunder_i_search_round(const sunder_i_search *search, double *move);

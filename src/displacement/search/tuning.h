@@ -74,7 +74,7 @@
 /* Nothing is farther off than so many times the sizes of all there is. */
 #define BEYOND_ALL 4
 
-/* ---- A few bodies by themselves (neighbourhood.c), and the whole (retry.c) --------------------------------------- */
+/* ---- A few bodies by themselves (neighbourhood.c), and the whole (retry_cluster.c) ------------------------------- */
 
 /* What a descent may take, in constraints looked at (some hundred million a second): so much, and so much for each
  * body; and where it is only to make a solution cheaper. With the latter a crowd of 1,500 houses takes 9.4 s for
@@ -84,7 +84,7 @@
 #define SHORT_PATIENCE 20000u
 #define SHORT_PATIENCE_EACH 600u
 
-/* ---- Pairs asked once more (retry.c) ----------------------------------------------------------------------------- */
+/* ---- Pairs asked once more (retry_cluster.c) --------------------------------------------------------------------- */
 
 /* How many may move at each stage, before all may: fourfold, since what one more stage costs is then a quarter of the
  * next. A cluster of no more than FEW is asked as a whole at once. */

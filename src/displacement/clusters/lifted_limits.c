@@ -7,27 +7,12 @@
  *
  * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start
  * is set aside meanwhile. If others run into it, they go back too. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 
 #include "base/union_find.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Components of the conflicts at the start; a fixed body joins none. */
-static void join_conflicts(const sunder_i_solver *s, uint32_t *root)
-{
-    const sunder_i_model *model = &s->model;
-    sunder_i_union_init(root, model->bodies);
-    for (size_t k = 0; k < s->start.n; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
-        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (!sunder_i_is_conflict_of_bodies(model, r) || model->body[i].fixed || model->body[j].fixed) continue;
-        sunder_i_union_join(root, i, j);
-    }
-    for (size_t b = 0; b < model->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
-}
 
 /* ---- Without limits ---------------------------------------------------------------------------------------------- */
 
@@ -41,7 +26,7 @@ static bool set_aside(sunder_i_solver *s)
     s->waiting = model->relaxations;
     memset(&model->relaxations, 0, sizeof model->relaxations);
     if (ok) {
-        join_conflicts(s, root);
+        sunder_i_solver_join_conflicts(s, root);
         for (size_t k = 0; k < s->waiting.n; k++) {
             hard[root[model->body_of[s->waiting.item[k].a]]] = true;
             hard[root[model->body_of[s->waiting.item[k].b]]] = true;

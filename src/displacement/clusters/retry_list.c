@@ -1,5 +1,4 @@
 /* Whom to ask once more: the relaxed pairs of bodies that might have a solution, by the clusters they are of. */
-#include "displacement/clusters/settle.h"
 #include "displacement/clusters/stages.h"
 
 #include "base/parallel.h"

@@ -1,0 +1,72 @@
+/* Better sides, for the clusters that were solved since they were last looked for: who is in the way joins first, then
+ * each cluster is improved by itself. What ran into others by it is for the next round of settle.c. */
+#include "displacement/clusters/stages.h"
+
+#include "base/parallel.h"
+
+static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++)
+        if (!s->improved[c->body[k]] && !s->model.body[c->body[k]].fixed) return false;
+    return true;
+}
+
+bool sunder_i_solver_is_improved(const sunder_i_solver *s)
+{
+    for (size_t e = 0; e < s->edges; e++)
+        for (int k = 0; k < 2; k++) {
+            const uint32_t b = k ? s->edge[e].b : s->edge[e].a;
+            if (!s->improved[b] && !s->model.body[b].fixed) return false;
+        }
+    return true;
+}
+
+static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    for (size_t k = begin; k < end; k++) {
+        const sunder_i_cluster *c = &s->cluster[k];
+        double *move = sunder_i_solver_load_moves(s, c);
+        if (is_improved(s, c)) continue;
+        const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status invite_to_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_solver *s = context;
+    for (size_t k = begin; k < end; k++) {
+        sunder_i_cluster *c = &s->cluster[k];
+        double *move = sunder_i_solver_load_moves(s, c);
+        if (!is_improved(s, c) && !sunder_i_cluster_invite(&s->model, c, move)) return sunder_i_no_memory(err);
+    }
+    return SUNDER_OK;
+}
+
+/* Whoever is in the way of a cluster joins it. */
+static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
+{
+    bool any = false;
+    sunder_status status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, invite_to_clusters, s, err);
+    for (size_t k = 0; k < s->clusters && !status; k++)
+        for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
+            const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
+            any = true;
+            if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) status = sunder_i_no_memory(err);
+        }
+    return status || !any ? status : sunder_i_solver_gather(s, err);
+}
+
+sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = sunder_i_solver_gather(s, err);
+    if (!status) status = join_guests(s, err);
+    if (!status) status = sunder_i_solver_unite_blocks(s, err);
+    if (!status) status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, improve_clusters, s, err);
+    if (status) return status;
+    sunder_i_solver_commit(s);
+    for (size_t k = 0; k < s->members; k++) s->improved[s->body[k]] = true;
+    return sunder_i_solver_relate(s, err);
+}
