@@ -3,7 +3,7 @@
  * A conflict has no room if it and all pairs that are not listed cannot be solved together, every other listed pair
  * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
- * it. */
+ * it; as far as the effort goes. */
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"

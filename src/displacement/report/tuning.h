@@ -10,7 +10,7 @@
 #define EFFORT 20000000u
 #define EFFORT_EACH 10000u
 /* One conflict is allowed so much at first, if all that ends it is its effort eight times as much then, and so on, up
- * to a tenth of a second. No more bodies than these take part in one: of all proofs found in the tests none had more
+ * to the most. No more bodies than these take part in one: of all proofs found in the tests none had more
  * than 20. */
 #define FIRST_EFFORT 10000u
 #define GROWTH 8
