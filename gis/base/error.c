@@ -62,7 +62,7 @@ bool gis_no_memory(gis_error *error)
     return false;
 }
 
-static bool list_add_text(gis_list *list, const char *text)
+static bool add_text(gis_sentences *list, const char *text)
 {
     for (size_t i = 0; i < list->n; i++)
         if (strcmp(list->items[i], text) == 0) return true;
@@ -73,7 +73,7 @@ static bool list_add_text(gis_list *list, const char *text)
     return true;
 }
 
-bool gis_list_add(gis_list *list, const char *format, ...)
+bool gis_sentences_add(gis_sentences *list, const char *format, ...)
 {
     char text[1024];
     va_list arguments;
@@ -81,14 +81,14 @@ bool gis_list_add(gis_list *list, const char *format, ...)
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     flatten(text);
-    return list_add_text(list, text);
+    return add_text(list, text);
 }
 
-void gis_list_clear(gis_list *list)
+void gis_sentences_clear(gis_sentences *list)
 {
     for (size_t i = 0; i < list->n; i++) free(list->items[i]);
     free(list->items);
-    *list = (gis_list){0};
+    *list = (gis_sentences){0};
 }
 
 /* A driver may repeat a warning for every feature: past this many different ones the rest says nothing new. */
@@ -99,7 +99,7 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
     (void)number;
     gis_listener *listener = CPLGetErrorHandlerUserData();
     if (class == CE_Warning) {
-        if (listener->warnings.n < WARNINGS_KEPT) gis_list_add(&listener->warnings, "%s", text);
+        if (listener->warnings.n < WARNINGS_KEPT) gis_sentences_add(&listener->warnings, "%s", text);
     } else if (class >= CE_Failure) {
         if (listener->failures++ == 0) {
             snprintf(listener->first, sizeof listener->first, "%s", text);
@@ -114,7 +114,7 @@ void gis_listen_end(void) { CPLPopErrorHandler(); }
 
 void gis_listener_clear(gis_listener *listener)
 {
-    gis_list_clear(&listener->warnings);
+    gis_sentences_clear(&listener->warnings);
     *listener = (gis_listener){0};
 }
 

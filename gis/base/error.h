@@ -29,21 +29,21 @@ bool gis_fail_usage(gis_error *error, const char *format, ...) __attribute__((fo
 bool gis_no_memory(gis_error *error);
 
 /* A list of distinct sentences in the order of their first appearance. A zeroed struct is an empty list. */
-typedef struct gis_list {
+typedef struct gis_sentences {
     char **items; /* n of them; items[n] is not defined */
     size_t n, capacity;
-} gis_list;
+} gis_sentences;
 
 /* Appends unless the very sentence is there already; false if memory is out. */
-bool gis_list_add(gis_list *list, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void gis_list_clear(gis_list *list);
+bool gis_sentences_add(gis_sentences *list, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void gis_sentences_clear(gis_sentences *list);
 
 /* Listens to what GDAL reports in this thread, instead of letting it print: the first failure (its words), how many
  * failures, and all warnings. Listeners nest; between begin and end the struct must stay where it is. */
 typedef struct gis_listener {
     size_t failures;
     char first[512];
-    gis_list warnings;
+    gis_sentences warnings;
 } gis_listener;
 
 void gis_listen_begin(gis_listener *listener);

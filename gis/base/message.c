@@ -33,7 +33,7 @@ int gis_say_failure(const gis_error *error)
     return error->exit_status;
 }
 
-void gis_say_warnings(const gis_list *list)
+void gis_say_warnings(const gis_sentences *list)
 {
     for (size_t i = 0; i < list->n && !gis_interrupted(); i++) /* what an interruption makes others say says nothing */
         print_line("warning", list->items[i]);

@@ -11,6 +11,6 @@ void gis_say_warning(const char *format, ...) __attribute__((format(printf, 1, 2
 int gis_say_failure(const gis_error *error);
 
 /* Each sentence of the list as a warning; none once a signal has come. */
-void gis_say_warnings(const gis_list *list);
+void gis_say_warnings(const gis_sentences *list);
 
 #endif

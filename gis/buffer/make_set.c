@@ -31,28 +31,27 @@ static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double
     return ok;
 }
 
-static bool append_member(const gis_buffer *buffer, size_t feature, gis_rings *rings, gis_polygons *all,
+static bool append_member(const gis_buffer *buffer, size_t feature, gis_polygonal_part *part, gis_polygons *all,
                           double *deviation, gis_error *error)
 {
     const sunder_shape *shape = buffer->input.shape[feature];
     if (sunder_shape_repaired(shape)) return append_repaired(shape, all, deviation, error);
-    return gis_geometry_rings(gis_source_geometry(buffer->input.source, feature), rings, error) &&
-           gis_polygons_append_all(all, &rings->set, error);
+    return gis_geometry_polygonal_part(gis_source_geometry(buffer->input.source, feature), part, error) &&
+           gis_polygons_append_all(all, &part->set, error);
 }
 
 bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
                      gis_error *error)
 {
-    gis_rings rings = {0};
+    gis_polygonal_part part = {0};
     gis_polygons all = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < set->members; i++)
-        ok =
-            !has_shape(buffer, set->member[i]) || append_member(buffer, set->member[i], &rings, &all, deviation, error);
+        ok = !has_shape(buffer, set->member[i]) || append_member(buffer, set->member[i], &part, &all, deviation, error);
     sunder_error why;
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) != SUNDER_OK)
         ok = gis_core_failed(error, NULL, &why);
-    gis_rings_clear(&rings);
+    gis_polygonal_part_clear(&part);
     gis_polygons_clear(&all);
     return ok;
 }

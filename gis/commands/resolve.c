@@ -30,15 +30,15 @@ static const char *algorithm_word(unsigned i) { return sunder_algorithm_string((
 static const char *decomposition_word(unsigned i) { return sunder_decomposition_string((sunder_decomposition)i); }
 static const char *order_word(unsigned i) { return sunder_order_string((sunder_order)i); }
 static const char *operation_word(unsigned i) { return sunder_operation_string((sunder_operation)i); }
-static const char *invalid_word(unsigned i) { return gis_invalid_string((gis_invalid)i); }
+static const char *invalid_word(unsigned i) { return gis_invalid_string((gis_invalid_policy)i); }
 static const char *weighting_word(unsigned i) { return gis_weighting_string((gis_weighting)i); }
 static const char *containment_word(unsigned i) { return sunder_containment_string((sunder_containment)i); }
 
-static bool resolve_invalid(const gis_options *options, gis_invalid *out, gis_error *error)
+static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out, gis_error *error)
 {
     unsigned policy;
     if (!resolve_choice(options, OPT_INVALID, invalid_word, &policy, error)) return false;
-    *out = (gis_invalid)policy;
+    *out = (gis_invalid_policy)policy;
     return true;
 }
 
@@ -77,7 +77,7 @@ static gis_source_request resolve_source(const gis_options *options)
     };
 }
 
-static gis_shape_request resolve_shape(const gis_options *options, gis_option_id id, gis_invalid invalid)
+static gis_shape_request resolve_shape(const gis_options *options, gis_option_id id, gis_invalid_policy invalid)
 {
     return (gis_shape_request){gis_option_table[id].names, options->text[id], invalid};
 }

@@ -131,7 +131,7 @@ static const char *unit_name(const separate_run *run)
     return name ? name : "unknown"; /* the CRS owns it */
 }
 
-static void json_losses(gis_json *out, const gis_list *losses)
+static void json_losses(gis_json *out, const gis_sentences *losses)
 {
     gis_json_open(out, '[');
     for (size_t i = 0; i < losses->n; i++) gis_json_string(out, losses->items[i]);

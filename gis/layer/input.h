@@ -11,7 +11,7 @@
 typedef struct gis_layer_input_request {
     gis_source_request source; /* what it takes is filled in */
     const char *output;        /* for who gives OUTPUT INPUT, and is told so */
-    gis_invalid invalid;
+    gis_invalid_policy invalid;
     double scale; /* N of 1:N */
     const char *id_field;
     const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */

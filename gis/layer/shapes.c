@@ -48,21 +48,20 @@ static bool grow(const sunder_shape *shape, double radius, const char *who, sund
     return ok;
 }
 
-static bool polygon_shape(gis_layer_input *input, size_t i, gis_rings *rings, gis_error *error)
+static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *part, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
     sunder_shape *shape = NULL, *grown;
     bool invalid;
-    if (!gis_geometry_rings(gis_source_geometry(input->source, i), rings, error)) return false;
+    if (!gis_geometry_polygonal_part(gis_source_geometry(input->source, i), part, error)) return false;
     gis_feature_name(input, i, who, sizeof who);
-    if (!gis_shape_of_feature(&rings->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
+    if (!gis_shape_of_feature(&part->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
         return false;
     input->invalid += invalid;
-    if (rings->linearised > 0 && input->as_chords)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
-                        rings->linearised);
-    else if (rings->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
-        if (!grow(shape, rings->linearised, who, &grown, error)) {
+    if (part->linearised > 0 && input->as_chords)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
+    else if (part->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
+        if (!grow(shape, part->linearised, who, &grown, error)) {
             sunder_shape_free(shape);
             return false;
         }
@@ -144,9 +143,9 @@ static bool point_shape(gis_layer_input *input, size_t i, int field, const sunde
     return ok;
 }
 
-/* What makes the shapes: rings is room for one feature's; the symbols are of points. */
+/* What makes the shapes: part is room for those of one feature; symbols are for points. */
 typedef struct shaping {
-    gis_rings rings;
+    gis_polygonal_part part;
     sunder_shape *symbol; /* NULL: every point has its own */
     int symbol_field;     /* -1: none has */
 } shaping;
@@ -174,9 +173,9 @@ bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
         ok = gis_go_on(error);
         if (ok && content == wanted)
             ok = input->points ? point_shape(input, i, how.symbol_field, how.symbol, error)
-                               : polygon_shape(input, i, &how.rings, error);
+                               : polygon_shape(input, i, &how.part, error);
     }
     sunder_shape_free(how.symbol);
-    gis_rings_clear(&how.rings);
+    gis_polygonal_part_clear(&how.part);
     return ok;
 }

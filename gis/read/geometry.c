@@ -76,17 +76,14 @@ static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *e
     return set->rings == rings_before || gis_polygons_end_polygon(set, error);
 }
 
-static bool append_polygons(OGRGeometryH geometry, gis_rings *rings, gis_error *error)
+static bool append_polygons(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error)
 {
     if (OGR_G_IsEmpty(geometry)) return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (is_polygon(flat)) return append_polygon(geometry, &rings->set, error);
-    if (is_leaf(flat) || flat == wkbCompoundCurve) {
-        rings->other_parts = true;
-        return true;
-    }
+    if (is_polygon(flat)) return append_polygon(geometry, &part->set, error);
+    if (is_leaf(flat) || flat == wkbCompoundCurve) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!append_polygons(OGR_G_GetGeometryRef(geometry, i), rings, error)) return false;
+        if (!append_polygons(OGR_G_GetGeometryRef(geometry, i), part, error)) return false;
     return true;
 }
 
@@ -152,24 +149,23 @@ static bool arcs_deviation(OGRGeometryH geometry, double *deviation, gis_error *
     return true;
 }
 
-bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *error)
+bool gis_geometry_polygonal_part(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error)
 {
-    rings->set.vertices = rings->set.rings = rings->set.polygons = 0;
-    rings->linearised = 0;
-    rings->other_parts = false;
+    part->set.vertices = part->set.rings = part->set.polygons = 0;
+    part->linearised = 0;
     if (!geometry) return true;
-    if (!OGR_G_HasCurveGeometry(geometry, TRUE)) return append_polygons(geometry, rings, error);
+    if (!OGR_G_HasCurveGeometry(geometry, TRUE)) return append_polygons(geometry, part, error);
     OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
     if (!linear) return gis_fail(error, "GDAL cannot linearise the arcs of a geometry");
-    bool done = append_polygons(linear, rings, error) && arcs_deviation(geometry, &rings->linearised, error);
+    bool done = append_polygons(linear, part, error) && arcs_deviation(geometry, &part->linearised, error);
     OGR_G_DestroyGeometry(linear);
     return done;
 }
 
-void gis_rings_clear(gis_rings *rings)
+void gis_polygonal_part_clear(gis_polygonal_part *part)
 {
-    gis_polygons_clear(&rings->set);
-    *rings = (gis_rings){0};
+    gis_polygons_clear(&part->set);
+    *part = (gis_polygonal_part){0};
 }
 
 static size_t count_vertices(OGRGeometryH geometry)

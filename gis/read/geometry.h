@@ -6,16 +6,15 @@
 
 #include "base/polygons.h"
 
-/* The polygons of a geometry. A zeroed struct is empty; it can be filled again and again and keeps its memory until
- * gis_rings_clear(). */
-typedef struct gis_rings {
+/* The polygons of a geometry; lines and points beside them are left out. A zeroed struct is empty; it can be filled
+ * again and again and keeps its memory until gis_polygonal_part_clear(). */
+typedef struct gis_polygonal_part {
     gis_polygons set;
     /* > 0 if arcs were replaced by chords: no point of a true arc is farther than this from the chords. So the true
      * polygons lie in the Minkowski sum of the polygons given and a disc of this radius; grow them by it (or by
      * sunder_shape_disc(linearised, n, false, ...)) before anything is proved of them. 0: no arcs. */
     double linearised;
-    bool other_parts; /* lines or points stood beside the polygons, and were left out */
-} gis_rings;
+} gis_polygonal_part;
 
 typedef enum gis_content {
     GIS_NOTHING,  /* null or empty */
@@ -28,10 +27,10 @@ typedef enum gis_content {
 gis_content gis_geometry_content(OGRGeometryH geometry);
 
 /* Takes the polygons out of a geometry of any kind (NULL: none), in the order in which it holds them; Z and M are
- * ignored, arcs linearised by GDAL (its default step). Coordinates are copied as they are, not finite ones too.
- * Fails where memory is out or GDAL cannot linearise. */
-bool gis_geometry_rings(OGRGeometryH geometry, gis_rings *rings, gis_error *error);
-void gis_rings_clear(gis_rings *rings);
+ * ignored, arcs linearised by GDAL (its default step). Coordinates are copied as they are, also such as are
+ * not finite. Fails where memory is out or GDAL cannot linearise. */
+bool gis_geometry_polygonal_part(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error);
+void gis_polygonal_part_clear(gis_polygonal_part *part);
 
 /* All vertices of a geometry of any kind (of arcs the control points; of a MultiPoint its points) in the order in which
  * it holds them: *n pairs in *xy, freed with CPLFree(). */

@@ -15,34 +15,33 @@
 
 /* Appends the polygons of one feature, after the rule of --invalid: each feature is judged by itself, so that the one
  * at fault can be named. */
-static bool append_feature(const gis_source *source, size_t i, const gis_rings *rings, gis_invalid policy,
-                           gis_polygons *all, bool *any_invalid, gis_error *error)
+static bool append_feature(const gis_source *source, size_t i, const gis_polygonal_part *part,
+                           gis_invalid_policy policy, gis_polygons *all, bool *any_invalid, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
     snprintf(who, sizeof who, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(source), gis_source_fid(source, i));
-    if (rings->linearised > 0)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
-                        rings->linearised);
+    if (part->linearised > 0)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
     sunder_shape *alone = NULL;
     bool invalid;
-    if (!gis_shape_of_feature(&rings->set, policy, who, "", &alone, &invalid, error)) return false;
+    if (!gis_shape_of_feature(&part->set, policy, who, "", &alone, &invalid, error)) return false;
     if (!alone) /* skipped */
         return true;
     sunder_shape_free(alone);
     *any_invalid = *any_invalid || invalid;
-    return gis_polygons_append_all(all, &rings->set, error);
+    return gis_polygons_append_all(all, &part->set, error);
 }
 
-static bool shape_of_layer(const gis_source *source, gis_invalid policy, const char *who, sunder_shape **out,
+static bool shape_of_layer(const gis_source *source, gis_invalid_policy policy, const char *who, sunder_shape **out,
                            double *building, gis_error *error)
 {
     gis_polygons all = {0};
-    gis_rings rings = {0};
+    gis_polygonal_part part = {0};
     bool ok = true, any_invalid = false;
     for (size_t i = 0; ok && i < gis_source_count(source); i++)
         if (gis_source_content(source, i) == GIS_POLYGONS)
-            ok = gis_go_on(error) && gis_geometry_rings(gis_source_geometry(source, i), &rings, error) &&
-                 append_feature(source, i, &rings, policy, &all, &any_invalid, error);
+            ok = gis_go_on(error) && gis_geometry_polygonal_part(gis_source_geometry(source, i), &part, error) &&
+                 append_feature(source, i, &part, policy, &all, &any_invalid, error);
     if (ok) {
         sunder_error why;
         double begin = gis_clock();
@@ -50,13 +49,13 @@ static bool shape_of_layer(const gis_source *source, gis_invalid policy, const c
         ok = gis_polygons_shape(&all, validity, out, &why) == SUNDER_OK || gis_core_failed(error, who, &why);
         if (building) *building += gis_clock() - begin;
     }
-    gis_rings_clear(&rings);
+    gis_polygonal_part_clear(&part);
     gis_polygons_clear(&all);
     return ok;
 }
 
-bool gis_shape_from_source(const gis_source_request *request, gis_invalid policy, const char *who, gis_source **source,
-                           sunder_shape **out, double *building, gis_error *error)
+bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy policy, const char *who,
+                           gis_source **source, sunder_shape **out, double *building, gis_error *error)
 {
     gis_source_request polygons = *request;
     polygons.takes = GIS_TAKES_POLYGONS;

@@ -8,14 +8,14 @@
 /* All polygons of a layer as one polygonal set; the source stays open for its CRS. What its driver warned of is
  * printed; `who` opens messages. The time from numbers in memory to the shape is added to *building, unless that is
  * NULL; that each feature is judged by itself, to name the one at fault, belongs to the reading. */
-bool gis_shape_from_source(const gis_source_request *request, gis_invalid policy, const char *who, gis_source **source,
-                           sunder_shape **out, double *building, gis_error *error);
+bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy policy, const char *who,
+                           gis_source **source, sunder_shape **out, double *building, gis_error *error);
 
 /* The SHAPE of an option. Strings are borrowed. */
 typedef struct gis_shape_request {
     const char *option; /* as messages call it */
     const char *text;   /* NULL: not given */
-    gis_invalid invalid;
+    gis_invalid_policy invalid;
 } gis_shape_request;
 
 /* In any form; it must enclose something. A data source is read whole (--where and the like select from the operands),

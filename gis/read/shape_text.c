@@ -135,8 +135,8 @@ bool gis_shape_read_file(const char *name, const char *who, char **text, gis_err
     return ok || gis_fail(error, "%s: cannot read %s: %s", who, standard ? "standard input" : name, why.message);
 }
 
-bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
-                      gis_error *error)
+bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid_policy policy, sunder_shape **out,
+                      double *building, gis_error *error)
 {
     gis_polygons set = {0};
     bool invalid = false;
@@ -151,7 +151,7 @@ bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sun
     return ok;
 }
 
-static bool shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
+static bool shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid_policy policy,
                             sunder_shape **out, double *building, gis_error *error)
 {
     int standard = standard_shape(text);
@@ -185,7 +185,7 @@ void gis_shape_name(const char *who, const char *text, char *name, size_t size)
     snprintf(name, size, "%s (%.*s%s)", who, (int)n, text, text[n] ? "..." : "");
 }
 
-bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
+bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid_policy policy,
                          sunder_shape **out, double *building, gis_error *error)
 {
     double unasked = 0;

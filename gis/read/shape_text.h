@@ -11,14 +11,14 @@ bool gis_shape_is_text(const char *text);
 
 /* A SHAPE that gis_shape_is_text(); lengths inside are converted by `units`. `who` and the text open messages. A
  * repair is warned of. The time from numbers in memory to the shape is added to *building, unless that is NULL. */
-bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid policy,
+bool gis_shape_from_text(const char *text, const char *who, const gis_crs_units *units, gis_invalid_policy policy,
                          sunder_shape **out, double *building, gis_error *error);
 
 /* The parts of that: all of a file, or of standard input with "-", to be freed; a WKT with polygons; and "P (disc:4)",
  * where long texts are cut at the end of a character. */
 bool gis_shape_read_file(const char *name, const char *who, char **text, gis_error *error);
-bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid policy, sunder_shape **out, double *building,
-                      gis_error *error);
+bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid_policy policy, sunder_shape **out,
+                      double *building, gis_error *error);
 enum { GIS_SHAPE_NAME_SIZE = GIS_WHO_SIZE + 128 };
 void gis_shape_name(const char *who, const char *text, char *name, size_t size);
 

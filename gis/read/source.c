@@ -25,7 +25,7 @@ struct gis_source {
     unsigned char *contents;
     size_t n, capacity;
     bool fids_unique;
-    gis_list warnings;
+    gis_sentences warnings;
 };
 
 /* ---- Opening ----------------------------------------------------------------------------------------------------- */
@@ -33,7 +33,7 @@ struct gis_source {
 static void keep_warnings(gis_source *source, const gis_listener *listener)
 {
     for (size_t i = 0; i < listener->warnings.n; i++)
-        gis_list_add(&source->warnings, "%s", listener->warnings.items[i]);
+        gis_sentences_add(&source->warnings, "%s", listener->warnings.items[i]);
 }
 
 static bool open_dataset(gis_source *source, const gis_source_request *request, gis_error *error)
@@ -247,7 +247,7 @@ void gis_source_close(gis_source *source)
     CPLFree(source->path);
     CPLFree(source->name);
     CPLFree(source->where);
-    gis_list_clear(&source->warnings);
+    gis_sentences_clear(&source->warnings);
     free(source);
 }
 
@@ -286,4 +286,4 @@ int gis_source_field(const gis_source *source, const char *name)
     return OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(source->layer), name);
 }
 
-const gis_list *gis_source_warnings(const gis_source *source) { return &source->warnings; }
+const gis_sentences *gis_source_warnings(const gis_source *source) { return &source->warnings; }

@@ -75,6 +75,6 @@ int gis_source_field(const gis_source *source, const char *name);
 bool gis_source_mark(const gis_source *source, const char *where, bool *marks, gis_error *error);
 
 /* What GDAL warned of while opening and reading. */
-const gis_list *gis_source_warnings(const gis_source *source);
+const gis_sentences *gis_source_warnings(const gis_source *source);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "base/message.h"
 
-const char *gis_invalid_string(gis_invalid policy)
+const char *gis_invalid_string(gis_invalid_policy policy)
 {
     static const char *const word[] = {"repair", "skip", "fail"};
     return (unsigned)policy <= GIS_INVALID_FAIL ? word[policy] : "";
@@ -18,7 +18,7 @@ static bool shape_failed(const char *who, sunder_status status, const sunder_err
     return false;
 }
 
-bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
+bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid_policy policy, const char *who, sunder_shape **out,
                            bool *invalid, gis_error *reason, gis_error *error)
 {
     sunder_error why;
@@ -35,7 +35,7 @@ bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const ch
     return shape_failed(who, status, &why, error);
 }
 
-bool gis_shape_of_feature(const gis_polygons *set, gis_invalid policy, const char *who, const char *said,
+bool gis_shape_of_feature(const gis_polygons *set, gis_invalid_policy policy, const char *who, const char *said,
                           sunder_shape **out, bool *invalid, gis_error *error)
 {
     gis_error reason;

@@ -5,18 +5,18 @@
 #include "base/polygons.h"
 
 /* --invalid: taken as what the rings enclose by the even-odd rule; left out; an error. */
-typedef enum gis_invalid { GIS_INVALID_REPAIR, GIS_INVALID_SKIP, GIS_INVALID_FAIL } gis_invalid;
+typedef enum gis_invalid_policy { GIS_INVALID_REPAIR, GIS_INVALID_SKIP, GIS_INVALID_FAIL } gis_invalid_policy;
 /* "repair", "skip", "fail"; "" for what is none of them. */
-const char *gis_invalid_string(gis_invalid policy);
+const char *gis_invalid_string(gis_invalid_policy policy);
 
 /* A polygonal set from rings. Invalid rings: repaired (*invalid is set, and the reason stands in reason), else an
  * error. `who` opens messages. */
-bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid policy, const char *who, sunder_shape **out,
+bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid_policy policy, const char *who, sunder_shape **out,
                            bool *invalid, gis_error *reason, gis_error *error);
 
 /* The same of one feature: that it is invalid is warned of ("WHO: " and what `said` adds), and where such features are
  * to be skipped *out stays NULL without an error. */
-bool gis_shape_of_feature(const gis_polygons *set, gis_invalid policy, const char *who, const char *said,
+bool gis_shape_of_feature(const gis_polygons *set, gis_invalid_policy policy, const char *who, const char *said,
                           sunder_shape **out, bool *invalid, gis_error *error);
 
 #endif

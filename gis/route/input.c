@@ -72,20 +72,20 @@ static bool make_room(gis_route_input *input, size_t n, gis_error *error)
 }
 
 /* The polygons of a feature after --invalid, and its lines and points. */
-static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_rings *rings, gis_error *error)
+static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_polygonal_part *part,
+                         gis_error *error)
 {
     char who[GIS_WHO_SIZE];
     bool arcs = false, invalid;
     if (!geometry) return true;
     gis_route_obstacle_name(input, i, who, sizeof who);
-    if (!gis_geometry_rings(geometry, rings, error) || !append_lines(geometry, &input->lines[i], &arcs, error))
+    if (!gis_geometry_polygonal_part(geometry, part, error) || !append_lines(geometry, &input->lines[i], &arcs, error))
         return false;
-    if (rings->linearised > 0)
-        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who,
-                        rings->linearised);
+    if (part->linearised > 0)
+        gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
     if (arcs) gis_say_warning("%s: the arcs of its lines are taken as polylines", who);
-    return !rings->set.polygons ||
-           gis_shape_of_feature(&rings->set, input->request->invalid, who, "", &input->shape[i], &invalid, error);
+    return !part->set.polygons ||
+           gis_shape_of_feature(&part->set, input->request->invalid, who, "", &input->shape[i], &invalid, error);
 }
 
 static bool read_layer(gis_route_input *input, gis_error *error)
@@ -102,11 +102,11 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     gis_say_warnings(gis_source_warnings(input->source));
     input->crs = gis_source_crs(input->source);
     if (!make_room(input, gis_source_count(input->source), error)) return false;
-    gis_rings rings = {0};
+    gis_polygonal_part part = {0};
     bool ok = true;
     for (size_t i = 0; ok && i < input->n; i++)
-        ok = gis_go_on(error) && read_feature(input, i, gis_source_geometry(input->source, i), &rings, error);
-    gis_rings_clear(&rings);
+        ok = gis_go_on(error) && read_feature(input, i, gis_source_geometry(input->source, i), &part, error);
+    gis_polygonal_part_clear(&part);
     return ok;
 }
 
@@ -127,7 +127,7 @@ static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, b
 {
     char *at = CPLStrdup(wkt), *rest = at;
     OGRGeometryH geometry = NULL;
-    gis_rings rings = {0};
+    gis_polygonal_part part = {0};
     OGRErr status = OGR_G_CreateFromWkt(&rest, NULL, &geometry);
     bool ok = status == OGRERR_NONE && geometry && !rest[strspn(rest, " \t\r\n")];
     if (status == OGRERR_NOT_ENOUGH_MEMORY)
@@ -135,8 +135,8 @@ static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, b
     else if (!ok || !gis_geometry_is_finite(geometry))
         ok = literal ? gis_fail_usage(error, "OBSTACLES: this WKT cannot be read: %.60s", wkt)
                      : gis_fail(error, "%s: this WKT cannot be read: %.60s", who, wkt);
-    ok = ok && read_feature(input, 0, geometry, &rings, error);
-    gis_rings_clear(&rings);
+    ok = ok && read_feature(input, 0, geometry, &part, error);
+    gis_polygonal_part_clear(&part);
     OGR_G_DestroyGeometry(geometry);
     CPLFree(at);
     return ok;
@@ -146,7 +146,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
 {
     double unasked = 0;
     char who[GIS_SHAPE_NAME_SIZE], *held = NULL;
-    const gis_invalid policy = input->request->invalid;
+    const gis_invalid_policy policy = input->request->invalid;
     gis_shape_name("OBSTACLES", text, who, sizeof who);
     if (!make_room(input, 1, error) || (text[0] == '@' && !gis_shape_read_file(text + 1, who, &held, error)))
         return false;

@@ -13,7 +13,7 @@ typedef struct gis_route_request {
     gis_coordinate from, to; /* owned */
     gis_optional_length gap;
     double scale; /* N of 1:N; 0: not given */
-    gis_invalid invalid;
+    gis_invalid_policy invalid;
     bool free_space; /* layers of obstacles and free space, too */
 } gis_route_request;
 

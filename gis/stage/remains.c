@@ -137,13 +137,13 @@ static void clear_away(const remains *found)
     VSIRmdirRecursive(found->inside);
 }
 
-static bool settle(remains *found, const char *name, gis_list *said, gis_error *error)
+static bool settle(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     read_record(found);
     if (!found->main) {
         if (is_in(found->inside, name))
-            gis_list_add(said, "%s is left of a run that was ended before it changed anything; it can be removed",
-                         found->inside);
+            gis_sentences_add(said, "%s is left of a run that was ended before it changed anything; it can be removed",
+                              found->inside);
         return true;
     }
     if (strcmp(found->main, name) != 0) return true;
@@ -151,15 +151,15 @@ static bool settle(remains *found, const char *name, gis_list *said, gis_error *
     if (half && !bring_back(found, error)) return false;
     clear_away(found);
     if (half)
-        gis_list_add(said,
-                     "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
-                     "been brought back",
-                     found->directory, name);
+        gis_sentences_add(said,
+                          "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
+                          "been brought back",
+                          found->directory, name);
     return true;
 }
 
 /* A stage in use stays. Where nothing can be locked nobody knows: then the way back is said. */
-static bool look_at(remains *found, const char *name, gis_list *said, gis_error *error)
+static bool look_at(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     int lock = open(found->inside, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     bool done = true;
@@ -168,16 +168,16 @@ static bool look_at(remains *found, const char *name, gis_list *said, gis_error 
     } else if (lock >= 0 && errno != EWOULDBLOCK) {
         read_record(found);
         if (found->main && strcmp(found->main, name) == 0)
-            gis_list_add(said,
-                         "%s is in use, or left of a run that was killed while it put its files in place; the "
-                         "former ones are in %s/%s: move them back",
-                         found->inside, found->inside, GIS_STAGE_OLD);
+            gis_sentences_add(said,
+                              "%s is in use, or left of a run that was killed while it put its files in place; the "
+                              "former ones are in %s/%s: move them back",
+                              found->inside, found->inside, GIS_STAGE_OLD);
     }
     if (lock >= 0) close(lock);
     return done;
 }
 
-bool gis_stage_recover(const char *final_path, gis_list *said, gis_error *error)
+bool gis_stage_recover(const char *final_path, gis_sentences *said, gis_error *error)
 {
     char *directory, *name;
     gis_stage_place_of(final_path, &directory, &name);

@@ -40,6 +40,6 @@ bool gis_stage_publish(gis_stage *stage, bool replace, gis_error *error);
 /* Looks beside an output for what a run has left that was killed while it put its files there. The old files are
  * brought back; what was done, and what is to be done by hand, is said, a sentence each. Fails if they cannot be
  * brought back. */
-bool gis_stage_recover(const char *final_path, gis_list *said, gis_error *error);
+bool gis_stage_recover(const char *final_path, gis_sentences *said, gis_error *error);
 
 #endif

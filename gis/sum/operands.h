@@ -8,7 +8,7 @@
 typedef struct gis_operands_request {
     const char *text[2];       /* P and Q, each a SHAPE in any form */
     gis_source_request source; /* what is selected from an operand that is a data source; path is filled in */
-    gis_invalid invalid;
+    gis_invalid_policy invalid;
     double scale; /* N of 1:N; 0: not given */
 } gis_operands_request;
 

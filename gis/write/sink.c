@@ -98,10 +98,10 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
 /* What is there is seen after what an earlier run left undone is settled. */
 static bool recover(gis_sink *sink, gis_error *error)
 {
-    gis_list said = {0};
+    gis_sentences said = {0};
     bool done = sink->place != GIS_PLACE_FILE || gis_stage_recover(sink->request.path, &said, error);
     gis_say_warnings(&said);
-    gis_list_clear(&said);
+    gis_sentences_clear(&said);
     return done;
 }
 
@@ -203,11 +203,11 @@ void gis_sink_free(gis_sink *sink)
     CPLFree(sink->main_file);
     if (sink->set_rewind) CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", NULL);
     if (sink->set_date) CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", NULL);
-    gis_list_clear(&sink->losses);
-    gis_list_clear(&sink->warnings);
+    gis_sentences_clear(&sink->losses);
+    gis_sentences_clear(&sink->warnings);
     free(sink);
 }
 
-const gis_list *gis_sink_losses(const gis_sink *sink) { return &sink->losses; }
+const gis_sentences *gis_sink_losses(const gis_sink *sink) { return &sink->losses; }
 
-const gis_list *gis_sink_warnings(const gis_sink *sink) { return &sink->warnings; }
+const gis_sentences *gis_sink_warnings(const gis_sink *sink) { return &sink->warnings; }

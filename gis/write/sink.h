@@ -111,8 +111,8 @@ bool gis_sink_publish(gis_sink *sink, gis_error *error);
 void gis_sink_free(gis_sink *sink);
 
 /* What the format could not hold, a sentence each (a field is named once); complete when finished. */
-const gis_list *gis_sink_losses(const gis_sink *sink);
+const gis_sentences *gis_sink_losses(const gis_sink *sink);
 /* Other things worth a warning (fields replaced, what GDAL said). */
-const gis_list *gis_sink_warnings(const gis_sink *sink);
+const gis_sentences *gis_sink_warnings(const gis_sink *sink);
 
 #endif

@@ -89,8 +89,8 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
         result->exact = result->exact && seen.exact;
         result->deviation = fmax(result->deviation, seen.deviation);
     } else if (!isfinite(seen.deviation)) {
-        gis_list_add(&layer->sink->losses, "layer %s: its geometries do not read back as they were written",
-                     layer->name);
+        gis_sentences_add(&layer->sink->losses, "layer %s: its geometries do not read back as they were written",
+                          layer->name);
     }
     gis_sink_find_losses(layer, as_written);
     return true;
@@ -274,19 +274,19 @@ static bool close_all(gis_sink *sink, gis_error *error)
 static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
 {
     if (seen->unread)
-        gis_list_add(&sink->losses, "what was written was not read back: %s is only written", sink->format.name);
+        gis_sentences_add(&sink->losses, "what was written was not read back: %s is only written", sink->format.name);
     if (seen->exact || seen->unread) return;
     if (isfinite(seen->deviation))
-        gis_list_add(&sink->losses, "the format rounds coordinates: they are off by up to %.9g", seen->deviation);
+        gis_sentences_add(&sink->losses, "the format rounds coordinates: they are off by up to %.9g", seen->deviation);
     else
-        gis_list_add(&sink->losses, "the format changes geometries: they do not read back as written");
+        gis_sentences_add(&sink->losses, "the format changes geometries: they do not read back as written");
 }
 
 /* No loss that the format forces: --strict lets it pass. */
 static void note_stream(gis_sink *sink)
 {
     if (sink->to_stdout)
-        gis_list_add(&sink->losses, "what goes to the standard output is read back in memory, not from there");
+        gis_sentences_add(&sink->losses, "what goes to the standard output is read back in memory, not from there");
 }
 
 bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)

@@ -155,7 +155,7 @@ static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
 /* ---- One feature ------------------------------------------------------------------------------------------------- */
 
 typedef struct workspace {
-    gis_rings sent, kept;
+    gis_polygonal_part sent, kept;
     bool keeps_vertices; /* the format does: that a vertex is elsewhere is damage */
     bool damaged;
 } workspace;
@@ -195,7 +195,8 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
     if (content == GIS_NOTHING) return true;
     if (content != GIS_POLYGONS) return compare_vertices(sent, kept, work, result, error);
     bool same;
-    if (!gis_geometry_rings(sent, &work->sent, error) || !gis_geometry_rings(kept, &work->kept, error) ||
+    if (!gis_geometry_polygonal_part(sent, &work->sent, error) ||
+        !gis_geometry_polygonal_part(kept, &work->kept, error) ||
         !same_polygons(&work->sent.set, &work->kept.set, &same, error))
         return false;
     if (!same) /* rings that came into other members have their vertices still */
@@ -223,16 +224,16 @@ static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRG
     OGRGeometryH geometry = sent->made;
     if (!geometry && sent->feature && sent->moved) geometry = OGR_F_GetGeometryRef(sent->feature);
     if (!gis_sink_tells(layer) || !geometry || OGR_G_IsEmpty(geometry)) return;
-    gis_list *losses = &layer->sink->losses;
+    gis_sentences *losses = &layer->sink->losses;
     const char *format = layer->sink->format.name;
     if (!kept || OGR_G_IsEmpty(kept)) {
-        gis_list_add(losses, "geometries are not written: %s cannot hold them", format);
+        gis_sentences_add(losses, "geometries are not written: %s cannot hold them", format);
         return;
     }
     if (OGR_G_Is3D(geometry) && !OGR_G_Is3D(kept))
-        gis_list_add(losses, "Z values are not written: %s has none", format);
+        gis_sentences_add(losses, "Z values are not written: %s has none", format);
     if (OGR_G_IsMeasured(geometry) && !OGR_G_IsMeasured(kept))
-        gis_list_add(losses, "M values are not written: %s has none", format);
+        gis_sentences_add(losses, "M values are not written: %s has none", format);
 }
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
@@ -255,16 +256,16 @@ static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
     return same;
 }
 
-static void compare_attributes(OGRFeatureH sent, OGRFeatureH kept, gis_change *changes, int n)
+static void compare_attributes(OGRFeatureH sent, OGRFeatureH kept, gis_field_change *changes, int n)
 {
     for (int i = 0; i < n; i++)
         if (changes[i].index >= 0 && !same_value(sent, i, kept, changes[i].index) && changes[i].count++ == 0)
             changes[i].first = OGR_F_GetFID(sent);
 }
 
-static gis_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, int n)
+static gis_field_change *new_changes(const gis_sink_layer *layer, OGRLayerH as_written, int n)
 {
-    gis_change *changes = calloc((size_t)n + 1, sizeof *changes);
+    gis_field_change *changes = calloc((size_t)n + 1, sizeof *changes);
     for (int i = 0; changes && i < n; i++) {
         const char *name = layer->created[i];
         changes[i].index = name[0] ? OGR_FD_GetFieldIndex(OGR_L_GetLayerDefn(as_written), name) : -1;
@@ -314,7 +315,7 @@ bool gis_sink_compare(gis_sink_layer *layer, OGRLayerH as_written, gis_sink_resu
     if (attributes && !(layer->changes = new_changes(layer, as_written, n))) return gis_no_memory(error);
     workspace work = {.keeps_vertices = layer->sink->format.keeps_vertices};
     bool done = compare_features(layer, as_written, n, &work, result, error);
-    gis_rings_clear(&work.sent);
-    gis_rings_clear(&work.kept);
+    gis_polygonal_part_clear(&work.sent);
+    gis_polygonal_part_clear(&work.kept);
     return done;
 }

@@ -170,7 +170,8 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
     if (!done)
         gis_fail(error, "%s: writing failed: %s", sink->request.path,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
-    for (size_t i = 0; i < listener.warnings.n; i++) gis_list_add(&sink->warnings, "%s", listener.warnings.items[i]);
+    for (size_t i = 0; i < listener.warnings.n; i++)
+        gis_sentences_add(&sink->warnings, "%s", listener.warnings.items[i]);
     gis_listener_clear(&listener);
     return done && end_last_line(sink, layer && layer->file ? layer->file : sink->main_file, error);
 }

@@ -217,8 +217,8 @@ static bool compare(gis_sink_layer *layer, gis_digest *read, gis_error *error)
     size_t lost = missing(all->sent, read, all->n, false);
     size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent, read, all->n, true);
     if (!lost && changed && !sink->format.keeps_values) {
-        gis_list_add(&sink->losses, "layer %s: the values of %zu features do not read back as they were written",
-                     layer->name, changed);
+        gis_sentences_add(&sink->losses, "layer %s: the values of %zu features do not read back as they were written",
+                          layer->name, changed);
         return true;
     }
     return !(lost || changed) ||
@@ -250,7 +250,7 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digest **
     else if (done && n != layer->written)
         done = gis_sink_fail_count(layer, n, error);
     if (done && with_z < all->with_z && gis_sink_tells(layer))
-        gis_list_add(&layer->sink->losses, "Z values are not written: %s has none", layer->sink->format.name);
+        gis_sentences_add(&layer->sink->losses, "Z values are not written: %s has none", layer->sink->format.name);
     gis_listener_clear(&listener);
     return done;
 }

@@ -29,11 +29,11 @@ typedef struct gis_sent {
 } gis_sent;
 
 /* What became of the values of one field of the source. */
-typedef struct gis_change {
+typedef struct gis_field_change {
     int index;     /* of the field as written; -1: not there */
     size_t count;  /* values that read back as others */
     GIntBig first; /* the first feature with one */
-} gis_change;
+} gis_field_change;
 
 /* A field whose values read back as they were sent. */
 typedef struct gis_plain_field {
@@ -80,11 +80,11 @@ struct gis_sink_layer {
     bool keep_sent;
     gis_sent *sent;
     size_t n_sent, capacity;
-    bool can_rewrite;       /* numbers are decimals, and how many digits they get is ours to choose */
-    bool more_digits;       /* than tell a double: the layer is written for the second time */
-    gis_value *sent_values; /* where it may be: n_fields for each that was sent, texts owned */
-    size_t values_room;     /* for so many features */
-    gis_change *changes;    /* by field of the source; NULL: not looked for */
+    bool can_rewrite;          /* numbers are decimals, and how many digits they get is ours to choose */
+    bool more_digits;          /* than tell a double: the layer is written for the second time */
+    gis_value *sent_values;    /* where it may be: n_fields for each that was sent, texts owned */
+    size_t values_room;        /* for so many features */
+    gis_field_change *changes; /* by field of the source; NULL: not looked for */
 };
 
 typedef enum gis_sink_place {
@@ -111,7 +111,7 @@ struct gis_sink {
     bool in_transaction, published, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;
-    gis_list losses, warnings;
+    gis_sentences losses, warnings;
 };
 
 /* Is it the main layer, with the fields of the source? Then what is lost of them is told, once. */

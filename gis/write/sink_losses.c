@@ -42,7 +42,8 @@ static bool has_domain(GDALDatasetH dataset, OGRFieldDefnH field)
     return name && name[0] && (!dataset || GDALDatasetGetFieldDomain(dataset, name));
 }
 
-static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept, const gis_change *change)
+static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFieldDefnH kept,
+                          const gis_field_change *change)
 {
     parts lost = {""};
     const char *name = OGR_Fld_GetNameRef(sent);
@@ -61,7 +62,7 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
     if (change && change->count)
         say(&lost, "%zu value%s cannot be held as %s (first: FID %" PRId64 ")", change->count,
             change->count == 1 ? "" : "s", change->count == 1 ? "it is" : "they are", (int64_t)change->first);
-    if (lost.text[0]) gis_list_add(&layer->sink->losses, "field %s: %s", name, lost.text);
+    if (lost.text[0]) gis_sentences_add(&layer->sink->losses, "field %s: %s", name, lost.text);
 }
 
 static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
@@ -74,14 +75,14 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
         OGRFieldDefnH sent = OGR_FD_GetFieldDefn(source, i);
         int index = OGR_FD_GetFieldIndex(as_written, name);
         if (index < 0)
-            gis_list_add(&sink->losses, "field %s: not written", OGR_Fld_GetNameRef(sent));
+            gis_sentences_add(&sink->losses, "field %s: not written", OGR_Fld_GetNameRef(sent));
         else
             compare_field(layer, sent, OGR_FD_GetFieldDefn(as_written, index),
                           layer->changes ? &layer->changes[i] : NULL);
     }
     for (int i = 1; i < OGR_FD_GetGeomFieldCount(source); i++)
-        gis_list_add(&sink->losses, "geometry column %s is not written: only the first one is",
-                     OGR_GFld_GetNameRef(OGR_FD_GetGeomFieldDefn(source, i)));
+        gis_sentences_add(&sink->losses, "geometry column %s is not written: only the first one is",
+                          OGR_GFld_GetNameRef(OGR_FD_GetGeomFieldDefn(source, i)));
 }
 
 static void compare_type(gis_sink_layer *layer, OGRLayerH as_written)
@@ -90,8 +91,8 @@ static void compare_type(gis_sink_layer *layer, OGRLayerH as_written)
     if (kept == sent || layer->sink->format.shapefile ||
         (kept == wkbUnknown && layer->written == 0)) /* formats that tell the type by the features */
         return;
-    gis_list_add(&layer->sink->losses, "the layer is declared as %s instead of %s", OGRGeometryTypeToName(kept),
-                 OGRGeometryTypeToName(sent));
+    gis_sentences_add(&layer->sink->losses, "the layer is declared as %s instead of %s", OGRGeometryTypeToName(kept),
+                      OGRGeometryTypeToName(sent));
 }
 
 static const char *crs_name(OGRSpatialReferenceH crs)
@@ -107,7 +108,7 @@ static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
     if (!sent && !kept) return;
     if (!sent || !kept || !OSRIsSameEx(sent, kept, options)) {
         if (!sent && strstr(crs_name(kept), "ndefined")) return; /* the GeoPackage's way to say that there is none */
-        gis_list_add(&layer->sink->losses, "the CRS is %s instead of %s", crs_name(kept), crs_name(sent));
+        gis_sentences_add(&layer->sink->losses, "the CRS is %s instead of %s", crs_name(kept), crs_name(sent));
     }
 }
 

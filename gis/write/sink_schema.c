@@ -84,8 +84,8 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
     /* An identifier that only repeats the table's name belongs to that name, and is unique in a GeoPackage. */
     if (own && !EQUAL(own, identifier)) {
         if (layer->sink->format.geopackage && layer->sink->updating && identifier_taken(layer->sink, own))
-            gis_list_add(&layer->sink->warnings, "the identifier \"%s\" is taken; layer %s gets its name as identifier",
-                         own, layer->name);
+            gis_sentences_add(&layer->sink->warnings,
+                              "the identifier \"%s\" is taken; layer %s gets its name as identifier", own, layer->name);
         else
             options = offer(layer, options, "IDENTIFIER", own);
     }
@@ -194,14 +194,15 @@ static void create_source_fields(gis_sink_layer *layer)
         layer->field_map[i] = -1;
         if (is_own(layer, OGR_Fld_GetNameRef(field))) {
             if (gis_sink_tells(layer))
-                gis_list_add(&layer->sink->warnings, "field %s of the input is replaced", OGR_Fld_GetNameRef(field));
+                gis_sentences_add(&layer->sink->warnings, "field %s of the input is replaced",
+                                  OGR_Fld_GetNameRef(field));
         } else {
             copy_domain(layer, field);
             layer->field_map[i] = create_field(layer, field);
             if (layer->field_map[i] < 0 && gis_sink_tells(layer))
-                gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
-                             OGR_Fld_GetNameRef(field), layer->sink->format.name,
-                             OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
+                gis_sentences_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                                  OGR_Fld_GetNameRef(field), layer->sink->format.name,
+                                  OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
         }
         int to = layer->field_map[i];
         layer->created =
@@ -226,8 +227,8 @@ static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldTyp
     int index = create_field_of(layer, name, type, width);
     if (index < 0 && type == OFTInteger64) index = create_field_of(layer, name, OFTReal, 0);
     if (index < 0)
-        gis_list_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name, name,
-                     layer->sink->format.name);
+        gis_sentences_add(&layer->sink->losses, "layer %s: field %s is not written: %s cannot hold it", layer->name,
+                          name, layer->sink->format.name);
     return index;
 }
 
@@ -248,12 +249,13 @@ static void create_copy(gis_sink_layer *layer)
     int index = create_field(layer, field);
     OGR_Fld_Destroy(field);
     if (index < 0)
-        gis_list_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
-                     OGR_Fld_GetNameRef(like), layer->sink->format.name, OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
+        gis_sentences_add(&layer->sink->losses, "field %s: not written, %s cannot hold the type %s",
+                          OGR_Fld_GetNameRef(like), layer->sink->format.name,
+                          OGR_GetFieldTypeName(OGR_Fld_GetType(like)));
     OGRFeatureDefnH made = OGR_L_GetLayerDefn(layer->layer);
     const char *name = index < 0 ? NULL : OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(made, index));
     if (name && strcmp(name, OGR_Fld_GetNameRef(like)) != 0)
-        gis_list_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
+        gis_sentences_add(&layer->sink->losses, "field %s: called %s", OGR_Fld_GetNameRef(like), name);
     CPLFree(layer->field_map);
     layer->field_map = CPLMalloc(((size_t)n + 1) * sizeof *layer->field_map);
     for (int i = 0; i < n; i++) {
@@ -280,7 +282,7 @@ static void note_name(gis_sink_layer *layer)
 {
     const char *name = OGR_L_GetName(layer->layer);
     if (strcmp(name, layer->name) == 0) return;
-    if (!layer->file) gis_list_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
+    if (!layer->file) gis_sentences_add(&layer->sink->losses, "layer %s is called %s", layer->name, name);
     CPLFree(layer->name);
     layer->name = CPLStrdup(name);
 }

@@ -69,9 +69,9 @@ static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
     OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
     if (!geometry || !layer->request.as_source) return;
     if (!layer->can_measure && OGR_G_IsMeasured(geometry) && !layer->sink->format.shapefile)
-        gis_list_add(&layer->sink->losses, "M values are not written: %s has none", layer->sink->format.name);
+        gis_sentences_add(&layer->sink->losses, "M values are not written: %s has none", layer->sink->format.name);
     if (!layer->can_curve && OGR_G_HasCurveGeometry(geometry, TRUE))
-        gis_list_add(&layer->sink->losses, "arcs are written as chords: %s has no arcs", layer->sink->format.name);
+        gis_sentences_add(&layer->sink->losses, "arcs are written as chords: %s has no arcs", layer->sink->format.name);
 }
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
@@ -81,7 +81,7 @@ static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
     if (layer->keep_sent && layer->sink->format.keeps_order)
         return; /* changed values are found when the layer is read back, and told once a field */
     for (size_t i = 0; i < listener->warnings.n; i++)
-        gis_list_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
+        gis_sentences_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
 }
 
 static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
