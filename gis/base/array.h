@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* gis_array_reserve() where there is too little room. */
+/* The part of gis_array_reserve() that is seldom needed: there is too little room. */
 bool gis_array_grow(void *array, size_t *capacity, size_t needed, size_t size);
 
 /* Room for so many elements of this size in an array, given by the address of the pointer to it; it at least doubles,

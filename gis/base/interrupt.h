@@ -14,11 +14,11 @@
 
 #include "base/error.h"
 
-/* From here on. */
+/* Signals are caught from here on, by the thread that calls this: the main thread. */
 void gis_catch_signals(void);
 /* Has a signal come, and can the run still end as if nothing had been done? */
 bool gis_interrupted(void);
-/* False, with a message, if so. */
+/* The other way round: false, and the error says GIS_INTERRUPTED, if a signal has come. */
 bool gis_go_on(gis_error *error);
 /* The library's work in this thread heeds the signals, too (the thread that catches them does already). */
 void gis_watch(void);
@@ -34,7 +34,7 @@ void gis_set_outcome(gis_outcome outcome);
 /* The last look: false if a signal has come; else the outcome is being decided. */
 bool gis_decide(gis_error *error);
 
-/* What lies about. */
+/* A file that lies about half done, as the handler knows it. */
 typedef struct gis_leftover gis_leftover;
 
 /* A file, or a directory with all in it, that goes. */
@@ -43,7 +43,7 @@ gis_leftover *gis_leftover_temporary(const char *path);
 gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path);
 /* A former file that goes back to where it was; when the outcome is decided, it goes. */
 gis_leftover *gis_leftover_former(const char *path, const char *back_to);
-/* It is gone, or in its place. NULL is fine. */
+/* The file is gone, or in its place: the handler leaves it alone. NULL is fine. */
 void gis_leftover_forget(gis_leftover *leftover);
 
 /* A failure has been told, and is the run's exit status: ending it by force says nothing more. */

@@ -82,7 +82,7 @@ static bool round_result(sunder_status status, const sunder_sum *sum, const sund
     return gis_round_sum(sum, out, error);
 }
 
-/* What finding the blocks and making them take of the whole, about; the rest is uniting them. For the bar alone. */
+/* Shares of the progress bar: finding the blocks, and making them; the rest is uniting them. */
 static const double find_share = 0.2, make_share = 0.6;
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */

@@ -51,16 +51,16 @@ bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_err
 bool gis_buffer_gather(gis_buffer *buffer, gis_error *error);
 /* Makes the sets, on as many threads as are asked for, and adds up the figures. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error);
-/* Makes one set, as it stands. */
+/* Makes one set, as it stands (make_set.c). */
 bool gis_buffer_make_set(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
                          gis_error *error);
-/* All its members as one shape; *deviation is raised to what that moved. */
+/* All members of a set as one shape; *deviation is raised to what that moved. */
 bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, double *deviation,
                      gis_error *error);
 void gis_buffer_set_clear(gis_buffer_set *set);
-/* --align (align.c): turns the shape to the main direction of a set of features; */
+/* --align (align.c): the shape, turned to the main direction of a set. */
 bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sunder_shape **out, gis_error *error);
-/* makes a dissolved set block by block, the shape turned for each. */
+/* --align with --dissolve: makes a set block by block, the shape turned for each. */
 bool gis_buffer_make_blocks(const gis_buffer *buffer, gis_buffer_set *set, const sunder_sum_options *how,
                             gis_error *error);
 void gis_buffer_clear(gis_buffer *buffer);

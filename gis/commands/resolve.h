@@ -13,7 +13,7 @@
 
 gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id id);
 
-/* Separate, check: the layer and its rules. */
+/* Separate, check, buffer: the layer, and its rules, which buffer does not ask for. */
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error);
 /* Sum, pair: P and Q. That options select from a data source where there is none is wrong usage. */
 bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);

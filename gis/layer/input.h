@@ -1,4 +1,4 @@
-/* input.h: a source's features as the core's layer: what separate and check, and in part buffer, read. */
+/* input.h: a source's features as the core's layer, for separate and check; their shapes alone, for buffer. */
 #ifndef GIS_LAYER_INPUT_H
 #define GIS_LAYER_INPUT_H
 
@@ -15,7 +15,7 @@ typedef struct gis_layer_input_request {
     double scale; /* N of 1:N */
     const char *id_field;
     const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */
-    bool may_have_symbols;             /* whoever gives none, and points, is told of them */
+    bool may_have_symbols;             /* the command knows --symbol: who gives points without one is told of it */
     gis_layer_rules rules;
 } gis_layer_input_request;
 
@@ -32,13 +32,13 @@ typedef struct gis_layer_input {
     sunder_feature *feature; /* [n] */
     sunder_layer *layer;
     int id_field;         /* -1: none */
-    size_t invalid, null; /* features with invalid, with no geometry */
-    size_t other;         /* features with geometries that are not looked at */
+    size_t invalid, null; /* features whose geometry is invalid; that have none, or an empty one */
+    size_t other;         /* features of another kind of geometry than the one that is looked at */
 } gis_layer_input;
 
 /* Reads everything. On failure what was read can be released all the same. */
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
-/* The source and the shapes alone, arcs as chords: for commands to which features are not in conflict. */
+/* The source and the shapes alone, arcs as chords: for a command that asks for no conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);
@@ -57,7 +57,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 /* sunder_layer_separate or sunder_layer_check. */
 typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,
                                      sunder_report **out, sunder_error *err);
-/* Has the core do it, by the rules (run.c); a call that it refuses as wrong is wrong usage. */
+/* Has the core do one of the two, by the rules (run.c); a number that it refuses is wrong usage. */
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
                    sunder_layer_summary *summary, gis_error *error);
 

@@ -19,9 +19,9 @@ static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
 
-/* What is put on the radius first. Rounding the sum to doubles takes it in by less than four units in the last place of
- * its largest coordinate: twice that. The arithmetic of the radius itself is off by some 1e-16 of it: a billionth,
- * which nobody can see. */
+/* What is added to the radius before growing. Rounding the sum to doubles may take it in by less than four units in the
+ * last place of its largest coordinate: twice that is added. The arithmetic of the radius is off by some 1e-16 of it: a
+ * billionth is added, which nobody can see. */
 static const double grown_ulps = 8, grown_part = 1e-9;
 
 /* S grown by a disc that contains the disc of `radius`, as a shape of doubles. */

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Appends the polygons of one feature, after the rule of --invalid: each feature is judged by itself, so that the one
+/* Appends the polygons of one feature, as --invalid has it: each feature is judged by itself, so that the one
  * at fault can be named. */
 static bool append_feature(const gis_source *source, size_t i, const gis_polygonal_part *part,
                            gis_invalid_policy policy, gis_polygons *all, bool *any_invalid, gis_error *error)

@@ -26,7 +26,7 @@ typedef struct gis_source_request {
     const char *where;               /* --where */
     const double *bbox;              /* --bbox: xmin, ymin, xmax, ymax */
     const char *input_crs;           /* --input-crs: replaces the layer's */
-    unsigned takes;                  /* GIS_TAKES_...: the reader's own affair, who fills it in */
+    unsigned takes;                  /* GIS_TAKES_...: no option's, whoever opens the source fills it in */
 } gis_source_request;
 
 typedef struct gis_source gis_source;

@@ -9,8 +9,8 @@ typedef enum gis_invalid_policy { GIS_INVALID_REPAIR, GIS_INVALID_SKIP, GIS_INVA
 /* "repair", "skip", "fail"; "" for what is none of them. */
 const char *gis_invalid_string(gis_invalid_policy policy);
 
-/* A polygonal set from rings. Invalid rings: repaired (*invalid is set, and the reason stands in reason), else an
- * error. `who` opens messages. */
+/* A polygonal set from rings. Invalid ones are repaired, if that is the policy (*invalid is set, *reason says why),
+ * else an error. `who` opens messages. */
 bool gis_shape_of_polygons(const gis_polygons *set, gis_invalid_policy policy, const char *who, sunder_shape **out,
                            bool *invalid, gis_error *reason, gis_error *error);
 

@@ -26,8 +26,8 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
 /* Ends the polygon of rings [first, set->rings), which are not one yet, as what it is or, if that is not valid in the
  * sense of OGC, as the polygons that it is mended to; those are counted. */
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error);
-/* Where the point of the segment ab that is next to c lies, from 0 to 1 (beyond: outside), and how far c is *off, where
- * lengths along each axis are measured in its own unit. */
+/* The foot of c on the line ab, as a fraction of ab: 0 at a, 1 at b, others beyond the two. *off: how far c is from the
+ * segment ab. Lengths along each axis are in units of its own. */
 double gis_place_along(const double *a, const double *b, const double *c, const double unit[2], double *off);
 static inline bool gis_same_vertex(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1]; }
 /* The unit in the last place of a double. */

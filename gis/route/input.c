@@ -170,7 +170,7 @@ static void join_place(double box[4], double x, double y)
     box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
 }
 
-/* With the scale in the middle of the obstacles, where lengths are not those on the ground. */
+/* Where lengths are not those on the ground it tells the local scale, in the middle of the obstacles. */
 static void warn_of_crs(const gis_route_input *input)
 {
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};

@@ -35,7 +35,7 @@ typedef struct gis_route_input {
     size_t n;
     sunder_shape **shape;      /* [n] NULL: no polygons */
     gis_lines *lines;          /* [n] */
-    sunder_obstacle *obstacle; /* [n] borrows the two */
+    sunder_obstacle *obstacle; /* [n] borrows from shape and lines */
     sunder_shape *robot;
     double gap;
 } gis_route_input;

@@ -112,10 +112,11 @@ static void grow_box(double box[4], const double xy[2])
     }
 }
 
-/* The margin goes so often into the size of what it is around: it shows that free space goes on outside. */
+/* The frame's margin is one of so many parts of the larger side of what it is around, so that free space is seen to go
+ * on outside. */
 static const double margins_across = 10;
 
-/* Around everything, with a margin, as far as doubles reach. */
+/* A frame around obstacles and route, with a margin, as far as doubles reach. */
 static void frame(const route_writer *w, const gis_polygons *obstacles, double box[4])
 {
     box[0] = box[1] = INFINITY;

@@ -9,7 +9,7 @@
 #include "base/interrupt.h"
 #include "stage/stage.h"
 
-/* All stages are called so, with six signs at the end. */
+/* The names of all stages begin so; mkdtemp() adds six characters. */
 #define GIS_STAGE_PREFIX ".sunder-"
 /* Inside the stage: where superseded files wait until all is in place, and the record of what publishing will do, which
  * is there while the renames are under way. */
@@ -36,7 +36,7 @@ enum { GIS_MARK_SIZE = 128 };
 bool gis_stage_mark(const char *path, char mark[GIS_MARK_SIZE]);
 
 char *gis_join(const char *directory, const char *name);
-/* A link counts, wherever it leads. */
+/* Is something called so? A link counts, wherever it leads. */
 bool gis_there(const char *path);
 /* The directory and the base name of where an output really lies; both freed with CPLFree(). */
 void gis_stage_place_of(const char *final_path, char **directory, char **name);

@@ -41,7 +41,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
     CPLFree(path);
 }
 
-/* The directory is gone, or stays as it is. */
+/* Forgets the directory, which is gone, or stays as it is. */
 static void leave(gis_stage *stage)
 {
     if (stage->lock >= 0) close(stage->lock);

@@ -1,5 +1,6 @@
 /* layers.c: the layers of a sum: polygons, a feature each; degenerate segments; degenerate points. Polygons go through
- * rounding, which keeps them valid; segments and points are places, which may fall together. */
+ * rounding, which keeps them valid. Segments and points need no such care: their vertices go to the nearest doubles,
+ * and may fall together there. */
 #include "sum/layers.h"
 
 #include "read/geometry.h"
@@ -16,8 +17,8 @@ bool gis_write_polygons(gis_sink_layer *layer, const gis_polygons *set, const gi
     return true;
 }
 
-/* One place of a degenerate hole, in doubles. */
-static bool place(const sunder_sum *sum, uint32_t vertex, double xy[2], double *deviation, gis_error *error)
+/* An end of a degenerate segment, or a degenerate point, in doubles; *deviation is raised to what that moves. */
+static bool to_doubles(const sunder_sum *sum, uint32_t vertex, double xy[2], double *deviation, gis_error *error)
 {
     double here;
     if (!gis_vertex_deviation(sum, vertex, &here, error)) return false;
@@ -34,7 +35,8 @@ bool gis_write_sum_segments(gis_sink_layer *layer, const sunder_sum *sum, size_t
         uint32_t ends[2];
         double from[2], to[2];
         sunder_sum_segment(sum, i, ends);
-        if (!place(sum, ends[0], from, deviation, error) || !place(sum, ends[1], to, deviation, error)) return false;
+        if (!to_doubles(sum, ends[0], from, deviation, error) || !to_doubles(sum, ends[1], to, deviation, error))
+            return false;
         OGRGeometryH line = gis_geometry_line(from, to);
         if (!line) return gis_no_memory(error);
         if (!gis_sink_write(layer, NULL, line, NULL, error)) return false;
@@ -46,7 +48,7 @@ bool gis_write_sum_points(gis_sink_layer *layer, const sunder_sum *sum, size_t n
 {
     for (size_t i = 0; i < n; i++) {
         double xy[2];
-        if (!place(sum, sunder_sum_point(sum, i), xy, deviation, error)) return false;
+        if (!to_doubles(sum, sunder_sum_point(sum, i), xy, deviation, error)) return false;
         OGRGeometryH point = gis_geometry_point(xy);
         if (!point) return gis_no_memory(error);
         if (!gis_sink_write(layer, NULL, point, NULL, error)) return false;

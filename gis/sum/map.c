@@ -25,7 +25,7 @@ static const double *vertex(const map_run *run, uint32_t half)
 
 /* ---- Faces ------------------------------------------------------------------------------------------------------- */
 
-/* Is something else than the face on the other side? (An antenna has the face on both.) */
+/* Is another face on the other side? (An antenna has the same one on both.) */
 static bool is_side(const sunder_map *map, uint32_t half)
 {
     return sunder_map_face(map, half) != sunder_map_face(map, sunder_map_twin(half));

@@ -63,7 +63,7 @@ typedef struct gis_sink_layer_request {
     bool like_source;         /* all fields of the source's layer come first, with their constraints; FIDs are kept */
     bool as_source;           /* and its geometry type and column names, identifier, description: the main layer */
     OGRwkbGeometryType type;  /* if not as_source */
-    OGRSpatialReferenceH crs; /* if there is no source; NULL: none */
+    OGRSpatialReferenceH crs; /* where the sink has no source, whose CRS it is else; NULL: none */
     const gis_field *fields;  /* the program's own; one of the same name in the source is replaced, with a warning */
     size_t n_fields;
     OGRFieldDefnH copied; /* NULL, or one field of the source, which comes after those, if not like_source */

@@ -23,8 +23,8 @@
 /* One feature as it was sent, so that it can be compared: a source feature and its move, or a geometry of its own. */
 typedef struct gis_sent {
     OGRFeatureH feature; /* borrowed from the source; NULL if it came from none */
-    OGRGeometryH made;   /* owned; NULL: a null geometry, unless it is */
-    bool moved;          /* the feature's geometry moved by (dx, dy) */
+    OGRGeometryH made;   /* owned; NULL: a null geometry, unless `moved` */
+    bool moved;          /* it is the feature's own geometry, moved by (dx, dy) */
     double dx, dy;
 } gis_sent;
 
@@ -35,7 +35,7 @@ typedef struct gis_field_change {
     GIntBig first; /* the first feature with one */
 } gis_field_change;
 
-/* A field whose values read back as they were sent. */
+/* A field whose values are to read back as they were sent: of a plain type, without a default of its own. */
 typedef struct gis_plain_field {
     char *name;
     int sent, read; /* where it is in the layer that is written, and in the one that is read */
