@@ -5,10 +5,8 @@
  *            ^                                                           |
  *            +---- relations of what moved, exact <----------------------+
  *
- * An edge is a pair of bodies that came into conflict at some time. Clusters are the components of the edges over
- * bodies that may move; a fixed body is a member of every cluster that has an edge to it, and joins none. Edges are
- * never removed, so each round either adds an edge between clusters, or widens the margin of a cluster whose result
- * failed the exact check (a limited number of times), or is the last: the loop ends. */
+ * That is one run of rounds (clusters/settle.c). Here is the order of such runs, and of what comes before, between and
+ * after them. */
 #include "displacement/clusters/stages.h"
 #include "displacement/report/report.h"
 

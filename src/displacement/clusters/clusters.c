@@ -1,4 +1,8 @@
-/* The state of the work on one layer. Bodies in conflict make edges, edges make clusters. */
+/* The state of the work on one layer. Bodies in conflict make edges, edges make clusters.
+ *
+ * An edge is a pair of bodies that came into conflict, or into each other's way, at some time. Clusters are the
+ * components of the edges over bodies that are not fixed; a fixed body is a member of every cluster that has an edge to
+ * it, and joins none. */
 #include "displacement/clusters/solver.h"
 
 #include "base/invariant.h"

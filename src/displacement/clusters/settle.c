@@ -1,4 +1,8 @@
-/* The rounds: clusters are solved, their moves checked exactly, and what is found makes work for the next round. */
+/* The rounds: clusters are solved, their moves checked exactly, and what is found makes work for the next round.
+ *
+ * No edge is removed meanwhile. So each round adds an edge between clusters, or takes a pair of one inside the other a
+ * state further (layer/inclusion.h), or widens the margin of a cluster whose result failed the exact check (a limited
+ * number of times), or is the last: the loop ends. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
