@@ -163,15 +163,3 @@ int sunder_i_filtered_corner_side(const sunder_i_filter *g, const sunder_i_filte
     if (!g->lattice->arena.failed) sunder_i_arena_release(&g->lattice->arena, mark);
     return e;
 }
-
-/* ---- Lengths ---- */
-
-sunder_i_big sunder_i_filtered_distance(sunder_i_arena *m, const sunder_i_filtered_point *a,
-                                        const sunder_i_filtered_point *b, unsigned long bits)
-{
-    const sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
-    const sunder_i_big square = sunder_i_rational_dot(m, d, d);
-    if (m->failed) return (sunder_i_big){NULL, 0};
-    /* sqrt(4^bits square) / w, each floored: floor(floor(r) / w) = floor(r / w) for an integer w. */
-    return sunder_i_big_div_floor(m, sunder_i_big_sqrt_floor(m, sunder_i_big_shl(m, square, 2 * bits)), d.w);
-}

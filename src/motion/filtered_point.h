@@ -51,8 +51,4 @@ int sunder_i_filtered_side(const sunder_i_filter *g, sunder_i_lattice_corner a, 
 int sunder_i_filtered_corner_side(const sunder_i_filter *g, const sunder_i_filtered_point *a,
                                   const sunder_i_filtered_point *b, sunder_i_lattice_corner c);
 
-/* floor(2^bits * |b - a|) on the lattice, or one less. Memory in the arena. */
-sunder_i_big sunder_i_filtered_distance(sunder_i_arena *arena, const sunder_i_filtered_point *a,
-                                        const sunder_i_filtered_point *b, unsigned long bits);
-
 #endif

@@ -8,6 +8,17 @@
 /* Significant bits of a length: 256 asked for, and some for the sum of many legs. */
 #define LENGTH_BITS 320
 
+/* floor(2^bits * |b - a|) on the lattice: sqrt(4^bits |b - a|^2 w^2) / w, each floored, and floor(floor(r) / w) =
+ * floor(r / w) for an integer w. Memory in the arena. */
+static sunder_i_big leg_length(sunder_i_arena *m, const sunder_i_filtered_point *a, const sunder_i_filtered_point *b,
+                               unsigned long bits)
+{
+    const sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
+    const sunder_i_big square = sunder_i_rational_dot(m, d, d);
+    if (m->failed) return (sunder_i_big){NULL, 0};
+    return sunder_i_big_div_floor(m, sunder_i_big_sqrt_floor(m, sunder_i_big_shl(m, square, 2 * bits)), d.w);
+}
+
 unsigned long sunder_i_path_length_bits(const sunder_i_lattice *l, double length)
 {
     int e = 0;
@@ -22,7 +33,7 @@ sunder_i_big sunder_i_path_length_scaled(sunder_i_arena *arena, const sunder_i_f
     sunder_i_big sum = sunder_i_big_i64(arena, 0);
     for (size_t i = 0; i + 1 < n; i++) {
         const uint32_t a = place_of ? place_of[path[i]] : path[i], b = place_of ? place_of[path[i + 1]] : path[i + 1];
-        sum = sunder_i_big_add(arena, sum, sunder_i_filtered_distance(arena, &place[a], &place[b], bits));
+        sum = sunder_i_big_add(arena, sum, leg_length(arena, &place[a], &place[b], bits));
     }
     return sum;
 }
