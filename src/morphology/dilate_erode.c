@@ -32,6 +32,8 @@
 #include "sum/canonical.h"
 #include "sum/from_map.h"
 
+#include <string.h>
+
 typedef struct stage {
     const sunder_i_figure *figure;
     const sunder_i_structuring_element *element;
@@ -64,11 +66,16 @@ static uint64_t *random_order(uint64_t *random, uint64_t n)
     return order;
 }
 
-/* The two ends of side i of a figure, over all rings; the side ends in the ring's first corner where it is the last. */
-static void ends_of_side(const sunder_i_figure *f, const uint32_t *next, uint64_t i, uint32_t ends[2])
+/* The two ends of what band i is made from: of a side, over all rings, then of a segment, then twice a point. */
+static void ends_of(const sunder_i_figure *f, const uint32_t *next, uint64_t i, uint32_t ends[2])
 {
-    ends[0] = f->ring[i];
-    ends[1] = f->ring[next[i]];
+    if (i < f->sides) {
+        ends[0] = f->ring[i];
+        ends[1] = f->ring[next[i]];
+    } else if (i < f->sides + f->segments)
+        memcpy(ends, f->segment + 2 * (i - f->sides), 2 * sizeof *ends);
+    else
+        ends[0] = ends[1] = f->point[i - f->sides - f->segments];
 }
 
 /* Where each side's successor stands. */
@@ -101,7 +108,7 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
             status = sunder_i_cancelled(err);
             break;
         }
-        ends_of_side(f, next, order[i], ends);
+        ends_of(f, next, order[i], ends);
         status = sunder_i_planar_map_insert_segment(map, f->at[ends[0]], f->at[ends[1]], 1, 0, NULL, NULL, err);
     }
     if (status == SUNDER_OK) status = sunder_i_planar_map_mark(map, err);
@@ -124,7 +131,8 @@ static bool is_far(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_ra
 }
 
 /* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A
- * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows. */
+ * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows.
+ * Where a is b no side turns left, and the band is the piece at a. */
 static size_t make_band(stage *g, sunder_i_rational_point a, sunder_i_rational_point b, size_t first, size_t end,
                         sunder_i_rational_point *out)
 {
@@ -142,13 +150,6 @@ static size_t make_band(stage *g, sunder_i_rational_point a, sunder_i_rational_p
     return n;
 }
 
-static size_t make_band_of_point(stage *g, sunder_i_rational_point at, size_t first, size_t end,
-                                 sunder_i_rational_point *out)
-{
-    for (size_t i = first; i < end; i++) out[i - first] = sunder_i_rational_add(&g->scratch, at, g->element->corner[i]);
-    return end - first;
-}
-
 /* Band number k: of the sides, then the segments, then the points, each with all pieces. */
 static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder_error *err)
 {
@@ -159,16 +160,9 @@ static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder
     const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
     sunder_i_rational_point *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
     if (!corner) return sunder_i_no_memory(err);
-    size_t n;
-    if (i < f->sides) {
-        uint32_t ends[2];
-        ends_of_side(f, next, i, ends);
-        n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
-    } else if (i < f->sides + f->segments) {
-        const uint32_t *ends = f->segment + 2 * (i - f->sides);
-        n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
-    } else
-        n = make_band_of_point(g, f->at[f->point[i - f->sides - f->segments]], first, end, corner);
+    uint32_t ends[2];
+    ends_of(f, next, i, ends);
+    const size_t n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
     if (g->scratch.failed) return sunder_i_no_memory(err);
     const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);
