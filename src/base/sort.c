@@ -97,3 +97,9 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
     sunder_i_free(scratch);
     return true;
 }
+
+int sunder_i_descending(void *doubles, uint32_t a, uint32_t b)
+{
+    const double *v = doubles;
+    return (v[a] < v[b]) - (v[a] > v[b]);
+}

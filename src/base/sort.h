@@ -8,6 +8,9 @@
 bool sunder_i_sort_indices(uint32_t *index, size_t n, int (*compare)(void *context, uint32_t a, uint32_t b),
                            void *context);
 
+/* For that: the greater of two doubles, of an array that is the context, comes first. */
+int sunder_i_descending(void *doubles, uint32_t a, uint32_t b);
+
 /* Sorts n keys ascending. False if memory is out. */
 bool sunder_i_sort_keys(uint64_t *key, size_t n);
 

@@ -130,12 +130,6 @@ static void measure(grid *g)
 static uint32_t column(const grid *g, int axis, int64_t at) { return (uint32_t)((at - g->all.low[axis]) >> g->shift); }
 
 /* Boxes stand for what they hold: whether one is larger is of no consequence but for time. */
-static int compare_extents(void *context, uint32_t a, uint32_t b)
-{
-    const double *extent = context;
-    return (extent[a] < extent[b]) - (extent[a] > extent[b]);
-}
-
 static bool order_by_extent(grid *g)
 {
     const size_t n = g->parts->n;
@@ -145,7 +139,7 @@ static bool order_by_extent(grid *g)
         g->order[i] = i;
         extent[i] = ((double)r->high[0] - (double)r->low[0]) * ((double)r->high[1] - (double)r->low[1]);
     }
-    const bool ok = extent && sunder_i_sort_indices(g->order, n, compare_extents, extent);
+    const bool ok = extent && sunder_i_sort_indices(g->order, n, sunder_i_descending, extent);
     sunder_i_free(extent);
     return ok;
 }

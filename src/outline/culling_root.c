@@ -88,12 +88,6 @@ static double extent_of(const builder *b, size_t part)
     return area;
 }
 
-static int compare_extents(void *context, uint32_t a, uint32_t b)
-{
-    const double *extent = context;
-    return (extent[a] < extent[b]) - (extent[a] > extent[b]);
-}
-
 static bool one_quadrant(const approx_side *s, const approx_side *t)
 {
     return (s->dx > 0) == (t->dx > 0) && (s->dy > 0) == (t->dy > 0) && (s->dx < 0) == (t->dx < 0) &&
@@ -127,7 +121,7 @@ static bool list_all(builder *b, const box *all, cell *root)
         order[i] = i;
         extent[i] = extent_of(b, i);
     }
-    ok = ok && sunder_i_sort_indices(order, s->n, compare_extents, extent);
+    ok = ok && sunder_i_sort_indices(order, s->n, sunder_i_descending, extent);
     for (size_t i = 0; ok && i < s->n; i++) {
         add_runs(b, order[i]);
         ok = sunder_i_step();

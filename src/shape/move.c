@@ -29,18 +29,12 @@ static sunder_shape *copy_shape(const sunder_shape *s)
     return c;
 }
 
-static size_t raw_vertices(const sunder_shape *s)
-{
-    const size_t rings = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
-    return rings ? s->raw_ring_end[rings - 1] : 0;
-}
-
 sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     sunder_shape *c = copy_shape(shape);
     if (!c) return sunder_i_no_memory(err);
     /* Half a turn: orientations stay. 0 - v has no negative zero. */
-    for (size_t i = 0; i < 2 * raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
+    for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
     for (size_t i = 0; i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
     if (shape->rational) {
@@ -106,7 +100,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
 {
     sunder_shape *c = copy_shape(shape);
     if (!c) return sunder_i_no_memory(err);
-    for (size_t i = 0; i < 2 * raw_vertices(c); i++) c->raw_xy[i] += d[i & 1];
+    for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] += d[i & 1];
     if (shape->rational) {
         if (!move_rational(shape, d, c)) {
             sunder_shape_free(c);
@@ -123,7 +117,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
 /* Some coordinate is rounded, so the set changes a little, and its rings may no longer be sound. */
 static sunder_status move_rounded(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
 {
-    const size_t n = raw_vertices(shape);
+    const size_t n = sunder_i_shape_raw_vertices(shape);
     double *xy = sunder_i_alloc(2 * n, sizeof *xy);
     if (!xy) return sunder_i_no_memory(err);
     sunder_status status = SUNDER_OK;
@@ -147,7 +141,8 @@ sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, doubl
     if (!isfinite(dx) || !isfinite(dy))
         return sunder_i_fail(err, SUNDER_EARG, "a translation must be finite, not (%.17g %.17g)", dx, dy);
     bool all = true;
-    for (size_t i = 0; i < 2 * raw_vertices(shape) && all; i++) all = sum_is_exact(shape->raw_xy[i], d[i & 1]);
+    for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(shape) && all; i++)
+        all = sum_is_exact(shape->raw_xy[i], d[i & 1]);
     /* A corner made by a repair may be a double and its translate none, though all raw coordinates stay exact. */
     for (size_t i = 0; i < 2 * (size_t)shape->vertices && all && !shape->rational; i++)
         if (!sum_is_exact(shape->xy[i], d[i & 1])) {

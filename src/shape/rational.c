@@ -66,12 +66,6 @@ bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact)
     return !s->arena.failed;
 }
 
-static size_t raw_vertices(const sunder_shape *s)
-{
-    const size_t rings = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
-    return rings ? s->raw_ring_end[rings - 1] : 0;
-}
-
 /* The coordinates of vertex v: to nearest, down and up. */
 static void round_vertex(sunder_i_arena *arena, sunder_shape *s, uint32_t v, double down[2], double up[2])
 {
@@ -104,7 +98,7 @@ bool sunder_i_shape_measure_rational(sunder_shape *s)
     }
     /* Crossings do not make the unit finer unless they are doubles: they have denominators. */
     s->extent = (sunder_i_extent){0};
-    sunder_i_extent_add(&s->extent, s->raw_xy, raw_vertices(s));
+    sunder_i_extent_add(&s->extent, s->raw_xy, sunder_i_shape_raw_vertices(s));
     for (uint32_t v = 0; v < s->vertices; v++)
         if (!s->exact[v].den.size) sunder_i_extent_add(&s->extent, s->xy + 2 * (size_t)v, 1);
     for (int k = 0; k < 2; k++) {

@@ -87,6 +87,13 @@ static inline bool sunder_i_is_boundary(const sunder_shape *shape, uint32_t u, u
     return shape->next[u] == v;
 }
 
+/* How many vertices the rings have as they were given. */
+static inline size_t sunder_i_shape_raw_vertices(const sunder_shape *s)
+{
+    const size_t rings = s->raw_polygons ? s->raw_poly_end[s->raw_polygons - 1] : 0;
+    return rings ? s->raw_ring_end[rings - 1] : 0;
+}
+
 /* Area and anchor of a rational shape that is complete but for them. False if memory is out. */
 bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 

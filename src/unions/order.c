@@ -52,12 +52,6 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     return area;
 }
 
-static int descending(void *context, uint32_t a, uint32_t b)
-{
-    const double *key = context;
-    return (key[a] < key[b]) - (key[a] > key[b]);
-}
-
 /* Equals, of which translates of pieces make many, stay in random order: the sort is stable. */
 static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
@@ -69,7 +63,7 @@ static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
         subsum[i] = i;
     }
     sunder_i_shuffle(subsum, n, sizeof *subsum, &u->random);
-    const bool ok = sunder_i_sort_indices(subsum, n, descending, key);
+    const bool ok = sunder_i_sort_indices(subsum, n, sunder_i_descending, key);
     for (uint32_t i = 0; i < n; i++) subsum[i] += first;
     sunder_i_free(key);
     return ok && !u->arena.failed && !u->lattice->arena.failed;
