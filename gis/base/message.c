@@ -35,6 +35,6 @@ int gis_say_failure(const gis_error *error)
 
 void gis_say_warnings(const gis_sentences *list)
 {
-    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) /* what an interruption makes others say says nothing */
+    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) /* once a signal has come they tell of calls cut short */
         print_line("warning", list->items[i]);
 }

@@ -2,9 +2,9 @@
 #include "base/message.h"
 #include "base/resources.h"
 #include "commands/commands.h"
+#include "commands/progress_shares.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
-#include "commands/progress_shares.h"
 #include "read/source_files.h"
 
 #include <stdio.h>

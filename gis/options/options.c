@@ -52,7 +52,7 @@ static const gis_option *find_option(unsigned command, const char *word, size_t 
     return NULL;
 }
 
-/* The spelling the table knows the option by, for messages. */
+/* The length of the first spelling, by which messages call the option. */
 static int name_length(const gis_option *option) { return (int)strcspn(option->names, " "); }
 
 static bool push(gis_options *out, gis_option_id id, const char *value, gis_error *error)

@@ -148,10 +148,10 @@ static bool copy_file(const char *from, const char *to, mode_t mode, gis_error *
     return done || gis_fail(error, "%s: cannot be copied: %s", from, strerror(reason));
 }
 
-/* Datasets nest directories one deep at most; something that nests them so deep is none, or goes in circles. */
+/* Datasets nest directories a few levels deep; what nests them deeper than this is none, or goes in circles. */
 enum { DEEPEST = 8 };
 
-/* Recurses on directories within directories. */
+/* Recurses at most DEEPEST deep. */
 static bool copy_tree(const char *from, const char *to, int depth, gis_error *error)
 {
     struct stat status;

@@ -23,7 +23,6 @@ enum { HEADER = 4, CELL = 24 };
 
 /* ---- SQL --------------------------------------------------------------------------------------------------------- */
 
-/* One statement. */
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
     return gis_sql_run(dataset, sql, "the spatial index", error);

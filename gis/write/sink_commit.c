@@ -159,9 +159,9 @@ static bool apply_strict(const gis_sink *sink, gis_error *error)
                     sink->losses.n - 1);
 }
 
-/* ---- Out of memory's files --------------------------------------------------------------------------------------- */
+/* ---- From memory to where it goes -------------------------------------------------------------------------------- */
 
-/* Copied at a time, in bytes; a signal is heard in between. */
+/* Bytes that are copied at once; between two pieces a signal is heard. */
 enum { COPIED_AT_ONCE = 1 << 16 };
 
 static bool copy_stream(VSILFILE *from, FILE *to_stdout, VSILFILE *to)

@@ -101,7 +101,7 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
         options =
             offer(layer, options, "GEOMETRY_NAME", free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry));
-        /* What is made of a geometry may be null where that was not. */
+        /* Of the source's own geometries alone: symbols made of them may be null where they are not. */
         if (layer->request.as_source && !OGR_GFld_IsNullable(geometry))
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
@@ -277,7 +277,8 @@ static void create_own_fields(gis_sink_layer *layer)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
 }
 
-/* Some formats allow few signs in the name of a layer. One of a layer a file may call it after the file. */
+/* Some formats allow few characters in the name of a layer. One that has a file for each layer may name the layer after
+ * its file, which is no loss. */
 static void note_name(gis_sink_layer *layer)
 {
     const char *name = OGR_L_GetName(layer->layer);

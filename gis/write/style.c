@@ -19,7 +19,6 @@ static const char make_table[] =
     "styleName TEXT(30), styleQML TEXT, styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), "
     "ui TEXT(30), update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))";
 
-/* One statement. */
 static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
     return gis_sql_run(dataset, sql, "the styles", error);
