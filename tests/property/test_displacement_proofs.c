@@ -84,8 +84,7 @@ static size_t check_proofs(const town *t, const sunder_report *report, size_t tr
     return proved;
 }
 
-/* ---- Large coordinates, small limits -------------------------------------------------------------------------------
- */
+/* ---- Large coordinates, small limits ---------------------------------------------------------------------------- */
 
 /* The unit in the last place of coordinates up to v. */
 static double unit_of(double v)
@@ -175,8 +174,7 @@ static void check_exact_fits(void **state)
     print_message("%zu conflicts left in %zu lanes\n", left, trials);
 }
 
-/* ---- Random towns --------------------------------------------------------------------------------------------------
- */
+/* ---- Random towns ----------------------------------------------------------------------------------------------- */
 
 /* A box, a slanted quadrangle, a triangle or an L. */
 static void add_house(rng *r, town *t, double x, double y, double limit)
@@ -224,8 +222,7 @@ static void check_towns(void **state)
     assert_true(proved > trials / 4);
 }
 
-/* ---- Held pairs ----------------------------------------------------------------------------------------------------
- */
+/* ---- Held pairs ------------------------------------------------------------------------------------------------- */
 
 /* A house that is too near to a slanted fixed wall, and may not go far enough to mend that; on its other side a fixed
  * one that it is too near to by less than it may move. So it has no room, since it may come no nearer to the wall: by
@@ -258,8 +255,7 @@ static void check_held(void **state)
     assert_true(proved * 2 > trials);
 }
 
-/* ---- By name -------------------------------------------------------------------------------------------------------
- */
+/* ---- By name ---------------------------------------------------------------------------------------------------- */
 
 static const sunder_conflict *find(const sunder_report *report, size_t a, size_t b, size_t *k)
 {

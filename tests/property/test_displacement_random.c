@@ -105,8 +105,7 @@ static void free_town(town *t)
     for (size_t k = 0; k < t->n; k++) sunder_shape_free(t->house[k].shape);
 }
 
-/* ---- Rational geometry --------------------------------------------------------------------------------------------
- */
+/* ---- Rational geometry ------------------------------------------------------------------------------------------ */
 
 typedef struct rational {
     mpq_t a, b, c, d, e, f;
@@ -225,8 +224,7 @@ static bool conflict(const house *a, const house *b, double gap)
     return bad;
 }
 
-/* ---- The laws
- * --------------------------------------------------------------------------------------------------------- */
+/* ---- The laws --------------------------------------------------------------------------------------------------- */
 
 /* The house as written; false if some coordinate was rounded. */
 static bool write_house(const house *from, double dx, double dy, house *to)

@@ -33,8 +33,7 @@ typedef struct layer {
     sunder_layer_options options;
 } layer;
 
-/* ---- Planting ------------------------------------------------------------------------------------------------------
- */
+/* ---- Planting --------------------------------------------------------------------------------------------------- */
 
 static plot *add_plot(layer *l)
 {
@@ -217,8 +216,7 @@ static void clear(layer *l)
     }
 }
 
-/* ---- Asking --------------------------------------------------------------------------------------------------------
- */
+/* ---- Asking ----------------------------------------------------------------------------------------------------- */
 
 static size_t count(const sunder_conflict_counts *c)
 {
@@ -286,8 +284,7 @@ static void check_planted(void **state)
     assert_true(open * 5 <= before);
 }
 
-/* ---- Corridors -----------------------------------------------------------------------------------------------------
- */
+/* ---- Corridors -------------------------------------------------------------------------------------------------- */
 
 /* A quadrangle with two sides along (ex, ey), from (x, y). */
 static plot *add_slanted(layer *l, const double o[2], const double e[2], double along, double across, double from,

@@ -101,8 +101,7 @@ static void check_worse(void **state)
     assert_true(ties > trials / 10 && worse_n > trials / 4);
 }
 
-/* ---- The oracle itself --------------------------------------------------------------------------------------------
- */
+/* ---- The oracle itself ------------------------------------------------------------------------------------------ */
 
 /* The greatest of the dot products of n with the corners of p. */
 static void support_of(mpq_t out, const polyset *p, const mpq_t n[2])
