@@ -7,6 +7,16 @@
 /* Does items [begin, end). Results go where the index says, so that the order of work cannot show. */
 typedef sunder_status (*sunder_i_work)(void *context, size_t begin, size_t end, sunder_error *err);
 
+/* Grains, by what one item costs: so many take long enough that handing them out does not show, and few enough that no
+ * thread waits for another at the end. */
+enum {
+    SUNDER_I_GRAIN_WHOLE = 1,  /* a cluster, a polygon: seconds, perhaps */
+    SUNDER_I_GRAIN_SHAPES = 4, /* a union of shapes: some hundred microseconds */
+    SUNDER_I_GRAIN_PAIRS = 8,  /* a pair's least translation: some ten microseconds */
+    SUNDER_I_GRAIN_TESTS = 32, /* an exact test of a pair: a few microseconds */
+    SUNDER_I_GRAIN_BOXES = 256 /* a search in a tree of boxes */
+};
+
 /* Runs work over [0, n) in pieces of `grain` on that many threads, the caller's among them. The error of the first
  * failing piece is returned. */
 sunder_status sunder_i_parallel(unsigned threads, size_t n, size_t grain, sunder_i_work work, void *context,

@@ -15,6 +15,11 @@
 
 #include <string.h>
 
+/* Shares of the whole that are done, roughly: when all is related, when what was sought without limits is found, when
+ * nothing is left but to report. */
+#define PREPARED 0.1
+#define FOUND_WITHOUT_LIMITS 0.4
+#define FOUND 0.8
 /* What was given up is looked at again, each time with what the search ran into since. */
 #define RECONSIDERED 4
 /* Better sides are looked for so often, where clusters joined since the last time. */
@@ -81,10 +86,10 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
     bool lifted = false, back = false;
     sunder_status status = sunder_i_solver_lift_limits(s, &lifted, err);
     if (!status && !lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status) status = seek(s, false, 0.1, lifted ? 0.4 : 0.8, err);
+    if (!status) status = seek(s, false, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
     if (!status && lifted) status = sunder_i_solver_restore_limits(s, &back, err);
     if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status && lifted) status = seek(s, !back, 0.4, 0.8, err);
+    if (!status && lifted) status = seek(s, !back, FOUND_WITHOUT_LIMITS, FOUND, err);
     if (!status) status = sunder_i_solver_uphold(s, err);
     return status ? status : sunder_i_solver_gather(s, err);
 }
@@ -120,10 +125,10 @@ static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, con
     if (!status) status = start(s, &s->layer, options, report, err);
     if (!status) status = prepare(s, err);
     if (status) return status;
-    if (!sunder_i_progress(&s->model.rules, 0.1)) return sunder_i_no_memory(err);
+    if (!sunder_i_progress(&s->model.rules, PREPARED)) return sunder_i_no_memory(err);
     status = solve(s, err);
     if (status) return status;
-    if (!sunder_i_progress(&s->model.rules, 0.8)) return sunder_i_no_memory(err);
+    if (!sunder_i_progress(&s->model.rules, FOUND)) return sunder_i_no_memory(err);
     status = conclude(s, *report, began, err);
     if (!status) sunder_i_progress(&s->model.rules, 1);
     return status;

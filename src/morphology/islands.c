@@ -116,7 +116,7 @@ static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
     sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
     if (status == SUNDER_OK) {
         pthread_mutex_init(&all->lock, NULL);
-        status = sunder_i_parallel(all->asked->threads, all->n, 1, work, all, err);
+        status = sunder_i_parallel(all->asked->threads, all->n, SUNDER_I_GRAIN_WHOLE, work, all, err);
         pthread_mutex_destroy(&all->lock);
     }
     if (status == SUNDER_OK && !sunder_i_gather(all->part, all->n, sum)) status = sunder_i_no_memory(err);

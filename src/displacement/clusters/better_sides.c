@@ -49,7 +49,8 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
 static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
 {
     bool any = false;
-    sunder_status status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, invite_to_clusters, s, err);
+    sunder_status status =
+        sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, invite_to_clusters, s, err);
     for (size_t k = 0; k < s->clusters && !status; k++)
         for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
             const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
@@ -64,7 +65,8 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_solver_gather(s, err);
     if (!status) status = join_guests(s, err);
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
-    if (!status) status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, improve_clusters, s, err);
+    if (!status)
+        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, improve_clusters, s, err);
     if (status) return status;
     sunder_i_solver_commit(s);
     for (size_t k = 0; k < s->members; k++) s->improved[s->body[k]] = true;

@@ -67,7 +67,7 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *s, sunder_error *
                  sunder_i_calloc(n, sizeof *g.resolution)};
     sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
-    if (!status) status = sunder_i_parallel(s->model.rules.threads, n, 8, judge, &g, err);
+    if (!status) status = sunder_i_parallel(s->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);
     for (size_t k = 0; !status && k < n; k++)
         status = note(s, &s->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
     if (!status && !sunder_i_relaxations_index(&s->model.relaxations, &s->model)) status = sunder_i_no_memory(err);

@@ -231,7 +231,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *s, bool *changed, sund
     if (!status) status = ask(s, &all, asked, err);
     if (!status) {
         asking g = {s, all.component, asked, required, list_requirements(&s->model, required), decision};
-        status = sunder_i_parallel(s->model.rules.threads, all.n, 1, decide_some, &g, err);
+        status = sunder_i_parallel(s->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
     }
     if (!status) memset(s->changed, 0, s->model.features * sizeof *s->changed);
     for (size_t k = 0; k < all.n && !status; k++) {

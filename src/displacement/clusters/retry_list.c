@@ -206,7 +206,8 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *s, sunder_error *err)
     if (!status) status = sunder_i_solver_unite_blocks(s, err);
     if (!status && !list_retries(s, &all)) status = sunder_i_no_memory(err);
     asking g = {s, &all};
-    if (!status) status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, retry_clusters, &g, err);
+    if (!status)
+        status = sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters, &g, err);
     sunder_i_free(all.retry);
     sunder_i_free(all.relaxation);
     if (status) return status;

@@ -124,11 +124,13 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
     bool any;
     sunder_status status = find_work(s, &any, err);
     for (size_t round = 0; !status && any; round++) {
-        if (!sunder_i_progress(&s->model.rules, from + (to - from) * (1 - 1 / (1 + 0.25 * (double)round))))
+        if (!sunder_i_progress(&s->model.rules, from + (to - from) * (1 - 1 / (1 + SHARE_OF_ROUND * (double)round))))
             return sunder_i_cancelled(err);
         status = sunder_i_solver_gather(s, err);
         if (!status) status = sunder_i_solver_unite_blocks(s, err);
-        if (!status) status = sunder_i_parallel(s->model.rules.threads, s->clusters, 1, solve_clusters, s, err);
+        if (!status)
+            status =
+                sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, solve_clusters, s, err);
         if (status) return status;
         sunder_i_solver_commit(s);
         note_solved(s);

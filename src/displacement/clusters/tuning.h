@@ -7,6 +7,8 @@
 
 /* How often a cluster's margin, which grows fourfold each time, may grow: 28 bits, which leaves half of a double. */
 #define MOST_MARGINS 14
+/* A round is taken for so much of what is left of the progress: few layers need more than some rounds. */
+#define SHARE_OF_ROUND 0.25
 
 /* ---- Is there a solution after all? (reconsider.c) --------------------------------------------------------------- */
 
@@ -21,5 +23,7 @@
 #define ALIKE 16
 /* So many bodies in all may be moved together in vain: rows of a few hundred, some dozens of them. */
 #define IN_VAIN 20000
+/* The progress at which this comes (../separate.c). */
+#define SOUGHT 0.8
 
 #endif

@@ -318,7 +318,7 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             pinned = true;
             status = pin(s, i, j, err);
         }
-        if (pinned && !status) status = sunder_i_solver_settle(s, 0.8, 0.8, err);
+        if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
     }
     return status;
 }

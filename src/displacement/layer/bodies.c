@@ -178,5 +178,5 @@ static sunder_status unite_some(void *context, size_t begin, size_t end, sunder_
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
 {
     uniting u = {model, body};
-    return sunder_i_parallel(model->rules.threads, n, 4, unite_some, &u, err);
+    return sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_SHAPES, unite_some, &u, err);
 }

@@ -219,7 +219,8 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
         if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
     const pair_search search = {model, placement, changed, asked, sunder_i_calloc(n, sizeof *search.found)};
     sunder_status status = search.found ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = sunder_i_parallel(model->rules.threads, n, 256, find_partners, (void *)&search, err);
+    if (!status)
+        status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_partners, (void *)&search, err);
     if (search.found) {
         *pair = collect(&search, n, pairs);
         if (!status && !*pair) status = sunder_i_no_memory(err);
@@ -270,7 +271,7 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
     classification c = {model, placement, changed, before, NULL};
     size_t pairs = 0;
     sunder_status status = find_pairs(model, placement, changed, &c.pair, &pairs, err);
-    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, 32, classify, &c, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_TESTS, classify, &c, err);
     if (!status) status = merge(&c, pairs, relations, err);
     if (status) sunder_i_free(c.pair);
     return status;

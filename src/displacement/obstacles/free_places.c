@@ -51,7 +51,7 @@ static void add_normal(sunder_i_obstacles *o, const double n[2], const double c[
 static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap)
 {
     const double turn = atan2(n[0] * m[1] - n[1] * m[0], n[0] * m[0] + n[1] * m[1]);
-    const double angle = turn < -1e-3 ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
+    const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
     const int steps = (int)ceil(angle / CORNER_TURN);
     for (int k = 1; k < steps; k++) {
         const double a = angle * k / steps, t[2] = {n[0] * cos(a) - n[1] * sin(a), n[0] * sin(a) + n[1] * cos(a)};

@@ -8,6 +8,8 @@
 /* Round corners are cut by tangents so that normals turn by no more than this: the place proposed keeps at most 2 %
  * more than the gap. */
 #define CORNER_TURN (PI / 8)
+/* A turn to the right by no more than this is none: rounding of normals, where two sides lie on one line. */
+#define FLAT 1e-3
 /* Crossings are looked for among at most this many sides, the nearest to the target: it bounds the work where a block
  * stands amid hundreds of neighbours. */
 #define MOST_CROSSED 1500

@@ -67,7 +67,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
             report->bound_pair[n++].b = r->b;
         }
         measuring m = {model, report->bound_pair};
-        status = sunder_i_parallel(model->rules.threads, n, 8, measure_pairs, &m, err);
+        status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, measure_pairs, &m, err);
     }
     if (!status) {
         for (size_t k = 0; k < n; k++)

@@ -256,7 +256,7 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
     }
     report->conflicts = n;
     describing d = {model, placement, report->conflict, overlap, reasons};
-    sunder_status status = sunder_i_parallel(model->rules.threads, n, 8, describe, &d, err);
+    sunder_status status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe, &d, err);
     sunder_i_free(overlap);
     return status;
 }

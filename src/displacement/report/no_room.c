@@ -252,9 +252,9 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     const size_t groups = status ? 0 : group(s, report, listed, n, list, first);
     if (groups) {
         requiring h = {s, report, listed, required};
-        status = sunder_i_parallel(threads, n, 8, find_some_requirements, &h, err);
+        status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
         asking g = {s, report, list, first, required, n};
-        if (!status) status = sunder_i_parallel(threads, groups, 1, ask_clusters, &g, err);
+        if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
     sunder_i_free(listed);
     sunder_i_free(list);
