@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
 # What the plan of the house says: the file that answers a question is there, and the function is defined in it; the files
-# that a folder's README names are there.
+# and functions that a README names are there.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 
 # Rows "| question | `file` | `function()` |" of src/README.md; a file of gis/ begins with ../gis/.
@@ -32,5 +32,14 @@ for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/gis/READ
             compgen -G "$root/src/$file" >/dev/null || compgen -G "$root/$file" >/dev/null ||
             say "${readme#"$root"/}: there is no $file"
     done
+done
+# Functions and types that a README names are in the sources; `name_*` stands for several.
+known=$(grep -rhoE '\b(sunder|gis)_[a-z_0-9]+' --include='*.[ch]' "$root/src" "$root/gis" | sort -u)
+for readme in "$root/README.md" "$root"/src/README.md "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/gis/README.md \
+    "$root"/gis/*/README.md; do
+    [ -f "$readme" ] || continue
+    while read -r name; do
+        say "${readme#"$root"/}: there is no $name"
+    done < <(grep -oE '\b(sunder|gis)_[a-z_0-9]+\b\*?' "$readme" | grep -v '_$\|\*$' | sort -u | comm -23 - <(echo "$known"))
 done
 finish
