@@ -238,6 +238,15 @@ sunder_shape *polyset_shape(const polyset *set)
     return shape;
 }
 
+sunder_shape *polyset_shape_of_wkt(const char *wkt)
+{
+    polyset set;
+    if (!polyset_read_wkt(&set, wkt, NULL)) return NULL;
+    sunder_shape *shape = polyset_shape(&set);
+    polyset_free(&set);
+    return shape;
+}
+
 char *test_read_file(const char *path)
 {
     FILE *f = fopen(path, "rb");

@@ -47,6 +47,8 @@ char *polyset_wkt(const polyset *set);
 
 /* The shape of these rings (strict), or the sentence and the WKT on stderr and NULL. */
 sunder_shape *polyset_shape(const polyset *set);
+/* The shape of a text; NULL if it is none, or is refused. */
+sunder_shape *polyset_shape_of_wkt(const char *wkt);
 
 /* A whole file as text, NULL if it cannot be opened. */
 char *test_read_file(const char *path);

@@ -16,11 +16,8 @@
 
 static sunder_shape *shape_of(const char *wkt)
 {
-    polyset set;
-    assert_true(polyset_read_wkt(&set, wkt, NULL));
-    sunder_shape *shape = polyset_shape(&set);
+    sunder_shape *shape = polyset_shape_of_wkt(wkt);
     assert_non_null(shape);
-    polyset_free(&set);
     return shape;
 }
 
