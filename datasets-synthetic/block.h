@@ -27,8 +27,8 @@ void town_block_build(town_block *block, uint64_t seed, int64_t column, int64_t 
 
 /* ---- For the quarters ---- */
 
-/* Is the rectangle of the ground within the block, off its streets and lanes, and at least margin from what was built?
- */
+/* Is the rectangle of the ground within the block, off its streets and lanes, and at least margin from what
+ * was built? */
 bool town_block_is_free(const town_block *block, const town_ground *ground, double s0, double b0, double width,
                         double depth, double margin);
 /* A new building with that rectangle; NULL when the block is full. */

@@ -115,8 +115,8 @@ bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *sha
     for (uint32_t h = 0; ok && h < m.n; h++) {
         if (m.origin[h] == NONE || sunder_i_is_boundary(shape, m.origin[h], end_of(&m, h))) continue;
         const uint32_t g = find(&m, end_of(&m, h), m.origin[h]);
-        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other they stay.
-         */
+        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other
+         * they stay. */
         if (g == NONE || m.next[h] == g || m.next[g] == h) continue;
         if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve(&m, h, g);
     }

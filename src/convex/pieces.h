@@ -8,8 +8,8 @@
  * Once ranked (directions.h), each piece starts with a side of the least rank, and ranks do not fall: so that a sum is
  * a merge of two lists (merge.h).
  *
- * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges, not the diagonals.
- */
+ * A side is a *candidate* where it can carry boundary of the union: of a shape's pieces the edges, not
+ * the diagonals. */
 #ifndef SUNDER_I_CONVEX_PIECES_H
 #define SUNDER_I_CONVEX_PIECES_H
 
@@ -45,8 +45,8 @@ static inline void sunder_i_convex_pieces_add_corner(sunder_i_convex_pieces *lis
     list->candidate[list->corners++] = candidate;
 }
 
-/* The convex pieces of a shape, whose vertices stand at these places (turned by half a turn, perhaps). There is room.
- */
+/* The convex pieces of a shape, whose vertices stand at these places (turned by half a turn, perhaps). There
+ * is room. */
 void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder_shape *shape,
                                       const sunder_i_point *at);
 
@@ -55,8 +55,8 @@ void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder
 bool sunder_i_convex_pieces_rank(sunder_i_lattice *lattice, sunder_i_convex_pieces *const *list, size_t lists,
                                  sunder_i_directions *out);
 
-/* An empty list with room for all sums of a piece of a with a piece of b, ranked as these are. False if memory is out.
- */
+/* An empty list with room for all sums of a piece of a with a piece of b, ranked as these are. False if memory
+ * is out. */
 bool sunder_i_convex_pieces_init_sum(const sunder_i_convex_pieces *a, const sunder_i_convex_pieces *b,
                                      sunder_i_convex_pieces *out);
 /* All those sums, a's pieces in the outer loop. False if memory is out. */

@@ -15,8 +15,8 @@
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
 
-/* Vertices of a member that OPTIMAL and MIXED solve, in time of order r n n; others fall back on Hertel and Mehlhorn.
- */
+/* Vertices of a member that OPTIMAL and MIXED solve, in time of order r n n; others fall back on Hertel
+ * and Mehlhorn. */
 #define SUNDER_I_OPTIMAL_MOST 500
 
 /* A point on the lattice that the shape was placed on, in lowest terms (w is 1 for vertices of the shape that are no

@@ -42,8 +42,8 @@ typedef struct sunder_i_convolution {
  * the curve in any case. */
 sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, const sunder_i_point *at_p, const sunder_shape *q,
                                          const sunder_i_point *at_q, bool *fits, sunder_error *err);
-/* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes too long.
- */
+/* Finds all stops; *fits is false where anything but two links that cross in their insides meets, or it takes
+ * too long. */
 sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits, sunder_error *err);
 void sunder_i_convolution_free(sunder_i_convolution *curve);
 

@@ -79,8 +79,8 @@ static bool holds(const grid *g, uint32_t part, sunder_i_point p)
 /* ---- The grid ---- */
 
 /* sunder_i_approx() is off by half an ulp of the largest, 2^-53 of it, which is less than 2^60 units here: by 2^7, and
- * by half a unit where that is rounded. False if memory is out, or if all is next to nothing, where doubles underflow.
- */
+ * by half a unit where that is rounded. False if memory is out, or if all is next to nothing, where
+ * doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
     const sunder_i_convex_pieces *s = g->parts;

@@ -96,8 +96,8 @@ sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const 
 /* ---- Removal by hand ---- */
 
 /* Removes an edge, given by one of its half-edges; its ends stay, isolated perhaps. Ids of other vertices and edges
- * stay. Covered counts are stale afterwards, and mark() makes sense only if the edge's two half-edges had equal counts.
- */
+ * stay. Covered counts are stale afterwards, and mark() makes sense only if the edge's two half-edges had
+ * equal counts. */
 sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t h, sunder_error *err);
 /* Removes an isolated vertex. */
 sunder_status sunder_i_planar_map_remove_vertex(sunder_i_planar_map *map, uint32_t v, sunder_error *err);

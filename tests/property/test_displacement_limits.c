@@ -76,8 +76,8 @@ static sunder_report *separate(const town *t, double gap)
     return run_separate(t->feature, t->n, &options);
 }
 
-/* Boxes in rows with alleys between them; each carried off by a multiple of 1/8 within the limit; some fixed instead.
- */
+/* Boxes in rows with alleys between them; each carried off by a multiple of 1/8 within the limit; some
+ * fixed instead. */
 static double plant(rng *r, town *t)
 {
     memset(t, 0, sizeof *t);

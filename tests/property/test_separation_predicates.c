@@ -84,8 +84,8 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     if (answer != in) complain("contained", p, q);
     check_distance(p, q, a, b, meet);
 
-    /* The same pair, said with translations of which only the difference matters; one that makes the lattice wide too.
-     */
+    /* The same pair, said with translations of which only the difference matters; one that makes the lattice
+     * wide too. */
     const double big = rng_once_in(r, 4) ? 0x1p90 : 0, x = (double)rng_int(r, -9, 9) / 8 + big,
                  y = (double)rng_int(r, -9, 9);
     const double t1[2] = {x, y};

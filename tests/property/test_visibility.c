@@ -127,8 +127,8 @@ static bool is_free(const scene *s, uint32_t v, uint32_t w)
     return sunder_i_leg_is_free(&s->space, place(s, v), place(s, w), false, NULL);
 }
 
-/* The sides of the neighbours of the plain corner v to the line pq, in *lowest and *highest; false: not a plain corner.
- */
+/* The sides of the neighbours of the plain corner v to the line pq, in *lowest and *highest; false: not a
+ * plain corner. */
 static bool sides(const scene *s, uint32_t v, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q,
                   int *lowest, int *highest)
 {

@@ -22,8 +22,8 @@ long morphology_scale(const sunder_sum *sum);
 /* Its polygons times k, and (may be NULL) segments and points as pairs and singles of coordinates, to be freed. */
 void morphology_scaled(const sunder_sum *sum, long k, polyset *set, double **segments, double **points);
 
-/* Is the point c on the closed segment ab; in the closed polygons of a set, which are disjoint? Of integers below 2^26.
- */
+/* Is the point c on the closed segment ab; in the closed polygons of a set, which are disjoint? Of integers
+ * below 2^26. */
 bool morphology_on_segment(const double *a, const double *b, const double *c);
 bool morphology_in_polygons(const polyset *set, const double *at);
 

@@ -114,8 +114,8 @@ static void clear_crossings(crossing *c, size_t n)
     free(c);
 }
 
-/* What a vertical line is asked: does it run through both interiors at once; through the first set outside the second?
- */
+/* What a vertical line is asked: does it run through both interiors at once; through the first set outside
+ * the second? */
 typedef enum question { MEET, ESCAPE } question;
 
 /* By parity within each member. */

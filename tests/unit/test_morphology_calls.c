@@ -45,8 +45,8 @@ static void expect_text(const char *p, const char *b, sunder_operation operation
     "{\"polygons\": [{\"outer\": [[\"" x0 "\", \"" y0 "\"], [\"" x1 "\", \"" y0 "\"], [\"" x1 "\", \"" y1              \
     "\"], [\"" x0 "\", \"" y1 "\"]], \"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}"
 
-/* A hall exactly as wide as the square that slides in it: the erosion is the slide, and opening it gives the hall back.
- */
+/* A hall exactly as wide as the square that slides in it: the erosion is the slide, and opening it gives the
+ * hall back. */
 static void test_hall(void **state)
 {
     expect_text(

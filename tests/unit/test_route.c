@@ -187,8 +187,8 @@ static void rational_obstacles(void **state)
     sunder_shape_free(q);
 }
 
-/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members is inside.
- */
+/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members
+ * is inside. */
 static void lines_inside_the_robot(void **state)
 {
     static const double ell[] = {0, 0, 4, 0, 4, 2, 2, 2, 2, 4, 0, 4}, dart[] = {0, 0, 8, 2, 0, 4, 2, 2};

@@ -174,8 +174,8 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
     if (n) qsort(s->member, n, sizeof *s->member, sunder_i_by_id_pair);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || sunder_i_by_id_pair(&s->member[k - 1], &s->member[k])) {
-            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or an equal.
-             */
+            /* Compares the raw entry k with its neighbour, which may have been overwritten only by itself or
+             * an equal. */
             s->member[s->members] = s->member[k];
             s->body[s->members++] = s->member[k].body;
         }

@@ -244,8 +244,8 @@ static bool is_covered(const harvest *h, const sunder_i_obstacle_side *w)
     return false;
 }
 
-/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them by obstacle.
- */
+/* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them
+ * by obstacle. */
 static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
 {
     size_t bare = 0;

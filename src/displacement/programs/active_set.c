@@ -83,8 +83,8 @@ static void drop(sunder_i_quadratic *p, equations *e, size_t r)
 }
 
 /* Solves, drops what would pull instead of push, solves again. At first all such constraints at once, which mostly is
- * right; then by the book: the forces go towards the solution until one of them is zero, and only that one is dropped.
- */
+ * right; then by the book: the forces go towards the solution until one of them is zero, and only that one
+ * is dropped. */
 static bool descend(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;

@@ -46,8 +46,8 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
-/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get none.
- */
+/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0
+ * get none. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              sunder_error *err);
 /* Fills the report's pairs for the lower bound, and the bound. */
