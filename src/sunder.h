@@ -397,6 +397,17 @@ SUNDER_API sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_s
 SUNDER_API sunder_status sunder_pair_distance(const sunder_shape *p, const sunder_shape *q, double *distance,
                                               double on_p[2], double on_q[2], sunder_error *err);
 
+/* ---- Obstacles -------------------------------------------------------------------------------------------- */
+
+/* What the interior of something that moves may not meet, of routes and of layers: a polygonal set, or lines and points,
+ * or both. */
+typedef struct sunder_obstacle {
+    const sunder_shape *shape; /* NULL: none. All is borrowed: for the call, or as long as what it is given to lives */
+    const double *xy;          /* x0 y0 x1 y1 ... of all lines, one after the other; finite */
+    const size_t *line_end;    /* [lines] index past the last point of each; a line of one point is a point */
+    size_t lines;
+} sunder_obstacle;
+
 /* ---- A whole layer ---------------------------------------------------------------------------------------- */
 
 typedef struct sunder_layer sunder_layer;
@@ -419,9 +430,12 @@ typedef struct sunder_layer_options {
     unsigned threads; /* 0: one for each processor; the result is the same for every number */
     sunder_progress progress;
     void *progress_user;
+    bool allow_jumps; /* features may jump over others; not honoured yet: they always may */
+    double effort;    /* >= 0: how hard to search for better sides and for proofs; not honoured yet */
+    uint64_t seed;    /* of what search is random; nothing is yet */
 } sunder_layer_options;
 
-/* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread. */
+/* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
 SUNDER_API void sunder_layer_options_init(sunder_layer_options *options);
 
 typedef struct sunder_feature {
@@ -437,6 +451,21 @@ SUNDER_API sunder_status sunder_layer_new(const sunder_feature *features, size_t
                                           sunder_error *err);
 SUNDER_API void sunder_layer_free(sunder_layer *layer);
 
+/* What never moves, and is kept at a distance of its own: features stay width / 2 + gap, exactly, from its geometry as
+ * it is stored, which is what is drawn with that width, with round ends and joins. */
+typedef struct sunder_barrier {
+    sunder_obstacle geometry; /* borrowed; must outlive the layer. Empty: in the way of nothing */
+    double width;             /* >= 0 and finite: the full drawn width; a polygon grows by half of it */
+    double gap;               /* finite; from the drawn edge; negative: the layer's */
+    bool side;                /* its lines and boundaries may not be crossed; not honoured yet */
+} sunder_barrier;
+
+/* The barriers of a layer, in place of those that it had. Not honoured yet: they stand in the way of nothing.
+ * Fails   SUNDER_EARG      a width or a gap out of its range, or ends of lines that do not ascend
+ *         SUNDER_EINVALID  a coordinate is not finite */
+SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,
+                                                   sunder_error *err);
+
 typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,
     SUNDER_FEATURE_MOVED,
@@ -451,19 +480,21 @@ SUNDER_API const char *sunder_feature_status_string(sunder_feature_status status
 typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_OVERLAP,
     SUNDER_CONFLICT_TOO_CLOSE,
-    SUNDER_CONFLICT_BARRIER,
+    SUNDER_CONFLICT_BARRIER,      /* the interior of a feature meets a barrier's stored geometry */
+    SUNDER_CONFLICT_BARRIER_NEAR, /* it does not, but is nearer than it should be */
     SUNDER_CONFLICT_CONTAINED,
     SUNDER_CONFLICT_DUPLICATE
 } sunder_conflict_kind;
 
-/* "overlap", "too_close", "barrier", "contained", "duplicate". */
+/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,      /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT, /* proved: the pair cannot be parted, or brought inside, within both limits together */
-    SUNDER_REASON_FIXED,     /* neither may move */
-    SUNDER_REASON_SIDE,
+    SUNDER_REASON_NONE,       /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
+    SUNDER_REASON_FIXED,      /* neither may move */
+    SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone crosses no side of a barrier; not found yet */
+    SUNDER_REASON_JUMP,       /* proved: ... without a jump; not found yet */
     SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
@@ -471,25 +502,29 @@ typedef enum sunder_reason {
     SUNDER_REASON_UNRESOLVED  /* neither a solution nor a proof that there is none was found */
 } sunder_reason;
 
-/* "", "max_shift", "fixed", "side", "no_room", "same_block", "kept", "unresolved". */
+/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved". */
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
 typedef struct sunder_conflict {
-    size_t a, b; /* features, a < b */
+    size_t a, b; /* a < b: features, or for b of the barriers' two kinds the number of features + k for barrier k */
     sunder_conflict_kind kind;
     sunder_reason reason;
     double distance;          /* now; 0 where they overlap */
     double before;            /* at the start */
     double depth;             /* length of the least translation that takes the interiors apart now; 0 where disjoint */
-    double required;          /* the gap asked for */
+    double required;          /* the gap asked for; of a barrier half its width besides */
     double from[2], to[2];    /* the shortest link, or the least translation drawn from inside the overlap */
-    const size_t *blocked_by; /* features that stand in the way, n_blocked_by of them */
+    const size_t *blocked_by; /* features, and barriers as for b, that stand in the way, n_blocked_by of them */
     size_t n_blocked_by;
     bool inside_block; /* counted in inside_blocks alone */
+    /* A limit of moves, a gap with which a solution of the pair and its neighbours is known, NAN: none; a feature or
+     * barrier without which it is, SIZE_MAX: none. Not sought yet: none is ever known. */
+    double need_shift, need_gap;
+    size_t need_gone;
 } sunder_conflict;
 
 typedef struct sunder_conflict_counts {
-    size_t overlap, too_close, barrier, contained, duplicate, inside_blocks;
+    size_t overlap, too_close, barrier, barrier_near, contained, duplicate, inside_blocks;
 } sunder_conflict_counts;
 
 typedef struct sunder_report sunder_report;
@@ -507,8 +542,8 @@ typedef struct sunder_layer_summary {
 } sunder_layer_summary;
 
 /* The exact list of conflicts of a layer as it stands.
- * Fails   SUNDER_EARG for a gap or tolerance that is negative, not finite, or a tolerance not less than a non-zero
- *         gap. */
+ * Fails   SUNDER_EARG for a gap, tolerance or effort that is negative or not finite, or a tolerance not less than a
+ *         non-zero gap. */
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
@@ -592,14 +627,6 @@ typedef struct sunder_proof {
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
-
-/* An obstacle: a polygonal set, or lines and points, or both. The robot's interior may not meet it. */
-typedef struct sunder_obstacle {
-    const sunder_shape *shape; /* borrowed for the call; NULL: none */
-    const double *xy;          /* x0 y0 x1 y1 ... of all lines, one after the other; finite */
-    const size_t *line_end;    /* [lines] index past the last point of each; a line of one point is a point */
-    size_t lines;
-} sunder_obstacle;
 
 /* A place, exactly: "num" or "num/den" in decimal where text[k] is given, else the double. */
 typedef struct sunder_place {

@@ -98,10 +98,11 @@ static bool print(const void *checked, gis_error *error)
     if (!print_lines(run, error)) return false;
     const sunder_conflict_counts *counts = &run->summary.before;
     if (!run->options->given[OPT_QUIET])
-        printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, contained %zu, "
-               "duplicate %zu, inside blocks %zu\n",
+        printf("%s: %zu features, %zu pairs tested; overlap %zu, too close %zu, barrier %zu, barrier near %zu, "
+               "contained %zu, duplicate %zu, inside blocks %zu\n",
                gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
-               counts->too_close, counts->barrier, counts->contained, counts->duplicate, counts->inside_blocks);
+               counts->too_close, counts->barrier, counts->barrier_near, counts->contained, counts->duplicate,
+               counts->inside_blocks);
     return true;
 }
 

@@ -198,6 +198,7 @@ static bool print_summary(const void *separated, gis_error *error)
     } rows[] = {{"overlap", before->overlap, after->overlap},
                 {"too close", before->too_close, after->too_close},
                 {"barrier", before->barrier, after->barrier},
+                {"barrier near", before->barrier_near, after->barrier_near},
                 {"contained", before->contained, after->contained},
                 {"duplicate", before->duplicate, after->duplicate},
                 {"inside blocks", before->inside_blocks, after->inside_blocks}};

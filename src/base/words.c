@@ -39,10 +39,10 @@ WORDS(sunder_feature_status_string, sunder_feature_status, SUNDER_FEATURE_SKIPPE
       "blocked", "skipped")
 
 WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_DUPLICATE, "", "overlap", "too_close",
-      "barrier", "contained", "duplicate")
+      "barrier", "barrier_near", "contained", "duplicate")
 
-WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_UNRESOLVED, "", "", "max_shift", "fixed", "side", "no_room",
-      "same_block", "kept", "unresolved")
+WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_UNRESOLVED, "", "", "max_shift", "fixed", "side", "jump",
+      "no_room", "same_block", "kept", "unresolved")
 
 WORDS(sunder_route_status_string, sunder_route_status, SUNDER_ROUTE_DISCONNECTED, "", "found", "start_in_collision",
       "goal_in_collision", "disconnected")

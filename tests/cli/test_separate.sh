@@ -29,7 +29,7 @@ same "$(value o.gpkg houses 1 sunder_st) $(value o.gpkg houses 6 sunder_st) $(va
 
 same "$(jq -c keys_unsorted s.json)" '["command","layer","unit","features","vertices","blocks","clusters","clusters_optimal","conflicts","moved","blocked","skipped","invalid","null","rounded","displacement","verified","losses","seconds","peak_rss_bytes"]'
 same "$(jq -c '.conflicts|keys_unsorted' s.json)" '["before","after"]'
-same "$(jq -c '.conflicts.after|keys_unsorted' s.json)" '["overlap","too_close","barrier","contained","duplicate","inside_blocks"]'
+same "$(jq -c '.conflicts.after|keys_unsorted' s.json)" '["overlap","too_close","barrier","barrier_near","contained","duplicate","inside_blocks"]'
 same "$(jq -c '.displacement|keys_unsorted' s.json)" '["total","mean","max","max_fid","cost","lower_bound","optimality_gap"]'
 same "$(jq -c '.seconds|keys_unsorted' s.json)" '["read","solve","verify","write","total"]'
 same "$(jq -c '[.command,.layer,.unit,.features,.vertices,.clusters_optimal,.moved,.null,.verified,.losses]' s.json)" '["separate","houses","metre",6,24,null,4,0,true,[]]'

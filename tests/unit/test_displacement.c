@@ -75,7 +75,8 @@ static void end(scene *s)
 
 static size_t left(const sunder_layer_summary *s)
 {
-    return s->after.overlap + s->after.too_close + s->after.barrier + s->after.contained + s->after.duplicate;
+    return s->after.overlap + s->after.too_close + s->after.barrier + s->after.barrier_near + s->after.contained +
+           s->after.duplicate;
 }
 
 static double length(const scene *s, size_t f)
@@ -537,7 +538,28 @@ static void check_arguments(void **state)
         assert_int_equal(sunder_layer_check(layer, &o, &report, &err), SUNDER_EARG);
         assert_int_equal(sunder_layer_separate(layer, &o, &report, &err), SUNDER_EARG);
     }
+    const double bad_effort[3] = {-1, NAN, INFINITY};
+    for (size_t k = 0; k < 3; k++) {
+        sunder_layer_options o;
+        sunder_layer_options_init(&o);
+        o.effort = bad_effort[k];
+        assert_int_equal(sunder_layer_check(layer, &o, &report, &err), SUNDER_EARG);
+    }
     assert_null(report);
+    static const double point[2] = {0, NAN}, line[4] = {0, 0, 1, 1};
+    static const size_t one[1] = {1}, back[2] = {2, 1}, both[2] = {1, 2};
+    const sunder_barrier bad_barrier[] = {
+        {.width = -1}, {.width = NAN}, {.width = INFINITY}, {.gap = NAN}, {.gap = INFINITY}, {.gap = -INFINITY},
+    };
+    for (size_t k = 0; k < sizeof bad_barrier / sizeof *bad_barrier; k++)
+        assert_int_equal(sunder_layer_set_barriers(layer, &bad_barrier[k], 1, &err), SUNDER_EARG);
+    sunder_barrier b = {.geometry = {.xy = point, .line_end = one, .lines = 1}, .gap = -1};
+    assert_int_equal(sunder_layer_set_barriers(layer, &b, 1, &err), SUNDER_EINVALID);
+    b.geometry = (sunder_obstacle){.xy = line, .line_end = back, .lines = 2};
+    assert_int_equal(sunder_layer_set_barriers(layer, &b, 1, &err), SUNDER_EARG);
+    b.geometry.line_end = both;
+    assert_int_equal(sunder_layer_set_barriers(layer, &b, 1, &err), SUNDER_OK);
+    assert_int_equal(sunder_layer_set_barriers(layer, NULL, 0, &err), SUNDER_OK);
     sunder_layer_free(layer);
     sunder_layer_free(NULL);
     sunder_report_free(NULL);

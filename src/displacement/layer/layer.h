@@ -11,6 +11,8 @@
 struct sunder_layer {
     sunder_feature *feature;
     size_t n;
+    sunder_barrier *barrier;
+    size_t barriers;
 };
 
 /* Is the feature there at all (not ignored, not empty)? */

@@ -17,6 +17,7 @@ void sunder_layer_options_init(sunder_layer_options *options)
     options->touch_tolerance = -1;
     options->contained = SUNDER_CONTAINMENT_BLOCK;
     options->threads = 1;
+    options->effort = 1;
 }
 
 static unsigned processors(void)
@@ -37,6 +38,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
                              o->gap);
     if ((int)o->contained < SUNDER_CONTAINMENT_BLOCK || (int)o->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
+    if (!(o->effort >= 0) || !isfinite(o->effort))
+        return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", o->effort);
     rules->gap = o->gap;
     rules->tolerance = tolerance;
     rules->joins = !o->no_blocks;

@@ -252,6 +252,8 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         report->conflict[k].b = r->b;
         report->conflict[k].kind = kind_of(model, r);
         report->conflict[k].required = model->rules.gap;
+        report->conflict[k].need_shift = report->conflict[k].need_gap = NAN;
+        report->conflict[k].need_gone = SIZE_MAX;
         report->conflict[k++].inside_block = is_inside(model, r);
     }
     report->conflicts = n;

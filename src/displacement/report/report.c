@@ -94,6 +94,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_OVERLAP: counts->overlap++; break;
     case SUNDER_CONFLICT_TOO_CLOSE: counts->too_close++; break;
     case SUNDER_CONFLICT_BARRIER: counts->barrier++; break;
+    case SUNDER_CONFLICT_BARRIER_NEAR: counts->barrier_near++; break;
     case SUNDER_CONFLICT_CONTAINED: counts->contained++; break;
     case SUNDER_CONFLICT_DUPLICATE: counts->duplicate++; break;
     }
