@@ -3,6 +3,7 @@
 #ifndef SUNDER_I_SEPARATION_H
 #define SUNDER_I_SEPARATION_H
 
+#include "predicate/passage.h"
 #include "shape/shape.h"
 
 /* Do the interiors of P + tp and Q + tq meet? Exact. A NULL translation is zero. */
@@ -14,6 +15,10 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
 /* Does P + tp lie in Q + tq (closed sets)? Exact. */
 sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                  bool *contained, sunder_error *err);
+/* Does P, a closed set, hold the point? Exact. */
+sunder_status sunder_i_holds(const sunder_shape *p, const double point[2], bool *holds, sunder_error *err);
+/* Does the passage, beginning outside the closed set P, meet it? Exact. One that begins in P does not. */
+sunder_status sunder_i_passes(const sunder_i_passage *passage, const sunder_shape *p, bool *passes, sunder_error *err);
 /* sunder_pair_distance() of translated shapes. An empty operand: infinite, with both ends at the origin. */
 sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double *distance, double on_p[2], double on_q[2], sunder_error *err);

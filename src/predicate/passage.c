@@ -1,0 +1,138 @@
+/* How the way of a point meets a segment, where the way's end, a + t - s, is a sum of doubles. Degree 2: sums of
+ * products of the doubles as they are, without rounding the end.
+ *
+ * With D = d - c, U = t - s, A = a - c, the side of the end to cd is the sign of D x A + D x U, that of c to the way's
+ * line the sign of U x (c - a). First in doubles, whose bounds are those of the orientation test: with u = 2^-53, a 2 x
+ * 2 determinant of four differences, each rounded once, errs by no more than (3 + 16 u) u of the sum of the magnitudes
+ * of its two products [She96, section 4.3]; two of them added err by (3 + 16 u) u of the sum of all four, and by u of
+ * that for the addition: less than 5 u. Underflow can spoil a product by 2^-1075, so tiny determinants are not
+ * believed. Then by the long accumulator, which holds any sum of products. */
+#include "predicate/passage.h"
+
+#include "number/accumulator.h"
+#include "predicate/orient_double.h"
+
+#include <math.h>
+
+#define UNIT 0x1p-53
+#define TINY 0x1p-960
+
+static int sign_beyond(double det, double bound, double sum)
+{
+    if (!(sum < INFINITY) || sum < TINY) return SUNDER_I_PASSAGE_UNSURE;
+    return det > bound ? 1 : det < -bound ? -1 : SUNDER_I_PASSAGE_UNSURE;
+}
+
+void sunder_i_passage_box(const sunder_i_passage *p, double box[4])
+{
+    for (int k = 0; k < 2; k++) {
+        /* Two roundings, each by u of what is there: 3 u (|a| + |t| + |s|) is more than both. */
+        const double end = p->from[k] + (p->t[k] - p->s[k]);
+        const double slack = 4 * UNIT * (fabs(p->from[k]) + fabs(p->t[k]) + fabs(p->s[k]));
+        const bool known = isfinite(end) && isfinite(slack);
+        box[k] = known ? fmin(p->from[k], end - slack) : -INFINITY;
+        box[k + 2] = known ? fmax(p->from[k], end + slack) : INFINITY;
+    }
+}
+
+int sunder_i_passage_side_filter(const sunder_i_passage *p, const double c[2])
+{
+    const double left = (p->t[0] - p->s[0]) * (c[1] - p->from[1]), right = (p->t[1] - p->s[1]) * (c[0] - p->from[0]);
+    const double sum = fabs(left) + fabs(right);
+    return sign_beyond(left - right, 5 * UNIT * sum, sum);
+}
+
+int sunder_i_passage_side_exact(const sunder_i_passage *p, const double c[2])
+{
+    const double *a = p->from, *t = p->t, *s = p->s;
+    sunder_i_accumulator det = {{0}};
+    sunder_i_accumulator_add(&det, t[0], c[1]);
+    sunder_i_accumulator_sub(&det, t[0], a[1]);
+    sunder_i_accumulator_sub(&det, s[0], c[1]);
+    sunder_i_accumulator_add(&det, s[0], a[1]);
+    sunder_i_accumulator_sub(&det, t[1], c[0]);
+    sunder_i_accumulator_add(&det, t[1], a[0]);
+    sunder_i_accumulator_add(&det, s[1], c[0]);
+    sunder_i_accumulator_sub(&det, s[1], a[0]);
+    return sunder_i_accumulator_sign(&det);
+}
+
+int sunder_i_passage_end_filter(const sunder_i_passage *p, const double c[2], const double d[2])
+{
+    const double dx = d[0] - c[0], dy = d[1] - c[1];
+    const double left = dx * (p->from[1] - c[1]), right = dy * (p->from[0] - c[0]);
+    const double left_u = dx * (p->t[1] - p->s[1]), right_u = dy * (p->t[0] - p->s[0]);
+    const double sum = (fabs(left) + fabs(right)) + (fabs(left_u) + fabs(right_u));
+    return sign_beyond((left - right) + (left_u - right_u), 5 * UNIT * sum, sum);
+}
+
+/* D x e - D x c of the end e = a + t - s, multiplied out; D x c = d x c. */
+int sunder_i_passage_end_exact(const sunder_i_passage *p, const double c[2], const double d[2])
+{
+    const double part[3][2] = {{p->from[0], p->from[1]}, {p->t[0], p->t[1]}, {-p->s[0], -p->s[1]}};
+    sunder_i_accumulator det = {{0}};
+    for (int k = 0; k < 3; k++) {
+        sunder_i_accumulator_add(&det, d[0], part[k][1]);
+        sunder_i_accumulator_sub(&det, c[0], part[k][1]);
+        sunder_i_accumulator_sub(&det, d[1], part[k][0]);
+        sunder_i_accumulator_add(&det, c[1], part[k][0]);
+    }
+    sunder_i_accumulator_sub(&det, d[0], c[1]);
+    sunder_i_accumulator_add(&det, d[1], c[0]);
+    return sunder_i_accumulator_sign(&det);
+}
+
+static int side_of(const sunder_i_passage *p, const double c[2])
+{
+    const int sign = sunder_i_passage_side_filter(p, c);
+    return sign == SUNDER_I_PASSAGE_UNSURE ? sunder_i_passage_side_exact(p, c) : sign;
+}
+
+static int end_side(const sunder_i_passage *p, const double c[2], const double d[2])
+{
+    const int sign = sunder_i_passage_end_filter(p, c, d);
+    return sign == SUNDER_I_PASSAGE_UNSURE ? sunder_i_passage_end_exact(p, c, d) : sign;
+}
+
+static int from_side(const sunder_i_passage *p, const double c[2], const double d[2])
+{
+    const sunder_point from = {p->from[0], p->from[1]}, u = {c[0], c[1]}, v = {d[0], d[1]};
+    return sunder_orient(&u, &v, &from);
+}
+
+typedef struct meeting {
+    const sunder_i_passage *passage;
+    const double *c, *d;
+} meeting;
+
+/* Coordinate k of c less that of the passage's start, or (end) of its end: the sign. */
+static int order(const sunder_i_passage *p, const double c[2], int k, bool end)
+{
+    if (!end) return (c[k] > p->from[k]) - (c[k] < p->from[k]);
+    sunder_i_accumulator sum = {{0}};
+    sunder_i_accumulator_add(&sum, c[k], 1);
+    sunder_i_accumulator_sub(&sum, p->from[k], 1);
+    sunder_i_accumulator_sub(&sum, p->t[k], 1);
+    sunder_i_accumulator_add(&sum, p->s[k], 1);
+    return sunder_i_accumulator_sign(&sum);
+}
+
+/* Of two on one line, or of which one is a point: they meet where their shadows on both axes do. */
+static bool share_coordinates(const void *context)
+{
+    const meeting *m = context;
+    for (int k = 0; k < 2; k++) {
+        const int c = order(m->passage, m->c, k, false), d = order(m->passage, m->d, k, false),
+                  ce = order(m->passage, m->c, k, true), de = order(m->passage, m->d, k, true);
+        if ((c > 0 && d > 0 && ce > 0 && de > 0) || (c < 0 && d < 0 && ce < 0 && de < 0)) return false;
+    }
+    return true;
+}
+
+bool sunder_i_passage_meets(const sunder_i_passage *p, const double c[2], const double d[2])
+{
+    const meeting m = {p, c, d};
+    const int sc = side_of(p, c), sd = side_of(p, d);
+    if (sc * sd > 0) return false;
+    return sunder_i_sides_meet(sc, sd, from_side(p, c, d), end_side(p, c, d), share_coordinates, &m);
+}

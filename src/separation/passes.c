@@ -1,0 +1,205 @@
+/* Does a point on its straight way meet a set? And does the set hold it to begin with?
+ *
+ * A closed set that does not hold the way's start is met exactly when one of its boundary edges is: the way comes in
+ * somewhere, or touches. So the edges are asked (predicate/passage.c, in doubles first), those whose boxes the way's
+ * box meets; and only where one is met, whether the start is held: by a convex piece, closed, since these cover the set
+ * and share their diagonals.
+ *
+ * Corners that are no doubles (of a repaired shape) are put as rational points, and all questions about the set are
+ * asked in big integers then. */
+#include "separation/separation.h"
+
+#include "predicate/rational_point.h"
+#include "spatial/box.h"
+
+#include <limits.h>
+
+static const double *corner(const sunder_shape *p, uint32_t v) { return p->xy + 2 * (size_t)v; }
+
+static sunder_point point_of(const double xy[2]) { return (sunder_point){xy[0], xy[1]}; }
+
+static bool box_holds(const double box[4], const double at[2])
+{
+    return box[0] <= at[0] && at[0] <= box[2] && box[1] <= at[1] && at[1] <= box[3];
+}
+
+/* ---- Corners in doubles ------------------------------------------------------------------------------------------ */
+
+static bool holds_doubles(const sunder_shape *p, const double at[2])
+{
+    const sunder_point c = point_of(at);
+    uint32_t from = 0;
+    for (uint32_t i = 0; i < p->pieces; from = p->piece_end[i++]) {
+        bool in = true;
+        for (uint32_t k = from; k < p->piece_end[i] && in; k++) {
+            const uint32_t next = k + 1 < p->piece_end[i] ? k + 1 : from;
+            const sunder_point a = point_of(corner(p, p->piece_vertex[k])),
+                               b = point_of(corner(p, p->piece_vertex[next]));
+            in = sunder_orient(&a, &b, &c) >= 0;
+        }
+        if (in) return true;
+    }
+    return false;
+}
+
+static bool meets_doubles(const sunder_i_passage *way, const double way_box[4], const sunder_shape *p)
+{
+    for (uint32_t v = 0; v < p->vertices; v++) {
+        const double *c = corner(p, v), *d = corner(p, p->next[v]);
+        double box[4];
+        sunder_i_box_of_segment(c, d, box);
+        if (sunder_i_box_meet(way_box, box) && sunder_i_passage_meets(way, c, d)) return true;
+    }
+    return false;
+}
+
+/* ---- Rational corners -------------------------------------------------------------------------------------------- */
+
+/* The shape's corners, and the way's two ends, in units of one power of two. */
+typedef struct rationals {
+    sunder_i_arena arena;
+    sunder_i_rational_point *corner, from, to;
+} rationals;
+
+static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
+{
+    int e;
+    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
+    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
+}
+
+static sunder_i_rational_point put_double(sunder_i_arena *arena, const double xy[2], long unit)
+{
+    return (sunder_i_rational_point){units_of(arena, xy[0], unit), units_of(arena, xy[1], unit),
+                                     sunder_i_big_i64(arena, 1)};
+}
+
+static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_shape *p, uint32_t v, long unit)
+{
+    const sunder_i_exact *e = &p->exact[v];
+    if (e->den.size == 0) return put_double(arena, corner(p, v), unit);
+    const unsigned long up = (unsigned long)(e->exponent - unit);
+    return (sunder_i_rational_point){sunder_i_big_shl(arena, e->num[0], up), sunder_i_big_shl(arena, e->num[1], up),
+                                     e->den};
+}
+
+/* No unit of a coordinate is lower. */
+static long lowest_unit(const sunder_shape *p, const double *v, size_t n)
+{
+    long unit = p->extent.low_bit;
+    for (uint32_t k = 0; k < p->vertices; k++) {
+        if (p->exact[k].den.size == 0) {
+            for (int c = 0; c < 2; c++) {
+                const int bit = sunder_i_low_bit(corner(p, k)[c]);
+                if (bit < unit) unit = bit;
+            }
+        } else if (p->exact[k].exponent < unit) {
+            unit = p->exact[k].exponent;
+        }
+    }
+    for (size_t k = 0; k < n; k++)
+        if (sunder_i_low_bit(v[k]) < unit) unit = sunder_i_low_bit(v[k]);
+    return unit;
+}
+
+static bool put_all(rationals *r, const sunder_i_passage *way, const sunder_shape *p)
+{
+    const double given[6] = {way->from[0], way->from[1], way->t[0], way->t[1], way->s[0], way->s[1]};
+    const long unit = lowest_unit(p, given, 6);
+    sunder_i_arena_init(&r->arena);
+    r->corner = sunder_i_arena_alloc(&r->arena, p->vertices, sizeof *r->corner);
+    for (uint32_t v = 0; v < p->vertices && !r->arena.failed; v++) r->corner[v] = put_corner(&r->arena, p, v, unit);
+    r->from = put_double(&r->arena, way->from, unit);
+    r->to = sunder_i_rational_add(&r->arena, r->from, put_double(&r->arena, way->t, unit));
+    r->to = sunder_i_rational_sub(&r->arena, r->to, put_double(&r->arena, way->s, unit));
+    return !r->arena.failed;
+}
+
+static bool holds_rational(rationals *r, const sunder_shape *p)
+{
+    uint32_t from = 0;
+    for (uint32_t i = 0; i < p->pieces; from = p->piece_end[i++]) {
+        bool in = true;
+        for (uint32_t k = from; k < p->piece_end[i] && in; k++) {
+            const uint32_t next = k + 1 < p->piece_end[i] ? k + 1 : from;
+            in = sunder_i_rational_orient(&r->arena, r->corner[p->piece_vertex[k]], r->corner[p->piece_vertex[next]],
+                                          r->from) >= 0;
+        }
+        if (in) return true;
+    }
+    return false;
+}
+
+typedef struct meeting {
+    rationals *r;
+    uint32_t c, d;
+} meeting;
+
+static bool share_coordinates(const void *context)
+{
+    const meeting *m = context;
+    rationals *r = m->r;
+    const sunder_i_rational_point *c = &r->corner[m->c], *d = &r->corner[m->d];
+    for (int k = 0; k < 2; k++) {
+        const int cf = sunder_i_rational_cmp(&r->arena, c, &r->from, k),
+                  df = sunder_i_rational_cmp(&r->arena, d, &r->from, k),
+                  ct = sunder_i_rational_cmp(&r->arena, c, &r->to, k),
+                  dt = sunder_i_rational_cmp(&r->arena, d, &r->to, k);
+        if ((cf > 0 && df > 0 && ct > 0 && dt > 0) || (cf < 0 && df < 0 && ct < 0 && dt < 0)) return false;
+    }
+    return true;
+}
+
+static bool meets_rational(rationals *r, const sunder_shape *p)
+{
+    for (uint32_t v = 0; v < p->vertices && !r->arena.failed; v++) {
+        const sunder_i_mark mark = sunder_i_arena_mark(&r->arena);
+        const meeting m = {r, v, p->next[v]};
+        const sunder_i_rational_point c = r->corner[m.c], d = r->corner[m.d];
+        const bool meets = sunder_i_sides_meet(sunder_i_rational_orient(&r->arena, r->from, r->to, c),
+                                               sunder_i_rational_orient(&r->arena, r->from, r->to, d),
+                                               sunder_i_rational_orient(&r->arena, c, d, r->from),
+                                               sunder_i_rational_orient(&r->arena, c, d, r->to), share_coordinates, &m);
+        sunder_i_arena_release(&r->arena, mark);
+        if (meets) return true;
+    }
+    return false;
+}
+
+/* Held, or met without being held; the other is not asked for. */
+static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shape *p, bool *holds, bool *passes,
+                                  sunder_error *err)
+{
+    rationals r;
+    bool answer = false;
+    if (put_all(&r, way, p)) answer = holds ? holds_rational(&r, p) : meets_rational(&r, p) && !holds_rational(&r, p);
+    const bool failed = r.arena.failed;
+    sunder_i_arena_free(&r.arena);
+    if (failed) return sunder_i_no_memory(err);
+    *(holds ? holds : passes) = answer;
+    return SUNDER_OK;
+}
+
+/* ---- Either ------------------------------------------------------------------------------------------------------ */
+
+sunder_status sunder_i_holds(const sunder_shape *p, const double point[2], bool *holds, sunder_error *err)
+{
+    *holds = false;
+    if (p->pieces == 0 || !box_holds(p->box, point)) return SUNDER_OK;
+    const sunder_i_passage stay = {.from = {point[0], point[1]}};
+    if (p->rational) return ask_rational(&stay, p, holds, NULL, err);
+    *holds = holds_doubles(p, point);
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_passes(const sunder_i_passage *way, const sunder_shape *p, bool *passes, sunder_error *err)
+{
+    double box[4];
+    *passes = false;
+    if (p->pieces == 0) return SUNDER_OK;
+    sunder_i_passage_box(way, box);
+    if (!sunder_i_box_meet(box, p->box)) return SUNDER_OK;
+    if (p->rational) return ask_rational(way, p, NULL, passes, err);
+    *passes = meets_doubles(way, box, p) && !(box_holds(p->box, way->from) && holds_doubles(p, way->from));
+    return SUNDER_OK;
+}
