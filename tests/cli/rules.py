@@ -1,0 +1,649 @@
+"""Every rule of a separated layer, asked again by code that shares nothing with the program:
+
+    python3 rules.py ORIGINAL|LAYER RESULT|LAYER GAP [barrier=SPEC ...] [max-shift=L] [max-shift-field=F] [tolerance=T]
+                     [allow-jumps] [fixed-where=SQL] [no-blocks] [contained=MODE] [anchors=PROGRAM] [pairs-only]
+
+SPEC is as of --barrier. Coordinates are brought to one lattice of integers, so nothing is rounded and every answer is
+exact (exact_plane.py). RESULT holds the result's layers. Prints a line for each breach, then counts; status 1 if there is
+a breach.
+
+  unlisted          a pair nearer than required, or whose interiors meet, that neither a block nor the conflicts excuse
+  phantom           a listed pair that keeps all that it owes
+  worse             a listed pair stands worse than it stood: by squared distance, or the squared least translation
+  not_a_translate   coordinates that are not x + dx, rounded to the nearest double
+  lost, unknown     features of one layer alone
+  limit             a move longer than allowed; also of what may not move at all
+  side              the way of a side anchor meets a barrier line
+  jump              the way of an anchor, relative to another feature, meets it where it stood
+  anchor            an anchor that is not inside its feature
+  torn, unjoined    a block whose members move differently; a pair within the tolerance in different blocks
+
+An invalid ring is read by the even-odd rule; a feature that was repaired on the way is counted, and compared as it is
+written.
+"""
+import math
+import subprocess
+import sys
+from collections import Counter, defaultdict
+from fractions import Fraction
+
+from osgeo import gdal, ogr
+
+import exact_plane as plane
+
+gdal.UseExceptions()
+ogr.UseExceptions()
+CELL = 32.0  # of the grid, in units of the layer: of the order of a house
+
+
+def split_spec(spec):
+    """--barrier's argument; `where=` takes the rest, a comma that belongs to a name is written \\, ."""
+    spec, _, where = spec.partition(",where=")
+    words = [w.replace("\0", ",") for w in spec.replace("\\,", "\0").split(",")]
+    found = dict(w.split("=", 1) for w in words[1:])
+    return {"path": words[0], "where": where or None, **found}
+
+
+def polygons_and_lines(geometry):
+    """Lists of rings, and lines: chains of pairs of doubles."""
+    if geometry is None:
+        return [], []
+    kind = ogr.GT_Flatten(geometry.GetGeometryType())
+    if kind == ogr.wkbPolygon:
+        rings = [[p[:2] for p in geometry.GetGeometryRef(i).GetPoints() or []]
+                 for i in range(geometry.GetGeometryCount())]
+        return [[r[:-1] if r[0] == r[-1] else r for r in rings if r]], []
+    if kind in (ogr.wkbLineString, ogr.wkbPoint):
+        return [], [[p[:2] for p in geometry.GetPoints() or []]] if geometry.GetPointCount() else []
+    parts = [polygons_and_lines(geometry.GetGeometryRef(i)) for i in range(geometry.GetGeometryCount())]
+    return [p for polygons, _ in parts for p in polygons], [c for _, lines in parts for c in lines]
+
+
+def chains(geometry):
+    """(rings, lines) of a geometry."""
+    polygons, lines = polygons_and_lines(geometry)
+    return [r for p in polygons for r in p], lines
+
+
+def open_layer(path, name, where=None):
+    source = gdal.OpenEx(path, gdal.OF_VECTOR)
+    layer = source.GetLayerByName(name) if name else source.GetLayer(0)
+    if layer is None:
+        raise SystemExit(f"rules.py: {path} has no layer {name}")
+    if where:
+        layer.SetAttributeFilter(where)
+    return source, layer
+
+
+class Lattice:
+    """All numbers as integers in units of 2^-k."""
+
+    def __init__(self):
+        self.k = 1
+
+    def hold(self, value):
+        self.k = max(self.k, value.as_integer_ratio()[1].bit_length() - 1)
+
+    def hold_all(self, lists):
+        for one in lists:
+            for x, y in one:
+                self.hold(x)
+                self.hold(y)
+
+    def __call__(self, value):
+        n, d = value.as_integer_ratio()
+        return n << (self.k - d.bit_length() + 1)
+
+    def outline(self, rings, lines):
+        def whole(chain):
+            return [(self(x), self(y)) for x, y in chain]
+        return plane.Outline([whole(r) for r in rings], [whole(c) for c in lines])
+
+
+class Grid:
+    """What has boxes, by cells; what is huge stands in a list of its own."""
+
+    def __init__(self, size):
+        self.size, self.cells, self.large = size, defaultdict(list), []
+
+    def span(self, box):
+        return [int(v // self.size) for v in box]
+
+    def add(self, key, box):
+        x0, y0, x1, y1 = self.span(box)
+        if (x1 - x0 + 1) * (y1 - y0 + 1) > 4096:
+            self.large.append(key)
+            return
+        for x in range(x0, x1 + 1):
+            for y in range(y0, y1 + 1):
+                self.cells[x, y].append(key)
+
+    def near(self, box):
+        x0, y0, x1, y1 = self.span(box)
+        found = set(self.large)
+        if (x1 - x0 + 1) * (y1 - y0 + 1) > len(self.cells):
+            found.update(key for cell in self.cells.values() for key in cell)
+            return found
+        for x in range(x0, x1 + 1):
+            for y in range(y0, y1 + 1):
+                found.update(self.cells.get((x, y), ()))
+        return found
+
+
+def widen(box, d):
+    return box[0] - d, box[1] - d, box[2] + d, box[3] + d
+
+
+class Thing:
+    """A feature, or a barrier."""
+
+
+class Layers:
+    """All that is asked about."""
+
+    def __init__(self, original, result, gap, options):
+        self.options, self.original = options, original
+        self.lattice = Lattice()
+        self.gap = gap
+        self.lattice.hold(gap)
+        path, _, name = original.partition("|")
+        self.was_raw = {} if options.pairs_only else self.read_features(path, name, options.fixed_where)
+        path, _, name = result.partition("|")
+        self.path, self.name = path, name
+        self.is_raw = self.read_features(path, name, None)
+        self.barriers_raw = [b for spec in options.barriers for b in self.read_barriers(spec)]
+        self.lattice.hold(options.tolerance)
+        lat = self.lattice
+        self.now, self.was, self.fixed = {}, {}, set()
+        for fid, (attributes, rings, lines, _) in self.is_raw.items():
+            if attributes.get("sunder_st") == "skipped" or not (rings or lines):
+                continue
+            thing = self.now[fid] = Thing()
+            thing.shape = lat.outline(rings, lines)
+            thing.block = attributes.get("sunder_blk")
+            thing.dx, thing.dy = attributes.get("sunder_dx") or 0.0, attributes.get("sunder_dy") or 0.0
+        for fid, (_, rings, lines, fixed) in self.was_raw.items():
+            if fid in self.now:
+                self.was[fid] = lat.outline(rings, lines)
+                if fixed:
+                    self.fixed.add(fid)
+        self.unit = 2 ** lat.k
+        self.size = int(CELL * self.unit)
+        self.grid_now = self.index({fid: t.shape for fid, t in self.now.items()})
+        self.read_conflicts()
+        self.place_barriers()
+
+    def read_features(self, path, name, fixed_where):
+        fixed = set()
+        if fixed_where:
+            source, layer = open_layer(path, name, fixed_where)
+            fixed = {f.GetFID() for f in layer}
+        source, layer = open_layer(path, name)
+        names = [layer.GetLayerDefn().GetFieldDefn(i).GetName() for i in range(layer.GetLayerDefn().GetFieldCount())]
+        found = {}
+        for f in layer:
+            rings, lines = chains(f.GetGeometryRef())
+            self.lattice.hold_all(rings + lines)
+            attributes = {n: f.GetField(n) for n in names}
+            for key in ("sunder_dx", "sunder_dy"):
+                self.lattice.hold(attributes.get(key) or 0.0)
+            found[attributes.get("sunder_fid", f.GetFID())] = (attributes, rings, lines, f.GetFID() in fixed)
+        del source
+        return found
+
+    def read_barriers(self, spec):
+        words = split_spec(spec)
+        source, layer = open_layer(words["path"], words.get("layer"), words["where"])
+        gap = float(words["gap"]) if "gap" in words else self.gap
+        self.lattice.hold(gap)
+        for f in layer:
+            rings, lines = chains(f.GetGeometryRef())
+            if words.get("as") == "boundary":
+                rings, lines = [], lines + [r + r[:1] for r in rings]
+            if not rings and not lines:
+                continue
+            self.lattice.hold_all(rings + lines)
+            width = float(words.get("width", 0))
+            if "width-field" in words:
+                width = f.GetField(words["width-field"]) or 0.0
+            width = max(width, 0.0)
+            self.lattice.hold(width / 2)
+            yield (layer.GetName(), f.GetFID()), rings, lines, width / 2, gap, words.get("side", "yes") == "yes"
+        del source
+
+    def index(self, shapes):
+        grid = Grid(self.size)
+        for key, shape in shapes.items():
+            grid.add(key, shape.box)
+        return grid
+
+    def place_barriers(self):
+        """Barriers by their edges, so that one costs what of it is near."""
+        self.barriers, self.edge_grid, self.owed_most = [], Grid(self.size), 0
+        for key, rings, lines, half, gap, with_side in self.barriers_raw:
+            thing = Thing()
+            thing.key, thing.side = key, with_side
+            thing.owed = self.lattice(half) + self.lattice(gap)
+            thing.shape = self.lattice.outline(rings, lines)
+            self.owed_most = max(self.owed_most, thing.owed)
+            k = len(self.barriers)
+            self.barriers.append(thing)
+            for edge in thing.shape.edges:
+                self.edge_grid.add((k, edge), plane.edge_box(edge))
+        self.areas = Grid(self.size)
+        for k, thing in enumerate(self.barriers):
+            if thing.shape.area:
+                self.areas.add(k, thing.shape.box)
+
+    def near_barriers(self, box, d):
+        """The barriers whose edges come near the box, each with these edges; those whose area may hold it too."""
+        box = widen(box, d)
+        found = {k: [] for k in self.areas.near(box) if plane.boxes_near(self.barriers[k].shape.box, box)}
+        for k, edge in self.edge_grid.near(box):
+            if plane.boxes_near(plane.edge_box(edge), box):
+                found.setdefault(k, []).append(edge)
+        return found
+
+    def read_conflicts(self):
+        self.listed, self.listed_barriers = {}, {}
+        try:
+            source, layer = open_layer(self.path, self.name + "_conflicts")
+        except SystemExit:
+            return
+        for f in layer:
+            word = (f.GetField("kind"), f.GetField("reason"))
+            if f.GetField("barrier"):
+                self.listed_barriers[f.GetField("fid_a"), f.GetField("barrier"), f.GetField("barr_fid")] = word
+            else:
+                self.listed[tuple(sorted((f.GetField("fid_a"), f.GetField("fid_b"))))] = word
+        del source
+
+    def displacement_anchors(self):
+        try:
+            source, layer = open_layer(self.path, self.name + "_displacement")
+        except SystemExit:
+            return {}
+        found = {f.GetField("fid"): f.GetGeometryRef().GetPoint_2D(0) for f in layer if f.GetGeometryRef() is not None}
+        del source
+        return found
+
+
+class Checker:
+    def __init__(self, layers):
+        self.layers = layers
+        self.lat = layers.lattice
+        self.breaches = []
+        self.count = Counter()
+
+    def breach(self, kind, *words):
+        self.count["breaches"] += 1
+        self.breaches.append("\t".join([kind, *map(str, words)]))
+
+    def metres(self, value):
+        return float(Fraction(value, self.layers.unit))
+
+    # ---- Pairs
+
+    def in_conflict(self, a, b, owed):
+        """Nearer than owed, or interiors that meet."""
+        if owed > 0:
+            return plane.nearer(a, b, owed)
+        return plane.interiors_meet(a, b) if a.area else plane.interiors_meet(b, a)
+
+    def same_block(self, a, b):
+        block = self.layers.now[a].block
+        return block is not None and block == self.layers.now[b].block
+
+    def check_pairs(self):
+        lay = self.layers
+        gap = self.lat(lay.gap)
+        for a, thing in lay.now.items():
+            for b in lay.grid_now.near(widen(thing.shape.box, gap)):
+                other = lay.now[b].shape
+                if b <= a or not plane.boxes_near(thing.shape.box, other.box, gap) or self.same_block(a, b):
+                    continue
+                self.count["pairs"] += 1
+                if (a, b) not in lay.listed and self.in_conflict(thing.shape, other, gap):
+                    self.breach("unlisted", a, b)
+        for (a, b), (kind, reason) in lay.listed.items():
+            if a not in lay.now or b not in lay.now:
+                self.breach("unknown", "conflict", a, b)
+            elif reason != "same_block" and not self.same_block(a, b):
+                self.count[f"listed {reason}"] += 1
+                if not self.in_conflict(lay.now[a].shape, lay.now[b].shape, gap):
+                    self.breach("phantom", a, b, kind)
+                elif lay.was:
+                    self.check_standing((a, b), kind, lay.was[a], lay.was[b], lay.now[a].shape, lay.now[b].shape)
+
+    def check_barriers(self):
+        lay = self.layers
+        by_key = {thing.key: thing for thing in lay.barriers}
+        for a, thing in lay.now.items():
+            for k, edges in lay.near_barriers(thing.shape.box, lay.owed_most).items():
+                barrier = lay.barriers[k]
+                part = plane.Outline()
+                part.edges, part.area, part.box = edges, False, edges and plane.box_of([p for e in edges for p in e])
+                self.count["barrier pairs"] += 1
+                broken = edges and self.in_conflict(thing.shape, part, barrier.owed)
+                # Inside, or round the barrier: no edge is near, or their interiors meet.
+                if not broken and barrier.shape.area:
+                    broken = plane.interiors_meet(thing.shape, barrier.shape)
+                if broken and (a, *barrier.key) not in lay.listed_barriers:
+                    self.breach("unlisted", a, *barrier.key)
+        for (a, *key), (kind, reason) in lay.listed_barriers.items():
+            barrier = by_key.get(tuple(key))
+            if barrier is None or a not in lay.now:
+                self.breach("unknown", "conflict", a, *key)
+                continue
+            self.count[f"listed {reason}"] += 1
+            now = lay.now[a].shape
+            if not self.in_conflict(now, barrier.shape, barrier.owed):
+                self.breach("phantom", a, *key, kind)
+                continue
+            meets = plane.interiors_meet(now, barrier.shape)
+            if (kind == "barrier") != meets:
+                self.breach("phantom", a, *key, kind, "wrong kind")
+            if a in lay.was and not plane.lies_in(now, barrier.shape):
+                part = self.part_in_reach(barrier.shape, lay.was[a], now)
+                self.check_standing((a, *key), kind, lay.was[a], part, now, part)
+
+    @staticmethod
+    def part_in_reach(barrier, was, now):
+        """Of lines only the edges that can decide how either stands: near each, by the farther of the two distances."""
+        if barrier.area:
+            return barrier
+        nearest = [min(plane.box_square(plane.edge_box(e), s.box) for e in barrier.edges) for s in (was, now)]
+        size = max(s.box[2] - s.box[0] + s.box[3] - s.box[1] for s in (was, now))
+        d = 2 * size + math.isqrt(max(nearest)) + 1
+        return plane.Outline(lines=[list(e) for e in barrier.edges
+                                    if any(plane.boxes_near(plane.edge_box(e), s.box, d) for s in (was, now))])
+
+    def check_standing(self, names, kind, a_was, b_was, a, b):
+        """The pair no worse than it stood. One vector for both changes nothing."""
+        u = [tuple(q[i] - p[i] for i in (0, 1)) for p, q in zip(self.corners(a_was), self.corners(a))]
+        v = [tuple(q[i] - p[i] for i in (0, 1)) for p, q in zip(self.corners(b_was), self.corners(b))]
+        if set(u) == set(v) and len(set(u)) == 1:
+            return
+        self.count["listed that moved"] += 1
+        if kind in ("contained", "duplicate") and (plane.lies_in(a, b) or plane.lies_in(b, a)):
+            return
+        met, meet = plane.interiors_meet(a_was, b_was), plane.interiors_meet(a, b)
+        if met != meet:
+            if meet:
+                self.breach("worse", *names, "now they meet")
+            return
+        measure = plane.least_square if met else plane.distance_square
+        was, now = measure(a_was, b_was), measure(a, b)
+        if was is None or now is None:
+            self.count["standing not asked (large)"] += 1
+        elif now > was if met else now < was:
+            self.breach("worse", *names, math.sqrt(was) / self.layers.unit, math.sqrt(now) / self.layers.unit)
+
+    @staticmethod
+    def corners(shape):
+        return [p for chain in (*shape.rings, *shape.lines) for p in chain]
+
+    # ---- Moves
+
+    def check_moves(self):
+        lay = self.layers
+        for fid in sorted(lay.was_raw.keys() ^ lay.is_raw.keys()):
+            self.breach("lost" if fid in lay.was_raw else "unknown", fid)
+        for fid in lay.was_raw.keys() & lay.is_raw.keys():
+            _, rings, lines, _ = lay.was_raw[fid]
+            attributes, rings_now, lines_now, _ = lay.is_raw[fid]
+            dx, dy = attributes.get("sunder_dx") or 0.0, attributes.get("sunder_dy") or 0.0
+            moved = [[[(x + dx, y + dy) for x, y in c] for c in group] for group in (rings, lines)]
+            if moved != [rings_now, lines_now]:
+                geometry_was = sorted(map(len, rings)), sorted(map(len, rings_now))
+                if geometry_was[0] != geometry_was[1]:
+                    self.count["repaired"] += 1
+                else:
+                    self.breach("not_a_translate", fid)
+            if fid in lay.now:
+                self.check_limit(fid, lay.was_raw[fid][0], dx, dy)
+            elif dx or dy:
+                self.breach("limit", fid, "skipped, and moved")
+
+    def limit_of(self, fid, attributes):
+        if fid in self.layers.fixed:
+            return 0.0
+        options = self.layers.options
+        if options.max_shift_field and attributes.get(options.max_shift_field) is not None:
+            return float(attributes[options.max_shift_field])
+        return options.max_shift
+
+    def check_limit(self, fid, attributes, dx, dy):
+        limit = self.limit_of(fid, attributes)
+        if limit is not None and Fraction(dx) ** 2 + Fraction(dy) ** 2 > Fraction(limit) ** 2:
+            self.breach("limit", fid, math.hypot(dx, dy), limit)
+
+    def check_blocks(self):
+        lay = self.layers
+        blocks = defaultdict(list)
+        for fid, thing in lay.now.items():
+            if thing.block is not None:
+                blocks[thing.block].append(fid)
+        for block, members in blocks.items():
+            if len({(lay.now[f].dx, lay.now[f].dy) for f in members}) > 1:
+                self.breach("torn", block, *members[:4])
+        if lay.options.no_blocks or not lay.was:
+            return
+        tolerance = self.lat(lay.options.tolerance)
+        grid = lay.index(lay.was)
+        for a, shape in lay.was.items():
+            for b in grid.near(widen(shape.box, tolerance)):
+                if b > a and not self.same_block(a, b) and plane.boxes_near(shape.box, lay.was[b].box, tolerance):
+                    self.check_joined(a, b, shape, lay.was[b], tolerance)
+
+    def check_joined(self, a, b, p, q, tolerance):
+        """A pair in different blocks: not within the tolerance, and neither in the other where that joins."""
+        self.count["pairs of blocks"] += 1
+        if plane.interiors_meet(p, q):
+            within = plane.lies_in(p, q) or plane.lies_in(q, p)
+            if within and self.layers.options.contained != "block":
+                return
+            if within:
+                self.breach("unjoined", a, b, "one in the other")
+                return
+            least = plane.least_square(p, q)
+            if least is not None and least <= tolerance * tolerance:
+                self.breach("unjoined", a, b, "overlap", math.sqrt(least) / self.layers.unit)
+        elif plane.nearer(p, q, 2 * tolerance + 1) and plane.distance_square(p, q) <= tolerance * tolerance:
+            self.breach("unjoined", a, b, "touch")
+
+    # ---- Ways
+
+    def anchors(self):
+        """Old anchors: where the displacement layer begins; where a convex ring has its centroid; else as asked for."""
+        lay = self.layers
+        given = lay.displacement_anchors()
+        found, open_ones = {}, []
+        for fid, shape in lay.was.items():
+            if fid in given:
+                found[fid] = given[fid]
+            elif len(shape.rings) == 1 and is_convex(shape.rings[0]):
+                found[fid] = tuple(float(v / lay.unit) for v in centroid(shape.rings[0]))
+            else:
+                open_ones.append(fid)
+        if lay.options.anchors and open_ones:
+            found.update(self.ask_anchors(open_ones))
+        self.count["anchors not known"] = len(lay.was) - len(found)
+        return found
+
+    def ask_anchors(self, fids):
+        """Of the program that prints the library's anchors; check_jumps() sees whether they lie in their features."""
+        path, _, name = self.layers.original.partition("|")
+        source, layer = open_layer(path, name)
+        text = []
+        for fid in fids:
+            feature = layer.GetFeature(fid)  # its geometry lives as long as it
+            polygons, _ = polygons_and_lines(feature.GetGeometryRef())
+            words = [fid, len(polygons)]
+            for rings in polygons:
+                words.append(len(rings))
+                for ring in rings:
+                    words.append(len(ring))
+                    words += [v.hex() for p in ring for v in p]
+            text.append(" ".join(map(str, words)) + "\n")
+        del source
+        done = subprocess.run([self.layers.options.anchors], input="".join(text), capture_output=True, text=True,
+                              check=True)
+        return {int(w[0]): (float.fromhex(w[1]), float.fromhex(w[2])) for w in map(str.split, done.stdout.splitlines())}
+
+    def place_anchors(self):
+        """Anchors and moves on the lattice; a finer one, should they need it."""
+        lay = self.layers
+        known = self.anchors()
+        lat = Lattice()
+        lat.k = self.lat.k
+        lat.hold_all([known.values()])
+        factor = 1 << (lat.k - self.lat.k)
+        self.at = {f: (lat(x), lat(y)) for f, (x, y) in known.items()}
+        self.shape_was = {f: s.scaled(factor) if factor > 1 else s for f, s in lay.was.items()}
+        self.step = {f: (lat(t.dx), lat(t.dy)) for f, t in lay.now.items()}
+        self.factor, self.cell = factor, int(CELL * 2 ** lat.k)
+        self.moved = {f for f, t in lay.now.items() if t.dx or t.dy}
+        for a in self.moved & self.at.keys():
+            if plane.locate(self.shape_was[a], self.at[a]) < 0:
+                self.breach("anchor", a, "outside")
+
+    def check_jumps(self):
+        moved, at, shapes, step = self.moved, self.at, self.shape_was, self.step
+        grid, points = Grid(self.cell), Grid(self.cell)
+        for f, s in shapes.items():
+            grid.add(f, s.box)
+        for f, p in at.items():
+            points.add(f, p * 2)
+        # The longer of two moves is at least half of the relative one.
+        reach = {f: 2 * (abs(step[f][0]) + abs(step[f][1])) for f in moved}
+        pairs = {(a, b) for a in moved & at.keys() for b in grid.near(widen(at[a] * 2, reach[a]))}
+        pairs |= {(a, b) for b in moved & shapes.keys() for a in points.near(widen(shapes[b].box, reach[b]))}
+        for a, b in pairs:
+            if a != b and not self.same_block(a, b) and step[a] != step[b]:
+                self.check_way("jump", a, b, shapes[b], at[a], (step[a][0] - step[b][0], step[a][1] - step[b][1]))
+
+    def check_sides(self):
+        """Of features that no barrier cuts: there the plain anchor serves. Of the others it is not known."""
+        lay = self.layers
+        for a in self.moved & self.at.keys():
+            start, u = self.at[a], self.step[a]
+            way = (start, (start[0] + u[0], start[1] + u[1]))
+            corners = [p for e in self.shape_was[a].edges for p in e]
+            box = tuple(v // self.factor for v in plane.box_of([*way, *corners]))
+            for k, edges in lay.near_barriers(box, 1).items():
+                barrier = lay.barriers[k]
+                if barrier.side:
+                    self.check_side(a, barrier, edges, way)
+
+    def check_side(self, a, barrier, edges, way):
+        edges = [tuple((self.factor * x, self.factor * y) for x, y in e) for e in edges]
+        line = plane.Outline(lines=[list(e) for e in edges])
+        if edges and plane.interiors_meet(self.shape_was[a], line):
+            self.count["sides not asked (cut)"] += 1
+            return
+        self.count["ways (side)"] += 1
+        if not any(plane.edges_meet(way, e) for e in edges):
+            return
+        whole = barrier.shape.scaled(self.factor)
+        if not barrier.shape.area or plane.locate(whole, way[0]) <= 0 or not leaves_once(whole, way):
+            self.breach("side", a, *barrier.key)
+
+    def check_way(self, kind, a, b, shape, start, u):
+        end = (start[0] + u[0], start[1] + u[1])
+        way = (start, end)
+        box = plane.edge_box(way)
+        if not plane.boxes_near(box, shape.box):
+            return
+        self.count[f"ways ({kind})"] += 1
+        edges = plane.near_edges(shape, box)
+        if any(plane.edges_meet(way, e) for e in edges) and not (shape.area and plane.locate(shape, start) >= 0):
+            self.breach(kind, a, b)
+
+    def run(self):
+        if not self.layers.options.pairs_only:
+            self.check_moves()
+            self.check_blocks()
+        self.check_pairs()
+        self.check_barriers()
+        if not self.layers.options.pairs_only:
+            self.place_anchors()
+            self.check_sides()
+            if not self.layers.options.allow_jumps:
+                self.check_jumps()
+
+
+def leaves_once(shape, way):
+    """Is what the way has in the closed set one piece, that with its start?"""
+    (x, y), (x1, y1) = way
+    u = (x1 - x, y1 - y)
+    whole = u[0] * u[0] + u[1] * u[1]
+    at = {Fraction(0), Fraction(1)}
+    for e in plane.near_edges(shape, plane.edge_box(way)):
+        crossing = plane.crossing(way, e)
+        for p in [crossing] if crossing else [p for p in e if plane.on_edge(way, p)]:
+            at.add(Fraction((p[0] - x) * u[0] + (p[1] - y) * u[1]) / whole)
+    at = sorted(at)
+    k = 2 * math.lcm(*(t.denominator for t in at))
+    fine = shape.scaled(k)
+    stops = sorted(at + [(s + t) / 2 for s, t in zip(at, at[1:])])
+    inside = [plane.locate(fine, (x * k + int(t * k) * u[0], y * k + int(t * k) * u[1])) >= 0 for t in stops]
+    return inside == sorted(inside, reverse=True)
+
+
+def is_convex(ring):
+    n = len(ring)
+    turns = {plane.side(ring[i - 2], ring[i - 1], ring[i]) for i in range(n)}
+    steps = [(ring[i][0] - ring[i - 1][0], ring[i][1] - ring[i - 1][1]) for i in range(n)]
+    # One turn of direction all the way round: exactly two changes between up and down.
+    ups = [y > 0 or (y == 0 and x > 0) for x, y in steps if x or y]
+    return not {1, -1} <= turns and sum(ups[i] != ups[i - 1] for i in range(len(ups))) == 2
+
+
+def centroid(ring):
+    ox, oy = ring[0]
+    weight = mx = my = 0
+    for (ax, ay), (bx, by) in zip(ring[1:], ring[2:]):
+        ux, uy, vx, vy = ax - ox, ay - oy, bx - ox, by - oy
+        c = ux * vy - uy * vx
+        weight, mx, my = weight + c, mx + c * (ux + vx), my + c * (uy + vy)
+    return Fraction(ox) + Fraction(mx, 3 * weight), Fraction(oy) + Fraction(my, 3 * weight)
+
+
+class Options:
+    def __init__(self, words, gap):
+        self.barriers, self.max_shift, self.max_shift_field, self.fixed_where, self.anchors = [], None, None, None, None
+        self.tolerance, self.contained = gap / 10, "block"
+        self.allow_jumps = self.no_blocks = self.pairs_only = False
+        for word in words:
+            name, _, value = word.partition("=")
+            name = name.replace("-", "_")
+            if name == "barrier":
+                self.barriers.append(value)
+            elif name in ("allow_jumps", "no_blocks", "pairs_only"):
+                setattr(self, name, True)
+            elif name in ("max_shift", "tolerance"):
+                setattr(self, name, float(value))
+            elif name in ("max_shift_field", "fixed_where", "anchors", "contained"):
+                setattr(self, name, value)
+            else:
+                raise SystemExit(f"rules.py: {word}?")
+
+
+def check(original, result, gap, words):
+    checker = Checker(Layers(original, result, gap, Options(words, gap)))
+    checker.run()
+    return checker
+
+
+def main():
+    original, result, gap, *words = sys.argv[1:]
+    checker = check(original, result, float(gap), words)
+    for line in checker.breaches:
+        print(line)
+    print("; ".join(f"{what}: {n}" for what, n in sorted(checker.count.items()) if n), file=sys.stderr)
+    sys.exit(1 if checker.breaches else 0)
+
+
+if __name__ == "__main__":
+    main()
