@@ -123,33 +123,6 @@ static sunder_status draw_figure(const sunder_i_figure *f, sunder_i_lattice *lat
 
 /* ---- Bands ---- */
 
-/* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
-static bool is_far(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point side)
-{
-    const int turn = sunder_i_big_sign(sunder_i_rational_cross(arena, u, side));
-    return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u, side)) > 0;
-}
-
-/* The segment ab plus a piece, counter-clockwise: sides that turn left from ab are moved to b, the others stay at a. A
- * side parallel to ab and what joins both places make one straight side with a corner inside, which the map allows.
- * Where a is b no side turns left, and the band is the piece at a. */
-static size_t make_band(stage *g, sunder_i_rational_point a, sunder_i_rational_point b, size_t first, size_t end,
-                        sunder_i_rational_point *out)
-{
-    sunder_i_arena *s = &g->scratch;
-    const sunder_i_structuring_element *p = g->element;
-    const sunder_i_rational_point u = sunder_i_rational_sub(s, b, a);
-    size_t n = 0;
-    bool before = is_far(s, u, p->side[end - 1]);
-    for (size_t i = first; i < end; i++) {
-        const bool after = is_far(s, u, p->side[i]);
-        out[n++] = sunder_i_rational_add(s, before ? b : a, p->corner[i]);
-        if (after != before) out[n++] = sunder_i_rational_add(s, after ? b : a, p->corner[i]);
-        before = after;
-    }
-    return n;
-}
-
 /* Band number k: of the sides, then the segments, then the points, each with all pieces. */
 static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder_error *err)
 {
@@ -162,7 +135,7 @@ static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder
     if (!corner) return sunder_i_no_memory(err);
     uint32_t ends[2];
     ends_of(f, next, i, ends);
-    const size_t n = make_band(g, f->at[ends[0]], f->at[ends[1]], first, end, corner);
+    const size_t n = sunder_i_band(&g->scratch, p, first, end, f->at[ends[0]], f->at[ends[1]], corner);
     if (g->scratch.failed) return sunder_i_no_memory(err);
     const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);

@@ -3,6 +3,8 @@
  * figure.c        a shape or a sum as rings, segments and points with rational corners
  * dilate_erode.c  one exact sum of such a figure and a shape, or of its complement: bands, then the cells between them
  * operands.c      what all stages of one operation share: the lattice, and B as a structuring element
+ * bands.c         a side plus a convex piece
+ * fit.c           does a convex shape fit into what two shapes have in common?
  * islands.c       polygon by polygon, on several threads
  * gather.c        results of that in one
  * union.c         members that overlap
@@ -51,6 +53,12 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
                                            const sunder_i_point *at, bool reflected, sunder_i_structuring_element *out);
 void sunder_i_structuring_element_free(sunder_i_structuring_element *element);
 
+/* The segment from a to b plus the corners first to end - 1 of an element, which are one of its pieces: its corners,
+ * counter-clockwise, into out, which has room for two more than the piece has; returns how many. Nothing of it holds if
+ * the arena has failed. */
+size_t sunder_i_band(sunder_i_arena *arena, const sunder_i_structuring_element *element, size_t first, size_t end,
+                     sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out);
+
 /* Fills the outline of an empty sum, which owns the lattice that all stands on:
  *   dilate  the closure of F + element, without degenerate parts (that set is closed, and they are inside)
  *   erode   the complement of F^c + int element, parts without area included: the erosion of F, which is regular, by
@@ -98,5 +106,12 @@ bool sunder_i_gather(sunder_sum *const *part, size_t n, sunder_sum *out);
  * sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_shape *b,
                                         const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
+
+/* ---- fit.c ---- */
+
+/* Is there an x such that D + x lies in P + tp and in Q + tq (closed sets)? Exact, degenerate places included: what
+ * fits exactly fits. D is convex, and the origin is inside it. NULL translations are zero. */
+sunder_status sunder_i_fits_in_both(const sunder_shape *p, const double tp[2], const sunder_shape *q,
+                                    const double tq[2], const sunder_shape *d, bool *fits, sunder_error *err);
 
 #endif

@@ -2,7 +2,7 @@
  *
  *   near       their interiors meet, or their distance is less than the gap
  *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or
- *              their interiors meet and the least translation that takes these apart is no longer than the tolerance
+ *              their interiors meet in no more than the tolerance (thin_overlap.c)
  *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of
  *              16 corners in the disc whose radius is the tolerance (a point of P may then stand outside Q by the
  *              tolerance at most, and by 0.93 of it in any direction), and the corners of Q + D are taken as the
@@ -64,14 +64,8 @@ static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunde
     r->a_in_b = a_in;
     r->duplicate = a_exact && b_exact;
     r->kept = r->contained && sunder_i_may_be_inside(rules);
-    if (!(rules->tolerance > 0) || r->contained) return SUNDER_OK;
-    sunder_separation least;
-    bool beyond = false;
-    status = sunder_i_separate(a->shape, a->t, b->shape, b->t, 0, rules->tolerance, &least, &beyond, err);
-    if (status) return status;
-    sunder_separation_clear(&least);
-    r->touch = !beyond;
-    return SUNDER_OK;
+    if (r->contained) return SUNDER_OK;
+    return sunder_i_overlap_is_thin(a, b, rules->tolerance, &r->touch, err);
 }
 
 /* The distance of two disjoint sets that may stand translated. */

@@ -33,6 +33,20 @@ typedef struct sunder_i_relations {
 
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
 
+/* ---- thin_overlap.c ---------------------------------------------------------------------------------------------- */
+
+/* Two interiors meet: in no more than the tolerance? That is, the least translation that takes them apart is no longer,
+ * or no polygon of 16 corners in the disc of that diameter (sunder_shape_disc()) fits into what the two have in common.
+ * Exact. */
+sunder_status sunder_i_overlap_is_thin(const sunder_i_translate *a, const sunder_i_translate *b, double tolerance,
+                                       bool *thin, sunder_error *err);
+
+/* ---- roomy_place.c ----------------------------------------------------------------------------------------------- */
+
+/* A place in both, about so far from the sides of either; a proposal of doubles. None found says nothing. */
+sunder_status sunder_i_roomy_place(const sunder_i_translate *a, const sunder_i_translate *b, double radius, bool *found,
+                                   double place[2], sunder_error *err);
+
 /* ---- grown_shape.c ----------------------------------------------------------------------------------------------- */
 
 /* Q + D as a shape, where D is a polygon of 16 corners in the disc whose radius is the tolerance (> 0); its corners are

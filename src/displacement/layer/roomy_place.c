@@ -1,0 +1,146 @@
+/* A place with room in what two features have in common, proposed in doubles: squares are looked at best first, each
+ * by the distance of its middle from the sides of both, and cut in four while there may be more room in it. Whoever
+ * asks checks what is proposed; nothing follows where nothing is. */
+#include "displacement/layer/relate.h"
+
+#include "base/heap.h"
+#include "base/watch.h"
+#include "shape/shape.h"
+
+#include <math.h>
+
+/* Squares that are looked at, at most: most overlaps are simple, and the first few do. */
+enum { MOST_SQUARES = 96 };
+
+typedef struct square {
+    double middle[2], half, room; /* room of the middle: not inside both if negative */
+} square;
+
+/* Sides of one of the two, from a to b, with the interior on the left. */
+typedef struct overlap_side {
+    double a[2], b[2];
+    int which;
+} overlap_side;
+
+typedef struct overlap_sides {
+    overlap_side *side;
+    size_t n;
+    double box[4]; /* what the boxes of the two have in common */
+} overlap_sides;
+
+static bool has_more(const void *a, const void *b)
+{
+    const square *s = a, *t = b;
+    return s->room + s->half * M_SQRT2 > t->room + t->half * M_SQRT2;
+}
+
+static double distance_to(const overlap_side *s, const double at[2])
+{
+    const double e[2] = {s->b[0] - s->a[0], s->b[1] - s->a[1]}, d[2] = {at[0] - s->a[0], at[1] - s->a[1]};
+    const double length2 = e[0] * e[0] + e[1] * e[1];
+    const double k = length2 > 0 ? fmin(1, fmax(0, (e[0] * d[0] + e[1] * d[1]) / length2)) : 0;
+    return hypot(d[0] - k * e[0], d[1] - k * e[1]);
+}
+
+/* Winding by the sides that a ray to the right crosses: members may overlap. */
+static double room_at(const overlap_sides *sides, const double at[2])
+{
+    int winding[2] = {0, 0};
+    double nearest = INFINITY;
+    for (size_t k = 0; k < sides->n; k++) {
+        const overlap_side *s = &sides->side[k];
+        nearest = fmin(nearest, distance_to(s, at));
+        const bool up = s->b[1] > at[1];
+        if ((s->a[1] > at[1]) == up) continue;
+        const double x = s->a[0] + (at[1] - s->a[1]) / (s->b[1] - s->a[1]) * (s->b[0] - s->a[0]);
+        if (x > at[0]) winding[s->which] += up ? 1 : -1;
+    }
+    return winding[0] > 0 && winding[1] > 0 ? nearest : -nearest;
+}
+
+/* The sides that a square in the common box can be near, or a ray from there can cross. */
+static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
+{
+    double box[2][4];
+    for (int i = 0; i < 2; i++) {
+        sunder_shape_box(of[i]->shape, box[i]);
+        for (int k = 0; k < 4; k++) box[i][k] += of[i]->t[k & 1];
+    }
+    for (int k = 0; k < 2; k++) {
+        out->box[k] = fmax(box[0][k], box[1][k]);
+        out->box[k + 2] = fmin(box[0][k + 2], box[1][k + 2]);
+    }
+    out->n = 0;
+    out->side = sunder_i_alloc((size_t)of[0]->shape->vertices + of[1]->shape->vertices, sizeof *out->side);
+    for (int i = 0; i < 2 && out->side; i++) {
+        const sunder_shape *shape = of[i]->shape;
+        for (uint32_t v = 0; v < shape->vertices; v++) {
+            overlap_side s = {.which = i};
+            for (int c = 0; c < 2; c++) {
+                s.a[c] = shape->xy[2 * (size_t)v + (size_t)c] + of[i]->t[c];
+                s.b[c] = shape->xy[2 * (size_t)shape->next[v] + (size_t)c] + of[i]->t[c];
+            }
+            if (fmax(s.a[0], s.b[0]) >= out->box[0] && fmax(s.a[1], s.b[1]) >= out->box[1] &&
+                fmin(s.a[1], s.b[1]) <= out->box[3])
+                out->side[out->n++] = s;
+        }
+    }
+    return out->side != NULL;
+}
+
+/* A square that may have the room is kept; true if its middle has. */
+static bool look_at(const overlap_sides *sides, square *heap, size_t *n, square s, double radius)
+{
+    s.room = room_at(sides, s.middle);
+    if (s.room + s.half * M_SQRT2 >= radius) sunder_i_heap_push(heap, n, sizeof s, &s, has_more);
+    return s.room >= radius;
+}
+
+static bool search(const overlap_sides *sides, double radius, double place[2])
+{
+    square heap[MOST_SQUARES + 4];
+    size_t n = 0, looked = 0;
+    const double *box = sides->box, size[2] = {box[2] - box[0], box[3] - box[1]};
+    if (!(fmin(size[0], size[1]) >= 2 * radius) || !isfinite(size[0] + size[1])) return false;
+    /* A row of squares as wide as the narrower way; of a very long row, larger ones. */
+    const double half = fmax(fmin(size[0], size[1]), fmax(size[0], size[1]) / 16) / 2;
+    const int along = size[0] < size[1], row = (int)ceil(size[along] / (2 * half));
+    for (int i = 0; i < row; i++) {
+        square s = {.half = half};
+        s.middle[along] = box[along] + (2 * i + 1) * half;
+        s.middle[1 - along] = box[1 - along] + size[1 - along] / 2;
+        if (looked++, look_at(sides, heap, &n, s, radius)) {
+            for (int c = 0; c < 2; c++) place[c] = s.middle[c];
+            return true;
+        }
+    }
+    while (n > 0 && looked + 4 <= MOST_SQUARES) {
+        square s;
+        sunder_i_heap_pop(heap, &n, sizeof s, &s, has_more);
+        for (int i = 0; i < 4; i++) {
+            square part = {.half = s.half / 2};
+            part.middle[0] = s.middle[0] + (i & 1 ? part.half : -part.half);
+            part.middle[1] = s.middle[1] + (i & 2 ? part.half : -part.half);
+            if (looked++, look_at(sides, heap, &n, part, radius)) {
+                for (int c = 0; c < 2; c++) place[c] = part.middle[c];
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+sunder_status sunder_i_roomy_place(const sunder_i_translate *a, const sunder_i_translate *b, double radius, bool *found,
+                                   double place[2], sunder_error *err)
+{
+    const sunder_i_translate *const of[2] = {a, b};
+    overlap_sides sides;
+    *found = false;
+    if (!collect(of, &sides) || !sunder_i_steps(sides.n)) {
+        sunder_i_free(sides.side);
+        return sunder_i_no_memory(err);
+    }
+    *found = search(&sides, radius, place);
+    sunder_i_free(sides.side);
+    return SUNDER_OK;
+}
