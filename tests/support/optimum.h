@@ -1,0 +1,56 @@
+/* The least cost of taking a few bodies apart, by a plain branch and bound of its own: for tests of what the library
+ * says of its own results. Shares no code with src/.
+ *
+ * A body moves by t, no farther than its limit; its cost is weight * |t|^2. Pieces say what the move of one body
+ * relative to another's, u = t_b - t_a, must stay out of. */
+#ifndef SUNDER_TESTS_OPTIMUM_H
+#define SUNDER_TESTS_OPTIMUM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { OPTIMUM_BODIES = 6, OPTIMUM_CORNERS = 12 };
+
+typedef struct optimum_body {
+    double weight, limit; /* limit 0: fixed; INFINITY: none */
+} optimum_body;
+
+/* An open convex set: all places nearer than the radius to the polygon's interior; or a shadow, which ends nowhere. */
+typedef struct optimum_piece {
+    size_t a, b; /* bodies */
+    double radius;
+    size_t corners;
+    double
+        xy[2 *
+           OPTIMUM_CORNERS]; /* counter-clockwise; of a shadow the near side, whose ends go on away from the origin */
+    bool shadow;             /* then the radius is 0 */
+} optimum_piece;
+
+typedef struct optimum_problem {
+    optimum_body body[OPTIMUM_BODIES];
+    size_t bodies;
+    optimum_piece *piece;
+    size_t pieces, room;
+} optimum_problem;
+
+/* What body b with the convex part q may not do to body a with the convex part p, of which one has area: to come nearer
+ * than the radius, or (radius 0) to let the interiors meet. Corners counter-clockwise, multiples of 2^-10 below 2^23,
+ * so that differences and turns of three are exact. */
+void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p, size_t np, const double *q, size_t nq,
+                        double radius);
+/* The way of an anchor of body b, relative to body a, may not meet the convex part q of a. The anchor is outside. */
+void optimum_keep_off(optimum_problem *m, size_t a, size_t b, const double *q, size_t nq, const double anchor[2]);
+void optimum_free(optimum_problem *m);
+
+typedef struct optimum_answer {
+    double low, high; /* the optimum lies between; both INFINITY: it is at least `below` */
+    bool open;        /* too many nodes, or a certificate that did not hold: `low` is what was proved till then */
+    size_t nodes;
+} optimum_answer;
+
+/* The optimum, if it is less than `below`, which is finite. `low` is proved: each node's bound is a value of the dual
+ * with its own rounding taken off. `high` is the cost of a place that misses what it owes by at most 1e-9. They are at
+ * most `relative` of themselves, and 1e-10, apart unless it says open. */
+optimum_answer optimum_find(const optimum_problem *m, double below, double relative, size_t most_nodes);
+
+#endif

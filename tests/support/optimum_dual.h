@@ -1,0 +1,25 @@
+/* Least squares under linear constraints, for the nodes of optimum.c: min sum weight |t|^2, n.(t_b - t_a) >= h. */
+#ifndef SUNDER_TESTS_OPTIMUM_DUAL_H
+#define SUNDER_TESTS_OPTIMUM_DUAL_H
+
+#include "optimum.h"
+
+enum { OPTIMUM_ROWS = 512, OPTIMUM_NOBODY = OPTIMUM_BODIES };
+
+typedef struct optimum_row {
+    size_t a, b; /* bodies, or OPTIMUM_NOBODY, which stands still */
+    double n[2], h;
+} optimum_row;
+
+typedef enum optimum_verdict { OPTIMUM_SOLVED, OPTIMUM_INFEASIBLE, OPTIMUM_STUCK } optimum_verdict;
+
+typedef struct optimum_solution {
+    double t[2 * (OPTIMUM_BODIES + 1)]; /* nobody's is 0 */
+    double cost, bound;                 /* the bound holds whatever the solution is worth */
+} optimum_solution;
+
+/* Of an infeasible one the bound is at least `enough`, else the verdict is OPTIMUM_STUCK. */
+optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, size_t n, double enough,
+                              optimum_solution *s);
+
+#endif
