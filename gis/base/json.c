@@ -11,29 +11,13 @@
 
 void gis_json_clear(gis_json *out)
 {
-    free(out->text);
+    gis_text_clear(&out->text);
     *out = (gis_json){0};
 }
 
-const char *gis_json_text(const gis_json *out) { return out->failed ? NULL : out->text ? out->text : ""; }
+const char *gis_json_text(const gis_json *out) { return gis_text_get(&out->text); }
 
-static void append(gis_json *out, const char *bytes, size_t n)
-{
-    if (out->failed) return;
-    if (out->capacity - out->length <= n) {
-        size_t capacity = out->capacity * 2 + n + 256;
-        char *text = realloc(out->text, capacity);
-        if (!text) {
-            out->failed = true;
-            return;
-        }
-        out->text = text;
-        out->capacity = capacity;
-    }
-    memcpy(out->text + out->length, bytes, n);
-    out->length += n;
-    out->text[out->length] = '\0';
-}
+static void append(gis_json *out, const char *bytes, size_t n) { gis_text_add_bytes(&out->text, bytes, n); }
 
 static void begin_value(gis_json *out)
 {

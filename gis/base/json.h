@@ -3,14 +3,12 @@
 #ifndef GIS_JSON_H
 #define GIS_JSON_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "base/text.h"
+
 #include <stdint.h>
 
 typedef struct gis_json {
-    char *text;
-    size_t length, capacity;
-    bool failed;
+    gis_text text;
     bool need_comma; /* a value stands before this place in the innermost container */
 } gis_json;
 

@@ -253,7 +253,8 @@ gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, 
 
 gis_destinations gis_resolve_destinations(const gis_options *options)
 {
-    gis_destinations to = {.output = output_of(options), .stats = options->text[OPT_STATS]};
+    gis_destinations to = {
+        .output = output_of(options), .stats = options->text[OPT_STATS], .report = options->text[OPT_REPORT]};
     for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];

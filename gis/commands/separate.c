@@ -1,6 +1,7 @@
 /* separate.c: sunder separate. Read, separate, write, say what came of it. */
 #include "base/message.h"
 #include "base/resources.h"
+#include "commands/call.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
 #include "commands/report.h"
@@ -223,14 +224,39 @@ static bool print_summary(const void *separated, gis_error *error)
     return true;
 }
 
+static bool write_page(const separate_run *run, gis_text *page, gis_error *error)
+{
+    gis_call call = {0};
+    bool ok = gis_call_list(run->options, &call, error);
+    const gis_page_request request = {
+        .input = &run->input,
+        .report = run->report,
+        .summary = &run->summary,
+        .unit = unit_name(run),
+        .output = run->to.output,
+        .main_layer = gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer,
+        .verified = run->verified,
+        .optimality_gap = optimality_gap(&run->summary),
+        .losses = gis_sink_losses(run->sink),
+        .options = call.option,
+        .n_options = call.n,
+    };
+    ok = ok && gis_page_write(&request, page, error);
+    gis_call_clear(&call);
+    return ok;
+}
+
 static bool deliver(const separate_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
+    gis_text page = {0};
+    bool ok = !run->to.report || write_page(run, &page, error);
     if (run->to.stats) json_separate(&stats, run);
-    const gis_delivery delivery = {run->to.stats, run->sink, &stats,
-                                   taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
-    bool ok = gis_deliver(&delivery, error);
+    const gis_delivery delivery = {
+        &run->to, run->sink, &stats, &page, taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+    ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
+    gis_text_clear(&page);
     return ok;
 }
 

@@ -35,43 +35,58 @@ static bool check_texts(const gis_destinations *to, gis_error *error)
     return !read || gis_fail(error, "%s is an input; give another output", to->output);
 }
 
-static bool check_stats(const gis_destinations *to, gis_error *error)
+/* Can a file that `option` names be made, and is it neither an input nor the output? */
+static bool check_file(const gis_destinations *to, const char *option, const char *path, gis_error *error)
 {
-    const char *path = to->stats;
     struct stat info;
-    if (!path || strcmp(path, "-") == 0) return true;
     for (size_t i = 0; i < N_OF(to->input); i++)
         if (reads(to->input[i], path))
-            return gis_fail_usage(error, "--stats %s: that is an input; give another file", path);
+            return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
+    for (size_t i = 0; i < N_OF(to->shape); i++)
+        if (reads_text(to->shape[i], path))
+            return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
     if (reads(to->output, path))
-        return gis_fail_usage(error, "--stats %s: that is the output; give another file", path);
+        return gis_fail_usage(error, "%s %s: that is the output; give another file", option, path);
     bool there = stat(path, &info) == 0;
-    if (!there && lstat(path, &info) == 0) return gis_fail(error, "--stats: %s is a link that leads nowhere", path);
-    if (there && S_ISDIR(info.st_mode)) return gis_fail(error, "--stats: %s is a directory", path);
-    if (there && access(path, W_OK) != 0) return gis_fail(error, "--stats: cannot write %s: %s", path, strerror(errno));
+    if (!there && lstat(path, &info) == 0) return gis_fail(error, "%s: %s is a link that leads nowhere", option, path);
+    if (there && S_ISDIR(info.st_mode)) return gis_fail(error, "%s: %s is a directory", option, path);
+    if (there && access(path, W_OK) != 0)
+        return gis_fail(error, "%s: cannot write %s: %s", option, path, strerror(errno));
     char directory[4096];
     const char *slash = strrchr(path, '/');
     snprintf(directory, sizeof directory, "%.*s", slash ? (int)(slash - path + 1) : 1, slash ? path : ".");
     if ((!there || S_ISREG(info.st_mode)) && access(directory, W_OK) != 0)
-        return gis_fail(error, "--stats: cannot write to %s: %s", directory, strerror(errno));
+        return gis_fail(error, "%s: cannot write to %s: %s", option, directory, strerror(errno));
     return true;
+}
+
+static bool is_stdout(const char *path) { return path && strcmp(path, "-") == 0; }
+
+static bool check_files(const gis_destinations *to, gis_error *error)
+{
+    if (is_stdout(to->report))
+        return gis_fail_usage(error, "--report -: the page goes to a file; give its name, as in --report out.html");
+    if (to->stats && to->report && !is_stdout(to->stats) && gis_path_lies_in(to->report, to->stats))
+        return gis_fail_usage(error, "--report %s: that is the file of --stats; give another", to->report);
+    return (!to->stats || is_stdout(to->stats) || check_file(to, "--stats", to->stats, error)) &&
+           (!to->report || check_file(to, "--report", to->report, error));
 }
 
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error)
 {
     static const char layer[] = "/vsistdout";
-    bool by_stats = to->stats && strcmp(to->stats, "-") == 0;
+    bool by_stats = is_stdout(to->stats);
     bool by_layer = to->output && strncmp(to->output, layer, sizeof layer - 1) == 0;
     if (by_stats && by_layer)
         return gis_fail_usage(error, "--stats - and the output /vsistdout/ cannot share standard output");
     *stdout_taken = by_stats || by_layer;
-    return check_texts(to, error) && check_stats(to, error);
+    return check_texts(to, error) && check_files(to, error);
 }
 
 bool gis_print_json(const void *json, gis_error *error)
 {
-    const gis_json *text = json;
-    return fwrite(gis_json_text(text), 1, text->length, stdout) == text->length ||
+    const gis_text *text = &((const gis_json *)json)->text;
+    return fwrite(gis_text_get(text), 1, text->length, stdout) == text->length ||
            gis_fail(error, "cannot write to standard output: %s", strerror(errno));
 }
 
@@ -81,19 +96,32 @@ static bool flush_stdout(gis_error *error)
     return gis_fail(error, "cannot write to standard output: %s", strerror(errno));
 }
 
+static bool write_file(gis_text_file *file, const char *option, const char *path, const gis_text *text,
+                       gis_error *error)
+{
+    if (!path) return true;
+    if (!gis_text_get(text)) return gis_no_memory(error);
+    return gis_text_file_write(file, path, gis_text_get(text), text->length, option, error);
+}
+
+static bool write_texts(const gis_delivery *delivery, gis_text_file *stats, gis_text_file *report, gis_error *error)
+{
+    const gis_destinations *to = delivery->to;
+    bool printed = is_stdout(to->stats);
+    if (!write_file(report, "--report", to->report, delivery->report, error)) return false;
+    if (!printed) return write_file(stats, "--stats", to->stats, to->stats ? &delivery->stats->text : NULL, error);
+    return gis_json_text(delivery->stats) ? gis_print_json(delivery->stats, error) : gis_no_memory(error);
+}
+
 bool gis_deliver(const gis_delivery *delivery, gis_error *error)
 {
-    static const char *const what = "--stats";
-    const char *path = delivery->stats_path;
-    gis_text_file file = {0};
-    bool ok = gis_go_on(error) && (!path || gis_json_text(delivery->stats) || gis_no_memory(error));
-    if (ok && path && strcmp(path, "-") == 0)
-        ok = gis_print_json(delivery->stats, error);
-    else if (ok && path)
-        ok = gis_text_file_write(&file, path, gis_json_text(delivery->stats), delivery->stats->length, what, error);
-    ok = ok && (!delivery->print || delivery->print(delivery->run, error)) && flush_stdout(error) &&
-         gis_text_file_place(&file, what, error) && (!delivery->sink || gis_sink_publish(delivery->sink, error));
-    gis_text_file_end(&file, ok);
+    gis_text_file stats = {0}, report = {0};
+    bool ok = gis_go_on(error) && write_texts(delivery, &stats, &report, error) &&
+              (!delivery->print || delivery->print(delivery->run, error)) && flush_stdout(error) &&
+              gis_text_file_place(&stats, "--stats", error) && gis_text_file_place(&report, "--report", error) &&
+              (!delivery->sink || gis_sink_publish(delivery->sink, error));
+    gis_text_file_end(&stats, ok);
+    gis_text_file_end(&report, ok);
     if (ok && delivery->sink) {
         gis_say_warnings(gis_sink_warnings(delivery->sink));
         gis_say_warnings(gis_sink_losses(delivery->sink));

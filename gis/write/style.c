@@ -126,14 +126,16 @@ static bool copy_styles(GDALDatasetH dataset, OGRLayerH layer, const gis_source 
 bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, const gis_source *source,
                       gis_error *error)
 {
-    char *qml = gis_style_qml(style, OGR_L_GetGeomType(layer));
-    bool table_made = false, done = true;
-    if (qml) {
-        row ours = {OURS, qml, "", "drawn for the results of sunder", OURS, true};
+    gis_text qml = {0};
+    bool table_made = false;
+    gis_style_qml(&qml, style, OGR_L_GetGeomType(layer));
+    bool done = !qml.failed || gis_no_memory(error);
+    if (done && qml.length > 0) {
+        row ours = {OURS, gis_text_get(&qml), "", "drawn for the results of sunder", OURS, true};
         done = prepare_table(dataset, error) && insert(dataset, layer, &ours, error);
         table_made = true;
     }
-    CPLFree(qml);
+    gis_text_clear(&qml);
     return done && (!source || copy_styles(dataset, layer, source, &table_made, error));
 }
 

@@ -6,6 +6,7 @@
 #include <ogr_api.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "write/sink.h"
 
 /* Writes our style for `layer` as its default, and copies the styles that the source's GeoPackage has for the source's
@@ -17,7 +18,7 @@ bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, co
 /* Takes away the styles of a layer that is about to be replaced, if there are any. */
 bool gis_styles_forget(GDALDatasetH dataset, const char *layer, gis_error *error);
 
-/* The QGIS style document for a layer of this geometry type; CPLFree(). NULL if there is none. */
-char *gis_style_qml(gis_style style, OGRwkbGeometryType type);
+/* Adds the QGIS style document for a layer of this geometry type; nothing for GIS_STYLE_NONE. */
+void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type);
 
 #endif

@@ -6,35 +6,7 @@
 #include "sunder.h"
 #include "write/style.h"
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
-#include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
-
-typedef struct text {
-    char *at;
-    size_t n, capacity;
-} text;
-
-static void add(text *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void add(text *to, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    va_list again;
-    va_copy(again, arguments);
-    size_t need = (size_t)vsnprintf(NULL, 0, format, again) + 1;
-    va_end(again);
-    if (to->n + need > to->capacity) {
-        to->capacity = 2 * (to->n + need);
-        to->at = CPLRealloc(to->at, to->capacity);
-    }
-    vsnprintf(to->at + to->n, need, format, arguments);
-    va_end(arguments);
-    to->n += need - 1;
-}
 
 typedef enum kind { OF_POINTS, OF_LINES, OF_POLYGONS } kind;
 
@@ -46,17 +18,17 @@ static kind kind_of(OGRwkbGeometryType type)
     return OF_POLYGONS;
 }
 
-static void add_property(text *to, const char *key, const char *value)
+static void add_property(gis_text *to, const char *key, const char *value)
 {
-    add(to, "<prop k=\"%s\" v=\"%s\"/>", key, value);
+    gis_text_print(to, "<prop k=\"%s\" v=\"%s\"/>", key, value);
 }
 
-static void begin_layer(text *to, const char *class)
+static void begin_layer(gis_text *to, const char *class)
 {
-    add(to, "<layer class=\"%s\" enabled=\"1\" pass=\"0\" locked=\"0\">", class);
+    gis_text_print(to, "<layer class=\"%s\" enabled=\"1\" pass=\"0\" locked=\"0\">", class);
 }
 
-static void add_fill(text *to, const char *colour, const char *outline)
+static void add_fill(gis_text *to, const char *colour, const char *outline)
 {
     begin_layer(to, "SimpleFill");
     add_property(to, "color", colour);
@@ -65,10 +37,10 @@ static void add_fill(text *to, const char *colour, const char *outline)
     add_property(to, "outline_color", outline);
     add_property(to, "outline_width", "0.1");
     add_property(to, "outline_width_unit", "MM");
-    add(to, "</layer>");
+    gis_text_print(to, "</layer>");
 }
 
-static void add_line(text *to, const char *colour, const char *width)
+static void add_line(gis_text *to, const char *colour, const char *width)
 {
     begin_layer(to, "SimpleLine");
     add_property(to, "line_color", colour);
@@ -76,10 +48,10 @@ static void add_line(text *to, const char *colour, const char *width)
     add_property(to, "line_width", width);
     add_property(to, "line_width_unit", "MM");
     add_property(to, "capstyle", "round");
-    add(to, "</layer>");
+    gis_text_print(to, "</layer>");
 }
 
-static void add_marker(text *to, const char *shape, const char *colour, const char *size)
+static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size)
 {
     begin_layer(to, "SimpleMarker");
     add_property(to, "name", shape);
@@ -87,19 +59,19 @@ static void add_marker(text *to, const char *shape, const char *colour, const ch
     add_property(to, "outline_style", "no");
     add_property(to, "size", size);
     add_property(to, "size_unit", "MM");
-    add(to, "</layer>");
+    gis_text_print(to, "</layer>");
 }
 
 static const char *symbol_type(kind of) { return of == OF_POINTS ? "marker" : of == OF_LINES ? "line" : "fill"; }
 
-static void begin_symbol(text *to, const char *type, const char *name)
+static void begin_symbol(gis_text *to, const char *type, const char *name)
 {
-    add(to, "<symbol name=\"%s\" type=\"%s\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">", name, type);
+    gis_text_print(to, "<symbol name=\"%s\" type=\"%s\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">", name, type);
 }
 
 /* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
-static void add_marker_line(text *to, const char *placement, const char *parent, const char *shape, const char *colour,
-                            const char *size)
+static void add_marker_line(gis_text *to, const char *placement, const char *parent, const char *shape,
+                            const char *colour, const char *size)
 {
     begin_layer(to, "MarkerLine");
     add_property(to, "placement", placement);
@@ -108,10 +80,10 @@ static void add_marker_line(text *to, const char *placement, const char *parent,
     snprintf(name, sizeof name, "@%s@1", parent);
     begin_symbol(to, "marker", name);
     add_marker(to, shape, colour, size);
-    add(to, "</symbol></layer>");
+    gis_text_print(to, "</symbol></layer>");
 }
 
-static void add_symbol(text *to, kind of, const char *name, const char *colour, const char *outline)
+static void add_symbol(gis_text *to, kind of, const char *name, const char *colour, const char *outline)
 {
     begin_symbol(to, symbol_type(of), name);
     if (of == OF_POINTS)
@@ -120,7 +92,7 @@ static void add_symbol(text *to, kind of, const char *name, const char *colour, 
         add_line(to, colour, "0.6");
     else
         add_fill(to, colour, outline);
-    add(to, "</symbol>\n");
+    gis_text_print(to, "</symbol>\n");
 }
 
 /* ---- Renderers --------------------------------------------------------------------------------------------------- */
@@ -137,82 +109,81 @@ static const struct {
 };
 enum { STATUSES = sizeof statuses / sizeof *statuses };
 
-static void add_by_status(text *to, kind of)
+static void add_by_status(gis_text *to, kind of)
 {
-    add(to, "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
-            "enableorderby=\"0\">\n<categories>\n");
+    gis_text_print(to,
+                   "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
+                   "enableorderby=\"0\">\n<categories>\n");
     for (int i = 0; i < STATUSES; i++) {
         const char *word = sunder_feature_status_string((sunder_feature_status)i);
-        add(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", word, word, i);
+        gis_text_print(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", word, word, i);
     }
-    add(to, "</categories>\n<symbols>\n");
+    gis_text_print(to, "</categories>\n<symbols>\n");
     for (int i = 0; i < STATUSES; i++) {
         char name[12];
         snprintf(name, sizeof name, "%d", i);
         add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
     }
-    add(to, "</symbols>\n</renderer-v2>\n");
+    gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
-static void begin_single(text *to)
+static void begin_single(gis_text *to)
 {
-    add(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
-            "<symbols>\n");
+    gis_text_print(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
+                       "<symbols>\n");
 }
 
-static void end_single(text *to) { add(to, "</symbols>\n</renderer-v2>\n"); }
+static void end_single(gis_text *to) { gis_text_print(to, "</symbols>\n</renderer-v2>\n"); }
 
 /* A head of fixed size at the end of each move: moves are often shorter on the sheet than any arrow. */
-static void add_arrows(text *to)
+static void add_arrows(gis_text *to)
 {
     static const char blue[] = "31,78,200,255";
     begin_single(to);
     begin_symbol(to, "line", "0");
     add_line(to, blue, "0.4");
     add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8");
-    add(to, "</symbol>\n");
+    gis_text_print(to, "</symbol>\n");
     end_single(to);
 }
 
 /* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. */
-static void add_conflicts(text *to)
+static void add_conflicts(gis_text *to)
 {
     static const char magenta[] = "231,0,138,255";
     begin_single(to);
     begin_symbol(to, "line", "0");
     add_line(to, magenta, "1.2");
     add_marker_line(to, "firstvertex", "0", "circle", magenta, "2.2");
-    add(to, "</symbol>\n");
+    gis_text_print(to, "</symbol>\n");
     end_single(to);
 }
 
-static void add_plain(text *to, kind of, const char *colour, const char *outline)
+static void add_plain(gis_text *to, kind of, const char *colour, const char *outline)
 {
     begin_single(to);
     add_symbol(to, of, "0", colour, outline);
     end_single(to);
 }
 
-char *gis_style_qml(gis_style style, OGRwkbGeometryType type)
+void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
 {
     kind of = kind_of(type);
-    if (style == GIS_STYLE_NONE) return NULL;
-    text to = {0};
-    add(&to, "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
-             "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
+    if (style == GIS_STYLE_NONE) return;
+    gis_text_print(to, "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+                       "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
     switch (style) {
     case GIS_STYLE_NONE: break;
-    case GIS_STYLE_STATUS: add_by_status(&to, of); break;
-    case GIS_STYLE_DISPLACEMENT: add_arrows(&to); break;
-    case GIS_STYLE_CONFLICTS: add_conflicts(&to); break;
-    case GIS_STYLE_SYMBOLS: add_plain(&to, of, "166,206,227,255", "31,78,120,255"); break;
+    case GIS_STYLE_STATUS: add_by_status(to, of); break;
+    case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
+    case GIS_STYLE_CONFLICTS: add_conflicts(to); break;
+    case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;
     case GIS_STYLE_RESULT:
         if (of == OF_POLYGONS)
-            add_plain(&to, of, "166,206,227,255", "31,78,120,255");
+            add_plain(to, of, "166,206,227,255", "31,78,120,255");
         else
-            add_plain(&to, of, "231,0,138,255", "");
+            add_plain(to, of, "231,0,138,255", "");
         break;
     }
-    add(&to, "<blendMode>0</blendMode>\n<layerGeometryType>%d</layerGeometryType>\n</qgis>\n", (int)of);
-    return to.at;
+    gis_text_print(to, "<blendMode>0</blendMode>\n<layerGeometryType>%d</layerGeometryType>\n</qgis>\n", (int)of);
 }

@@ -1,0 +1,53 @@
+/* text.c: see text.h. */
+#include "base/text.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void gis_text_clear(gis_text *text)
+{
+    free(text->at);
+    *text = (gis_text){0};
+}
+
+const char *gis_text_get(const gis_text *text) { return text->failed ? NULL : text->at ? text->at : ""; }
+
+/* Room for n bytes more and the NUL. */
+static bool reserve(gis_text *text, size_t n)
+{
+    if (text->failed) return false;
+    if (text->capacity - text->length > n) return true;
+    size_t capacity = text->capacity * 2 + n + 256;
+    char *at = realloc(text->at, capacity);
+    text->failed = !at;
+    if (!at) return false;
+    text->at = at;
+    text->capacity = capacity;
+    return true;
+}
+
+void gis_text_add_bytes(gis_text *text, const char *bytes, size_t n)
+{
+    if (!reserve(text, n)) return;
+    memcpy(text->at + text->length, bytes, n);
+    text->length += n;
+    text->at[text->length] = '\0';
+}
+
+void gis_text_add(gis_text *text, const char *string) { gis_text_add_bytes(text, string, strlen(string)); }
+
+void gis_text_print(gis_text *text, const char *format, ...)
+{
+    va_list arguments, again;
+    va_start(arguments, format);
+    va_copy(again, arguments);
+    int n = vsnprintf(NULL, 0, format, again);
+    va_end(again);
+    if (n >= 0 && reserve(text, (size_t)n)) {
+        vsnprintf(text->at + text->length, (size_t)n + 1, format, arguments);
+        text->length += (size_t)n;
+    }
+    va_end(arguments);
+}

@@ -1,0 +1,18 @@
+/* call.h: what a command was asked to do, in words, for reports. */
+#ifndef GIS_CALL_H
+#define GIS_CALL_H
+
+#include "options/options.h"
+#include "report/page.h"
+
+/* The options that were given, in the order of the table; lists once a value. Start zeroed, clear in any case. */
+typedef struct gis_call {
+    gis_page_option *option;
+    size_t n, capacity;
+} gis_call;
+
+/* All but those of the section "Running", which change no result. */
+bool gis_call_list(const gis_options *options, gis_call *call, gis_error *error);
+void gis_call_clear(gis_call *call);
+
+#endif

@@ -1,0 +1,202 @@
+/* map_data.c: see map_data.h.
+ *
+ * Numbers are whole multiples of a step, and stand in texts as variable-length quantities in base 64, as in source maps
+ * [ECMA-426]: sign in the lowest bit, five bits a letter, the sixth says that more follow. So a corner takes some six
+ * bytes, and no letter means anything to HTML. The object holds
+ *
+ *   box            of all that is drawn; coordinates are its lower left corner plus a whole number of steps
+ *   step, unit     the length of one; what the layer's unit is called
+ *   label          names of the features drawn, in their order
+ *   status         a digit each, by the order of sunder_feature_status
+ *   move           dx, dy each
+ *   anchor         x, y of each whose move is not 0, as the difference from the one before
+ *   shape          of each feature its rings: how many corners, then the difference of each from the last one, through
+ *                  all features; 0 ends the feature
+ *   conflict       of each that is listed: is it proved? and the two ends of its link: x, y from the last, dx, dy
+ */
+#include "report/map_data.h"
+
+#include "base/interrupt.h"
+#include "base/json.h"
+#include "report/escape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Conflicts that the map shows, of the worst; a reader who wants more of them has the layer. */
+enum { MOST_CONFLICTS = 50000 };
+
+/* A text that is being written, and the place that differences are taken from. */
+typedef struct data_writer {
+    const gis_page_model *model;
+    const gis_thinning *thinning;
+    gis_text *to;
+    double step;
+    long long last[2];
+} data_writer;
+
+static void add_integer(gis_text *to, long long value)
+{
+    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    unsigned long long rest = value < 0 ? (unsigned long long)-value << 1 | 1 : (unsigned long long)value << 1;
+    char text[16];
+    size_t n = 0;
+    do {
+        unsigned digit = rest & 31;
+        rest >>= 5;
+        text[n++] = letters[digit | (rest ? 32U : 0)];
+    } while (rest);
+    gis_text_add_bytes(to, text, n);
+}
+
+/* Halves, since the extent may be more than a double holds. */
+static long long steps(const data_writer *writer, double value, int axis)
+{
+    return llround((value / 2 - writer->model->extent[axis] / 2) / (writer->step / 2));
+}
+
+static long long length_steps(const data_writer *writer, double value) { return llround(value / writer->step); }
+
+static void add_corner(data_writer *writer, double x, double y)
+{
+    const long long at[2] = {steps(writer, x, 0), steps(writer, y, 1)};
+    for (int k = 0; k < 2; k++) {
+        add_integer(writer->to, at[k] - writer->last[k]);
+        writer->last[k] = at[k];
+    }
+}
+
+/* The power of ten that is some thousandths of the lengths that matter (the gap, the mean move), or of an average
+ * feature where there are none; and no finer than the extent in 2^40 steps. */
+static double choose_step(const gis_page_model *model)
+{
+    const gis_page_request *request = model->request;
+    double extent = fmax(model->extent[2] / 2 - model->extent[0] / 2, model->extent[3] / 2 - model->extent[1] / 2);
+    double least = INFINITY;
+    if (request->input->gap > 0) least = request->input->gap;
+    if (request->summary->mean > 0) least = fmin(least, request->summary->mean);
+    if (isinf(least)) least = 2 * extent / sqrt((double)model->n + 1) / 10;
+    least = fmax(least / 200, extent * 0x1p-39);
+    double step = least > 0 ? pow(10, floor(log10(least))) : 1;
+    return step > 0 && isfinite(step) ? step : 1;
+}
+
+/* ---- Columns ----------------------------------------------------------------------------------------------------- */
+
+typedef bool add_cell(data_writer *writer, size_t feature, gis_error *error);
+
+static bool add_column(data_writer *writer, const char *name, add_cell *cell, gis_error *error)
+{
+    gis_text_print(writer->to, ",\n\"%s\": \"", name);
+    writer->last[0] = writer->last[1] = 0;
+    for (size_t i = 0; i < writer->model->n; i++)
+        if (writer->thinning->drawn[i] && (!gis_go_on(error) || !cell(writer, i, error))) return false;
+    gis_text_add(writer->to, "\"");
+    return true;
+}
+
+static bool add_status(data_writer *writer, size_t i, gis_error *error)
+{
+    (void)error;
+    gis_text_print(writer->to, "%d", (int)writer->model->feature[i].status);
+    return true;
+}
+
+static bool add_move(data_writer *writer, size_t i, gis_error *error)
+{
+    (void)error;
+    for (int k = 0; k < 2; k++) add_integer(writer->to, length_steps(writer, writer->model->feature[i].move[k]));
+    return true;
+}
+
+static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
+{
+    (void)error;
+    const gis_page_feature *feature = &writer->model->feature[i];
+    double at[2];
+    if (length_steps(writer, feature->move[0]) == 0 && length_steps(writer, feature->move[1]) == 0) return true;
+    sunder_shape_anchor(feature->shape, at);
+    add_corner(writer, at[0], at[1]);
+    return true;
+}
+
+/* The rings of a feature as they are drawn: those that are left, one after the other. */
+static bool add_shape(data_writer *writer, size_t i, gis_error *error)
+{
+    const sunder_shape *shape = writer->model->feature[i].shape;
+    double tolerance = writer->thinning->drawn[i] == GIS_DRAWN_SIMPLER ? writer->thinning->tolerance : 0;
+    gis_corners scratch = {0};
+    bool ok = true;
+    for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
+        for (size_t r = 0; ok && r < sunder_shape_rings(shape, p); r++) {
+            size_t n;
+            const double *ring = sunder_shape_ring(shape, p, r, &n);
+            if (tolerance > 0) {
+                ok = gis_corners_simplify(&scratch, ring, n, tolerance, error);
+                ring = scratch.xy;
+                n = scratch.n;
+            }
+            if (!ok || n == 0) continue;
+            add_integer(writer->to, (long long)n);
+            for (size_t k = 0; k < n; k++) add_corner(writer, ring[2 * k], ring[2 * k + 1]);
+        }
+    gis_corners_clear(&scratch);
+    add_integer(writer->to, 0); /* no ring has so few corners: the feature ends */
+    return ok;
+}
+
+static bool add_labels(data_writer *writer, gis_error *error)
+{
+    gis_text name = {0};
+    const char *separator = "";
+    gis_text_add(writer->to, ",\n\"label\": [");
+    for (size_t i = 0; i < writer->model->n; i++) {
+        if (writer->thinning->drawn[i] == GIS_DRAWN_NOT) continue;
+        name.length = 0;
+        gis_page_name(writer->model, i, &name);
+        if (!gis_text_get(&name)) break;
+        gis_text_add(writer->to, separator);
+        gis_escape_script(writer->to, gis_text_get(&name));
+        separator = ",";
+    }
+    gis_text_add(writer->to, "]");
+    bool ok = !name.failed || gis_no_memory(error);
+    gis_text_clear(&name);
+    return ok;
+}
+
+static void add_conflicts(data_writer *writer)
+{
+    const gis_page_model *model = writer->model;
+    gis_text_add(writer->to, ",\n\"conflict\": \"");
+    writer->last[0] = writer->last[1] = 0;
+    for (size_t k = 0; k < model->n_conflicts && k < MOST_CONFLICTS; k++) {
+        const sunder_conflict *each = model->conflict[k];
+        add_integer(writer->to, each->reason != SUNDER_REASON_UNRESOLVED);
+        add_corner(writer, each->from[0], each->from[1]);
+        add_corner(writer, each->to[0], each->to[1]);
+    }
+    gis_text_add(writer->to, "\"");
+}
+
+bool gis_map_data_write(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
+{
+    data_writer writer = {.model = model, .thinning = thinning, .to = to, .step = choose_step(model)};
+    gis_json head = {0};
+    gis_json_open(&head, '{');
+    gis_json_put_double(&head, "step", writer.step);
+    gis_json_put_string(&head, "unit", model->unit.length);
+    gis_json_key(&head, "box");
+    gis_json_open(&head, '[');
+    for (int k = 0; k < 4; k++) gis_json_double(&head, model->extent[k]);
+    gis_json_close(&head, ']');
+    bool ok = gis_json_text(&head) || gis_no_memory(error);
+    if (ok) gis_text_add(to, gis_json_text(&head));
+    gis_json_clear(&head);
+    ok = ok && add_labels(&writer, error) && add_column(&writer, "status", add_status, error) &&
+         add_column(&writer, "move", add_move, error) && add_column(&writer, "anchor", add_anchor, error) &&
+         add_column(&writer, "shape", add_shape, error);
+    if (ok) add_conflicts(&writer);
+    gis_text_add(to, "}\n");
+    return ok;
+}

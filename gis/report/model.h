@@ -1,0 +1,59 @@
+/* model.h: what the page shows, before any of it is drawn or written: features, barriers and conflicts as the core
+ * reports them, brought into the order in which a reader wants them. */
+#ifndef GIS_REPORT_MODEL_H
+#define GIS_REPORT_MODEL_H
+
+#include "report/number.h"
+#include "report/page.h"
+
+/* A box is xmin, ymin, xmax, ymax. */
+typedef struct gis_page_feature {
+    const sunder_shape *shape; /* NULL: there is nothing to draw */
+    double box[4];             /* where it stood */
+    double move[2];
+    double length; /* of the move */
+    sunder_feature_status status;
+    bool involved; /* is in a conflict that remains, or in the way of one */
+} gis_page_feature;
+
+/* A piece of the map that deserves a closer look. */
+typedef struct gis_page_place {
+    double window[4];                /* of one aspect, so that pictures stand beside each other */
+    const sunder_conflict *conflict; /* the worst one there; NULL: the place is there for a move */
+    size_t feature;                  /* then whose */
+    size_t others; /* conflicts, or moves, that are shown along with it and have no place of their own */
+} gis_page_place;
+
+enum { GIS_PAGE_PLACES = 12 };
+
+typedef struct gis_page_model {
+    const gis_page_request *request;
+    gis_report_unit unit;
+    size_t n;
+    gis_page_feature *feature;        /* [n] */
+    double extent[4];                 /* of all that is drawn, before and after; empty: all zero */
+    bool empty;                       /* nothing is drawn */
+    const sunder_conflict **conflict; /* those between blocks, the worst first */
+    size_t n_conflicts;
+    size_t *moved; /* features, the longest move first */
+    size_t n_moved;
+    gis_page_place place[GIS_PAGE_PLACES]; /* conflicts, then moves */
+    size_t n_places;
+} gis_page_model;
+
+/* Clear in any case. */
+bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error);
+void gis_page_model_clear(gis_page_model *model);
+
+/* By which name a reader knows a feature: "FID 12", with the user's own id if there is one. Plain text, not escaped. */
+void gis_page_name(const gis_page_model *model, size_t thing, gis_text *to);
+
+/* ---- Boxes ------------------------------------------------------------------------------------------------------- */
+
+void gis_box_clear(double box[4]); /* holds nothing */
+void gis_box_add(double box[4], const double other[4]);
+bool gis_box_meets(const double a[4], const double b[4]);
+/* A feature's box, moved by a part of its move: 0 before, 1 after. */
+void gis_page_box(const gis_page_feature *feature, double part, double box[4]);
+
+#endif

@@ -1,0 +1,163 @@
+// draw.js: the layer on a canvas, at a moment between before (0) and after (1).
+
+// Colours of the style sheet, as they are now: in the dark, or on paper.
+function readColours() {
+  const style = getComputedStyle(document.documentElement), colours = {};
+  for (const name of ["ground", "ink", "paper", "unmoved", "fixed", "moved", "stood", "blocked", "skipped", "arrow", "link"]) {
+    colours[name] = style.getPropertyValue("--" + name).trim();
+    colours[name + "Line"] = style.getPropertyValue("--" + name + "-line").trim();
+  }
+  return colours;
+}
+
+// Something of so many pixels: seen as a dot; an outline is drawn; an arrow is; places where it stood are.
+const leastShape = 1.5, leastOutline = 6, leastArrow = 4, leastGhost = 8;
+// So many features, or fewer, are drawn one by one, so that overlaps show through; and so many corners of many at once.
+const fewFeatures = 4000, manyCorners = 4000;
+
+// Puts a feature's rings, moved by a part of its move, into the path that is open. Returns how many corners.
+function traceFeature(context, layer, view, f, part) {
+  const { ringsOf, cornersOf, corners } = layer.shapes;
+  const x = view.x + part * layer.move[2 * f] * view.scale, y = view.y - part * layer.move[2 * f + 1] * view.scale;
+  for (let r = ringsOf[f]; r < ringsOf[f + 1]; r++) {
+    for (let i = cornersOf[r]; i < cornersOf[r + 1]; i++) {
+      const px = x + corners[2 * i] * view.scale, py = y - corners[2 * i + 1] * view.scale;
+      if (i === cornersOf[r]) context.moveTo(px, py);
+      else context.lineTo(px, py);
+    }
+    context.closePath();
+  }
+  return cornersOf[ringsOf[f + 1]] - cornersOf[ringsOf[f]];
+}
+
+// Is a feature in the picture then? Gives its larger side in pixels, or 0.
+function sizeInView(layer, view, f, part) {
+  const box = 4 * f, dx = part * layer.move[2 * f], dy = part * layer.move[2 * f + 1];
+  const left = view.x + (layer.boxes[box] + dx) * view.scale, right = view.x + (layer.boxes[box + 2] + dx) * view.scale;
+  const top = view.y - (layer.boxes[box + 3] + dy) * view.scale, low = view.y - (layer.boxes[box + 1] + dy) * view.scale;
+  if (right < 0 || left > view.width || low < 0 || top > view.height) return 0;
+  return Math.max(right - left, low - top, 1e-3);
+}
+
+function drawDot(context, layer, view, f, part) {
+  const x = view.x + (layer.boxes[4 * f] + part * layer.move[2 * f]) * view.scale;
+  const y = view.y - (layer.boxes[4 * f + 3] + part * layer.move[2 * f + 1]) * view.scale;
+  context.fillRect(x, y, leastShape, leastShape);
+}
+
+// Those of one status that are seen: small ones as dots, the others one by one, or many in one path.
+function drawFeatures(context, layer, view, features, part, fill, line, few, width) {
+  const seen = [];
+  context.fillStyle = fill;
+  context.strokeStyle = line;
+  context.lineWidth = width;
+  for (const f of features) {
+    const size = sizeInView(layer, view, f, part);
+    if (size >= leastShape) seen.push(f);
+    else if (size > 0) drawDot(context, layer, view, f, part);
+  }
+  context.globalAlpha = few ? 0.86 : 1;
+  for (let i = 0; i < seen.length;) {
+    context.beginPath();
+    let outlined = true;
+    for (let n = 0; i < seen.length && n < (few ? 1 : manyCorners); i++) {
+      n += traceFeature(context, layer, view, seen[i], part);
+      outlined = outlined && sizeInView(layer, view, seen[i], part) >= leastOutline;
+    }
+    context.fill("nonzero");
+    if (outlined || few) context.stroke();
+  }
+  context.globalAlpha = 1;
+}
+
+function drawGhosts(context, layer, view, features, colours) {
+  context.strokeStyle = colours.stoodLine;
+  context.lineWidth = 1;
+  context.setLineDash([3, 2.5]);
+  for (const f of features) {
+    const length = Math.hypot(layer.move[2 * f], layer.move[2 * f + 1]) * view.scale;
+    if (length < 1 || sizeInView(layer, view, f, 0) < leastGhost) continue;
+    context.beginPath();
+    traceFeature(context, layer, view, f, 0);
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
+function drawArrow(context, x0, y0, x1, y1) {
+  const length = Math.hypot(x1 - x0, y1 - y0), head = Math.min(8, length * 0.6);
+  const ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1 - ux * head * 0.8, y1 - uy * head * 0.8);
+  context.stroke();
+  context.beginPath();
+  context.moveTo(x1, y1);
+  context.lineTo(x1 - ux * head - uy * head * 0.4, y1 - uy * head + ux * head * 0.4);
+  context.lineTo(x1 - ux * head + uy * head * 0.4, y1 - uy * head - ux * head * 0.4);
+  context.fill();
+}
+
+function drawArrows(context, layer, view, features, colours) {
+  context.strokeStyle = context.fillStyle = colours.arrow;
+  context.lineWidth = 1.4;
+  for (const f of features) {
+    const dx = layer.move[2 * f] * view.scale, dy = -layer.move[2 * f + 1] * view.scale;
+    const x = view.x + layer.anchor[2 * f] * view.scale, y = view.y - layer.anchor[2 * f + 1] * view.scale;
+    const seen = Math.min(x, x + dx) < view.width && Math.max(x, x + dx) > 0 && Math.min(y, y + dy) < view.height &&
+      Math.max(y, y + dy) > 0;
+    if (seen && Math.hypot(dx, dy) >= leastArrow) drawArrow(context, x, y, x + dx, y + dy);
+  }
+}
+
+// Links of conflicts, with a disc where one would be too short to be seen; a ring if nothing is proved of it.
+function drawLinks(context, layer, view, colours) {
+  context.strokeStyle = context.fillStyle = colours.link;
+  context.lineCap = "round";
+  for (const { proved, ends } of layer.conflicts) {
+    const x0 = view.x + ends[0] * view.scale, y0 = view.y - ends[1] * view.scale;
+    const x1 = view.x + ends[2] * view.scale, y1 = view.y - ends[3] * view.scale;
+    if (Math.max(x0, x1) < -9 || Math.min(x0, x1) > view.width + 9 || Math.max(y0, y1) < -9 || Math.min(y0, y1) > view.height + 9)
+      continue;
+    context.lineWidth = 3;
+    context.beginPath();
+    context.moveTo(x0, y0);
+    context.lineTo(x1, y1);
+    context.stroke();
+    if (Math.hypot(x1 - x0, y1 - y0) > 12) continue;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.arc((x0 + x1) / 2, (y0 + y1) / 2, 5, 0, 2 * Math.PI);
+    if (proved) context.fill();
+    else context.stroke();
+  }
+}
+
+// A colour between two, both #rrggbb.
+function mix(from, to, part) {
+  const channel = (k) => {
+    const a = parseInt(from.slice(1 + 2 * k, 3 + 2 * k), 16), b = parseInt(to.slice(1 + 2 * k, 3 + 2 * k), 16);
+    return Math.round(a + part * (b - a)).toString(16).padStart(2, "0");
+  };
+  return "#" + channel(0) + channel(1) + channel(2);
+}
+
+// The whole picture. What moved goes from amber to green on its way.
+function drawLayer(context, layer, lists, view, part, colours) {
+  context.fillStyle = colours.ground;
+  context.fillRect(0, 0, view.width, view.height);
+  let seen = 0;
+  for (let f = 0; f < layer.count && seen <= fewFeatures; f++) seen += sizeInView(layer, view, f, part) >= leastShape;
+  for (const status of drawingOrder) {
+    const name = statusNames[status], from = name === "moved" ? "stood" : name;
+    const fill = part === 1 ? colours[name] : mix(colours[from], colours[name], part);
+    const line = part === 1 ? colours[name + "Line"] : mix(colours[from + "Line"], colours[name + "Line"], part);
+    drawFeatures(context, layer, view, lists[status], part, fill, line, seen <= fewFeatures, name === "blocked" ? 1.8 : 0.8);
+  }
+  if (part > 0)
+    for (const status of [1, 3]) {
+      drawGhosts(context, layer, view, lists[status], colours);
+      drawArrows(context, layer, view, lists[status], colours);
+    }
+  if (part === 1) drawLinks(context, layer, view, colours);
+}

@@ -1,0 +1,203 @@
+/* pictures.c: see pictures.h. Each class of features is one path, named for what the page's style sheet makes of it:
+ * those that stand still lie lowest, those in conflict on top. Units are tenths of a pixel. */
+#include "report/pictures.h"
+
+#include "base/interrupt.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The order in which classes are drawn, and what they are called after and before the move. */
+static const struct {
+    sunder_feature_status status;
+    const char *after, *before;
+} classes[] = {
+    {SUNDER_FEATURE_SKIPPED, "skipped", "skipped"}, {SUNDER_FEATURE_UNMOVED, "unmoved", "unmoved"},
+    {SUNDER_FEATURE_FIXED, "fixed", "fixed"},       {SUNDER_FEATURE_MOVED, "moved", "stood"},
+    {SUNDER_FEATURE_BLOCKED, "blocked", "blocked"},
+};
+enum { CLASSES = sizeof classes / sizeof *classes };
+
+typedef struct picture_writer {
+    const gis_page_model *model;
+    gis_picture picture;
+    gis_corners scratch;
+    gis_text *to;
+} picture_writer;
+
+static void begin_svg(picture_writer *writer, const char *class, const char *label)
+{
+    gis_text_print(writer->to, "<svg class=\"%s\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"%s\">\n", class,
+                   writer->picture.width, writer->picture.height, label);
+}
+
+/* One feature, if any of it is in the picture. */
+static bool add_feature(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
+{
+    const double move[2] = {part * feature->move[0], part * feature->move[1]};
+    double box[4];
+    gis_page_box(feature, part, box);
+    if (!feature->shape || !gis_box_meets(box, writer->picture.window)) return true;
+    return gis_picture_add_shape(&writer->picture, feature->shape, move, &writer->scratch, writer->to, error);
+}
+
+typedef bool choose_feature(const picture_writer *writer, const gis_page_feature *feature);
+
+/* A path of all that is chosen; none if there is nothing. */
+static bool add_path(picture_writer *writer, const char *class, double part, choose_feature *choose,
+                     sunder_feature_status status, gis_error *error)
+{
+    const gis_page_model *model = writer->model;
+    size_t before = writer->to->length;
+    gis_text_print(writer->to, "<path class=\"%s\" d=\"", class);
+    size_t begin = writer->to->length;
+    for (size_t i = 0; i < model->n; i++) {
+        const gis_page_feature *feature = &model->feature[i];
+        if (feature->status != status || (choose && !choose(writer, feature))) continue;
+        if (!gis_go_on(error) || !add_feature(writer, feature, part, error)) return false;
+    }
+    if (writer->to->length == begin)
+        writer->to->length = before;
+    else
+        gis_text_add(writer->to, "\"/>\n");
+    return true;
+}
+
+/* ---- A place ----------------------------------------------------------------------------------------------------- */
+
+enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000 };
+
+static bool has_moved(const picture_writer *writer, const gis_page_feature *feature)
+{
+    return gis_picture_length(&writer->picture, feature->length) >= 20;
+}
+
+static void add_line(picture_writer *writer, const char *class, const double from[2], const double to[2])
+{
+    double a[2], b[2];
+    gis_picture_place(&writer->picture, from[0], from[1], a);
+    gis_picture_place(&writer->picture, to[0], to[1], b);
+    gis_text_print(writer->to, "<path class=\"%s\" d=\"M%.0f %.0fL%.0f %.0f\"/>\n", class, a[0], a[1], b[0], b[1]);
+}
+
+/* Where those that moved stood, and the way that they went. */
+static bool add_moves(picture_writer *writer, gis_error *error)
+{
+    const gis_page_model *model = writer->model;
+    for (int status = SUNDER_FEATURE_MOVED; status <= SUNDER_FEATURE_BLOCKED; status++)
+        if (!add_path(writer, "ghost", 0, has_moved, (sunder_feature_status)status, error)) return false;
+    for (size_t i = 0; i < model->n; i++) {
+        const gis_page_feature *feature = &model->feature[i];
+        double box[4], from[2];
+        gis_page_box(feature, 1, box);
+        gis_box_add(box, feature->box);
+        if (!feature->shape || !has_moved(writer, feature) || !gis_box_meets(box, writer->picture.window)) continue;
+        sunder_shape_anchor(feature->shape, from);
+        const double to[2] = {from[0] + feature->move[0], from[1] + feature->move[1]};
+        add_line(writer, "arrow", from, to);
+    }
+    return true;
+}
+
+static void add_links(picture_writer *writer)
+{
+    const gis_page_model *model = writer->model;
+    for (size_t k = 0; k < model->n_conflicts; k++) {
+        const sunder_conflict *each = model->conflict[k];
+        const double box[4] = {fmin(each->from[0], each->to[0]), fmin(each->from[1], each->to[1]),
+                               fmax(each->from[0], each->to[0]), fmax(each->from[1], each->to[1])};
+        if (gis_box_meets(box, writer->picture.window)) add_line(writer, "link", each->from, each->to);
+    }
+}
+
+bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *place, bool after, gis_text *to,
+                           gis_error *error)
+{
+    picture_writer writer = {model, {.width = CLOSE_UP_WIDTH, .height = CLOSE_UP_HEIGHT}, {0}, to};
+    memcpy(writer.picture.window, place->window, sizeof place->window);
+    begin_svg(&writer, "close-up", after ? "after" : "before");
+    bool ok = true;
+    for (int k = 0; ok && k < CLASSES; k++)
+        ok = add_path(&writer, after ? classes[k].after : classes[k].before, after, NULL, classes[k].status, error);
+    ok = ok && (!after || add_moves(&writer, error));
+    if (ok && after) add_links(&writer);
+    gis_text_add(to, "</svg>\n");
+    gis_corners_clear(&writer.scratch);
+    return ok;
+}
+
+/* ---- The whole layer --------------------------------------------------------------------------------------------- */
+
+/* The longer side. Of features that are tiny at this size one is drawn in each square of so many units, so that a large
+ * layer makes no large picture; what moved or is in conflict is drawn first there. */
+enum { OVERVIEW_SIDE = 10000, SQUARE = 40, SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
+
+typedef struct overview_writer {
+    picture_writer writer;
+    bool *taken; /* [SQUARES][SQUARES] */
+} overview_writer;
+
+/* The square of a feature that is tiny; false: it is larger than one. */
+static bool tiny_square(const gis_picture *picture, const gis_page_feature *feature, size_t *square)
+{
+    double box[4], at[2];
+    gis_page_box(feature, 1, box);
+    double size = fmax(box[2] - box[0], box[3] - box[1]);
+    if (gis_picture_length(picture, size) > SQUARE) return false;
+    gis_picture_place(picture, box[0], box[1], at);
+    size_t x = (size_t)fmin(SQUARES - 1, fmax(0, at[0] / SQUARE));
+    size_t y = (size_t)fmin(SQUARES - 1, fmax(0, at[1] / SQUARE));
+    *square = y * SQUARES + x;
+    return true;
+}
+
+static bool is_for_overview(const picture_writer *writer, const gis_page_feature *feature)
+{
+    const overview_writer *whole = (const overview_writer *)writer; /* its first member */
+    size_t square;
+    if (!feature->shape) return false;
+    if (!tiny_square(&writer->picture, feature, &square)) return true;
+    bool first = !whole->taken[square];
+    whole->taken[square] = true;
+    return first;
+}
+
+static gis_picture whole_picture(const gis_page_model *model)
+{
+    double width = model->extent[2] - model->extent[0], height = model->extent[3] - model->extent[1];
+    double size = fmax(width, height), rim = 0.02 * size;
+    gis_picture picture = {{0, 0, 1, 1}, OVERVIEW_SIDE, OVERVIEW_SIDE / 2};
+    if (!(size > 0) || isinf(size)) return picture;
+    picture.window[0] = model->extent[0] - rim;
+    picture.window[1] = model->extent[1] - rim;
+    picture.window[2] = model->extent[2] + rim;
+    picture.window[3] = model->extent[3] + rim;
+    double longest = OVERVIEW_SIDE / (size + 2 * rim);
+    picture.width = (int)fmax(1, longest * (width + 2 * rim));
+    picture.height = (int)fmax(1, longest * (height + 2 * rim));
+    return picture;
+}
+
+bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error *error)
+{
+    overview_writer whole = {{model, whole_picture(model), {0}, to}, calloc((size_t)SQUARES * SQUARES, sizeof(bool))};
+    if (!whole.taken) return gis_no_memory(error);
+    begin_svg(&whole.writer, "overview", "the whole layer, after");
+    /* The most telling first, for the squares; drawn in the order of the classes, for what lies on top. */
+    gis_text paths[CLASSES] = {0};
+    bool ok = true;
+    for (int k = CLASSES - 1; ok && k >= 0; k--) {
+        whole.writer.to = &paths[k];
+        ok = add_path(&whole.writer, classes[k].after, 1, is_for_overview, classes[k].status, error) &&
+             (gis_text_get(&paths[k]) || gis_no_memory(error));
+    }
+    for (int k = 0; k < CLASSES; k++) {
+        if (ok) gis_text_add_bytes(to, gis_text_get(&paths[k]), paths[k].length);
+        gis_text_clear(&paths[k]);
+    }
+    gis_text_add(to, "</svg>\n");
+    gis_corners_clear(&whole.writer.scratch);
+    free(whole.taken);
+    return ok;
+}

@@ -1,0 +1,158 @@
+/* thinning.c: see thinning.h.
+ *
+ * The page is to open at once, so that its map has a size that it may not exceed. Features are of four ranks: those in
+ * a conflict that remains or in its way; those that moved; those near any of them; the rest. The ranks are drawn whole,
+ * one after the other, as long as there is room; from the rank on that there is no room for, corners are left out that
+ * lie within a tolerance, and features that are as small, and the tolerance is doubled until the map is small enough.
+ * The choice depends on the layer alone. */
+#include "report/thinning.h"
+
+#include "base/interrupt.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum rank { RANK_INVOLVED, RANK_MOVED, RANK_NEAR, RANK_REST, RANKS } rank;
+
+/* Bytes of the map, of which so much may be spent on what is drawn whole, if there is anything else; what a feature and
+ * a corner take in it, on the average over layers of buildings. */
+static const double most_bytes = 6.5e6, most_whole = 0.75;
+enum { FEATURE_BYTES = 24, CORNER_BYTES = 6 };
+
+/* Nearness is asked of a grid of so many cells in each direction. */
+enum { CELLS = 512 };
+
+static rank rank_of(const gis_page_feature *feature)
+{
+    if (feature->involved) return RANK_INVOLVED;
+    return feature->length > 0 ? RANK_MOVED : RANK_REST;
+}
+
+/* The cells that a box meets, a cell more on every side: first and last in x, then in y. */
+static void cells_of(const gis_page_model *model, const double box[4], size_t cells[4])
+{
+    for (int k = 0; k < 4; k++) {
+        double low = model->extent[k % 2], size = model->extent[k % 2 + 2] - low;
+        double at = size > 0 ? floor((box[k] - low) / size * CELLS) + (k < 2 ? -1 : 1) : 0;
+        cells[k] = (size_t)fmin(CELLS - 1, fmax(0, at));
+    }
+}
+
+static void mark_cells(const gis_page_model *model, const double box[4], bool *marked)
+{
+    size_t c[4];
+    cells_of(model, box, c);
+    for (size_t y = c[1]; y <= c[3]; y++) memset(marked + y * CELLS + c[0], true, c[2] - c[0] + 1);
+}
+
+static bool meets_marked(const gis_page_model *model, const double box[4], const bool *marked)
+{
+    size_t c[4];
+    cells_of(model, box, c);
+    for (size_t y = c[1]; y <= c[3]; y++)
+        if (memchr(marked + y * CELLS + c[0], true, c[2] - c[0] + 1)) return true;
+    return false;
+}
+
+static bool rank_all(const gis_page_model *model, unsigned char *ranks, gis_error *error)
+{
+    bool *marked = calloc((size_t)CELLS * CELLS, sizeof *marked);
+    if (!marked) return gis_no_memory(error);
+    for (size_t i = 0; i < model->n; i++) {
+        const gis_page_feature *feature = &model->feature[i];
+        ranks[i] = (unsigned char)rank_of(feature);
+        if (!feature->shape || ranks[i] == RANK_REST) continue;
+        double after[4];
+        gis_page_box(feature, 1, after);
+        mark_cells(model, feature->box, marked);
+        mark_cells(model, after, marked);
+    }
+    for (size_t i = 0; i < model->n; i++)
+        if (ranks[i] == RANK_REST && model->feature[i].shape && meets_marked(model, model->feature[i].box, marked))
+            ranks[i] = RANK_NEAR;
+    free(marked);
+    return true;
+}
+
+static bool is_as_small(const gis_page_feature *feature, double tolerance)
+{
+    return fmax(feature->box[2] - feature->box[0], feature->box[3] - feature->box[1]) <= tolerance;
+}
+
+/* What a feature takes, simplified; 0: it is left out. */
+static bool simpler_bytes(const gis_page_feature *feature, double tolerance, gis_corners *scratch, double *bytes,
+                          gis_error *error)
+{
+    *bytes = 0;
+    if (is_as_small(feature, tolerance)) return true;
+    for (size_t p = 0; p < sunder_shape_polygons(feature->shape); p++)
+        for (size_t r = 0; r < sunder_shape_rings(feature->shape, p); r++) {
+            size_t n;
+            const double *ring = sunder_shape_ring(feature->shape, p, r, &n);
+            if (!gis_corners_simplify(scratch, ring, n, tolerance, error)) return false;
+            *bytes += CORNER_BYTES * (double)scratch->n;
+        }
+    if (*bytes > 0) *bytes += FEATURE_BYTES;
+    return true;
+}
+
+/* Simplifies from rank `first` on, with the thinning's tolerance; *bytes is what that takes. */
+static bool thin(const gis_page_model *model, const unsigned char *ranks, rank first, gis_thinning *thinning,
+                 double *bytes, gis_error *error)
+{
+    gis_corners scratch = {0};
+    bool ok = true;
+    *bytes = 0;
+    thinning->simpler = thinning->left_out = 0;
+    for (size_t i = 0; ok && i < model->n; i++) {
+        double one;
+        if (!model->feature[i].shape || ranks[i] < first) continue;
+        ok = gis_go_on(error) && simpler_bytes(&model->feature[i], thinning->tolerance, &scratch, &one, error);
+        thinning->drawn[i] = ok && one > 0 ? GIS_DRAWN_SIMPLER : GIS_DRAWN_NOT;
+        *bytes += ok ? one : 0;
+        thinning->simpler += ok && one > 0;
+        thinning->left_out += !ok || !(one > 0);
+    }
+    gis_corners_clear(&scratch);
+    return ok;
+}
+
+static bool choose(const gis_page_model *model, const unsigned char *ranks, gis_thinning *thinning, gis_error *error)
+{
+    double of_rank[RANKS] = {0}, all = 0, whole = 0, bytes;
+    for (size_t i = 0; i < model->n; i++)
+        if (model->feature[i].shape)
+            of_rank[ranks[i]] += FEATURE_BYTES + CORNER_BYTES * (double)sunder_shape_vertices(model->feature[i].shape);
+    for (int k = 0; k < RANKS; k++) all += of_rank[k];
+    rank first = RANK_INVOLVED; /* the first that is not drawn whole */
+    while (first < RANKS && (all <= most_bytes || whole + of_rank[first] <= most_whole * most_bytes))
+        whole += of_rank[first++];
+    for (size_t i = 0; i < model->n; i++)
+        if (model->feature[i].shape && ranks[i] < first) {
+            thinning->drawn[i] = GIS_DRAWN_WHOLE;
+            thinning->whole++;
+        }
+    if (first == RANKS) return true;
+    double size = fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
+    for (thinning->tolerance = size / 0x1p14;; thinning->tolerance *= 2) {
+        if (!thin(model, ranks, first, thinning, &bytes, error)) return false;
+        if (whole + bytes <= most_bytes) return true;
+    }
+}
+
+bool gis_thinning_choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
+{
+    *thinning = (gis_thinning){.drawn = calloc(model->n + 1, 1)};
+    unsigned char *ranks = malloc(model->n + 1);
+    bool ok = (ranks && thinning->drawn) || gis_no_memory(error);
+    ok = ok && (model->empty || (rank_all(model, ranks, error) && choose(model, ranks, thinning, error)));
+    free(ranks);
+    return ok;
+}
+
+void gis_thinning_clear(gis_thinning *thinning)
+{
+    free(thinning->drawn);
+    *thinning = (gis_thinning){0};
+}

@@ -1,0 +1,50 @@
+/* words.c: see words.h. */
+#include "report/words.h"
+
+#include <stddef.h>
+
+#define N_OF(array) (sizeof(array) / sizeof *(array))
+
+const char *gis_page_kind(sunder_conflict_kind kind)
+{
+    static const char *const words[] = {
+        [SUNDER_CONFLICT_OVERLAP] = "overlap",
+        [SUNDER_CONFLICT_TOO_CLOSE] = "too close",
+        [SUNDER_CONFLICT_BARRIER] = "on a barrier",
+        [SUNDER_CONFLICT_BARRIER_NEAR] = "too close to a barrier",
+        [SUNDER_CONFLICT_CONTAINED] = "one within the other",
+        [SUNDER_CONFLICT_DUPLICATE] = "duplicate",
+    };
+    return (size_t)kind < N_OF(words) && words[kind] ? words[kind] : sunder_conflict_kind_string(kind);
+}
+
+static const struct {
+    const char *word, *explanation;
+    bool proved;
+} reasons[] = {
+    [SUNDER_REASON_MAX_SHIFT] = {"moves too short",
+                                 "proved: the two alone cannot be parted within the limits of their moves", true},
+    [SUNDER_REASON_FIXED] = {"both fixed", "neither of the two may move", true},
+    [SUNDER_REASON_SIDE] = {"side of a barrier",
+                            "proved: the two alone cannot be parted unless one crosses a barrier to its other side",
+                            true},
+    [SUNDER_REASON_JUMP] = {"no jumps", "proved: the two alone cannot be parted unless one jumps over the other", true},
+    [SUNDER_REASON_NO_ROOM] = {"no room",
+                               "proved: together with what stands in the way, the two have no solution; none of these "
+                               "could be left out of the proof",
+                               true},
+    [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
+    [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
+    [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution nor a proof that there is none was found", false},
+};
+
+static bool is_known(sunder_reason reason) { return (size_t)reason < N_OF(reasons) && reasons[reason].word; }
+
+const char *gis_page_reason(sunder_reason reason)
+{
+    return is_known(reason) ? reasons[reason].word : sunder_reason_string(reason);
+}
+
+const char *gis_page_explanation(sunder_reason reason) { return is_known(reason) ? reasons[reason].explanation : ""; }
+
+bool gis_page_is_proved(sunder_reason reason) { return is_known(reason) && reasons[reason].proved; }
