@@ -425,6 +425,8 @@ typedef struct sunder_layer_options {
     double gap;             /* >= 0 */
     double touch_tolerance; /* >= 0; negative (the default): a tenth of the gap */
     bool no_blocks;         /* nothing joins by touch or containment */
+    bool no_touch;          /* nothing joins by touch */
+    double thin;            /* where the tolerance is 0: count the overlaps that this one would join; 0: do not */
     bool list_inside;       /* list the pairs inside blocks too */
     sunder_containment contained;
     unsigned threads; /* 0: one for each processor; the result is the same for every number */
@@ -532,6 +534,7 @@ typedef struct sunder_report sunder_report;
 typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
     sunder_conflict_counts before, after; /* of check: both the same */
+    size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t moved, blocked, skipped, rounded;
     double total, mean, max;  /* of the lengths of moves; mean over the moved */
     size_t max_feature;       /* whose move is longest; SIZE_MAX if nothing moved */
@@ -561,14 +564,13 @@ SUNDER_API void sunder_report_summary(const sunder_report *report, sunder_layer_
 /* The move of one feature; a coordinate as written is the double nearest to x + dx. */
 SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
 SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
-/* The number of the feature's block, counted from 0 in the order of their first members; -1 for one that stands
- * alone. */
+/* The number of the feature's block, which is that of its first member; -1 for a feature that stands alone. */
 SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t feature);
 /* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
  * and, with list_inside, every pair inside blocks. */
 SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
-/* The pairs that the lower bound stands on, so that it can be computed again: blocks (as sunder_report_block numbers
- * them, features that stand alone following in feature order), least separations rounded down, multipliers. */
+/* The pairs that the lower bound stands on, so that it can be computed again: a feature of each of two blocks, or one
+ * that stands alone, least separations rounded down, multipliers. */
 typedef struct sunder_bound_pair {
     size_t a, b; /* features, one of each block */
     double least, multiplier;

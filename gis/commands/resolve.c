@@ -107,6 +107,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .fixed_where = options->text[OPT_FIXED_WHERE],
         .block_field = options->text[OPT_BLOCK_FIELD],
         .weight_field = options->text[OPT_WEIGHT_FIELD],
+        .max_shift_field = options->text[OPT_MAX_SHIFT_FIELD],
         .no_blocks = options->given[OPT_NO_BLOCKS],
         .list_inside = options->given[OPT_LIST_INSIDE],
         .threads = thread_count(options),
@@ -125,8 +126,11 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],
+        .symbol_size_field = options->text[OPT_SYMBOL_SIZE_FIELD],
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
+    if (out->symbol_size_field && !out->symbol && !out->symbol_field)
+        return gis_fail_usage(error, "--symbol-size-field: there is no symbol; give --symbol or --symbol-field");
     return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error);
 }
 

@@ -28,6 +28,7 @@ typedef struct separate_run {
     sunder_layer_summary summary;
     gis_progress progress;
     unsigned chosen; /* which layers are written */
+    bool taken;      /* standard output is */
     bool verified;
     double start, read, write;
 } separate_run;
@@ -61,6 +62,9 @@ static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_e
     *chosen &= apply;
     return *chosen || gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", list);
 }
+
+/* Is the summary printed? */
+static bool is_summarised(const separate_run *run) { return !run->taken && !run->options->given[OPT_QUIET]; }
 
 /* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
 static bool open_sink(separate_run *run, gis_error *error)
@@ -187,6 +191,18 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_raw(out, "\n");
 }
 
+/* A tolerance of 0 is the default where the gap is, and joins no walls that were drawn twice. */
+static void print_thin(const separate_run *run)
+{
+    size_t thin = run->summary.thin;
+    if (thin == 0) return;
+    const char *unit = gis_crs_is_known(gis_source_crs(run->input.source)) ? unit_name(run) : "units";
+    double length = gis_layer_thin(&run->input);
+    printf("%zu %s by no more than %.6g %s; --touch-tolerance %.6g would join %s\n", thin,
+           thin == 1 ? "pair overlaps" : "pairs overlap", length, unit, length,
+           thin == 1 ? "it into one block" : "them into blocks");
+}
+
 static bool print_summary(const void *separated, gis_error *error)
 {
     const separate_run *run = separated;
@@ -208,6 +224,7 @@ static bool print_summary(const void *separated, gis_error *error)
     printf("conflicts           before      after\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         printf("  %-13s %10zu %10zu\n", rows[i].name, rows[i].before, rows[i].after);
+    print_thin(run);
     printf("moved %zu, blocked %zu, skipped %zu, invalid %zu, null %zu, rounded %zu\n", summary->moved,
            summary->blocked, summary->skipped, run->input.invalid, run->input.null, summary->rounded);
     printf("displacement (%s): total %.6g, mean %.6g, max %.6g", unit_name(run), summary->total, summary->mean,
@@ -246,14 +263,13 @@ static bool write_page(const separate_run *run, gis_text *page, gis_error *error
     return ok;
 }
 
-static bool deliver(const separate_run *run, bool taken, gis_error *error)
+static bool deliver(const separate_run *run, gis_error *error)
 {
     gis_json stats = {0};
     gis_text page = {0};
     bool ok = !run->to.report || write_page(run, &page, error);
     if (run->to.stats) json_separate(&stats, run);
-    const gis_delivery delivery = {
-        &run->to, run->sink, &stats, &page, taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+    const gis_delivery delivery = {&run->to, run->sink, &stats, &page, is_summarised(run) ? print_summary : NULL, run};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     gis_text_clear(&page);
@@ -267,12 +283,13 @@ int gis_command_separate(const gis_options *options)
                         .to = gis_resolve_destinations(options),
                         .progress = gis_resolve_progress(options),
                         .start = gis_clock()};
-    bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
+    bool ok = gis_destinations_check(&run.to, &run.taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_SEPARATE_READ);
-    ok = ok && gis_resolve_layer(options, &run.request, &error) &&
-         gis_layer_input_read(&run.request, &run.input, &error);
+    ok = ok && gis_resolve_layer(options, &run.request, &error);
+    run.request.rules.count_thin = is_summarised(&run);
+    ok = ok && gis_layer_input_read(&run.request, &run.input, &error);
     run.read = gis_clock() - run.start;
-    ok = ok && solve_and_write(&run, &error) && deliver(&run, taken, &error);
+    ok = ok && solve_and_write(&run, &error) && deliver(&run, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.after)) : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_report_free(run.report);

@@ -24,6 +24,18 @@ bool gis_field_find(const gis_source *source, const char *option, const char *na
                     search.best ? "; did you mean " : "", search.best ? search.best : "", search.best ? "?" : "");
 }
 
+bool gis_field_find_numbers(const gis_source *source, const char *option, const char *name, int *field,
+                            gis_error *error)
+{
+    if (!gis_field_find(source, option, name, field, error)) return false;
+    if (*field < 0) return true;
+    OGRFieldDefnH definition = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(source)), *field);
+    OGRFieldType type = OGR_Fld_GetType(definition);
+    if (type == OFTInteger || type == OFTInteger64 || type == OFTReal || type == OFTString) return true;
+    return gis_fail(error, "%s: field %s of layer %s is of type %s; numbers are needed", option,
+                    OGR_Fld_GetNameRef(definition), gis_source_name(source), OGR_GetFieldTypeName(type));
+}
+
 bool gis_field_is_blank(OGRFeatureH feature, int field)
 {
     if (!OGR_F_IsFieldSetAndNotNull(feature, field)) return true;
@@ -56,4 +68,12 @@ double gis_field_number(OGRFeatureH feature, int field)
     size_t n = strlen(text);
     while (n && text[n - 1] == ' ') n--;
     return gis_length_parse_number(text, n, &value) ? value : NAN;
+}
+
+void gis_field_text(OGRFeatureH feature, int field, char text[GIS_FIELD_TEXT_SIZE])
+{
+    if (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field)) == OFTReal)
+        snprintf(text, GIS_FIELD_TEXT_SIZE, "%g", OGR_F_GetFieldAsDouble(feature, field));
+    else
+        snprintf(text, GIS_FIELD_TEXT_SIZE, "%s", OGR_F_GetFieldAsString(feature, field));
 }

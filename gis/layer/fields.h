@@ -8,6 +8,10 @@
  * that knows which one was probably meant. */
 bool gis_field_find(const gis_source *source, const char *option, const char *name, int *field, gis_error *error);
 
+/* The same of a field that numbers can be read from. */
+bool gis_field_find_numbers(const gis_source *source, const char *option, const char *name, int *field,
+                            gis_error *error);
+
 /* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
 bool gis_field_is_blank(OGRFeatureH feature, int field);
 
@@ -17,5 +21,9 @@ char *gis_field_key(OGRFeatureH feature, int field);
 
 /* A number, also one that a text holds; NAN for anything else. */
 double gis_field_number(OGRFeatureH feature, int field);
+
+/* What a field holds, for messages; long texts are cut. */
+enum { GIS_FIELD_TEXT_SIZE = 64 };
+void gis_field_text(OGRFeatureH feature, int field, char text[GIS_FIELD_TEXT_SIZE]);
 
 #endif

@@ -123,7 +123,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_crs(out);
     warn_of_others(out);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
-           make_layer(out, error);
+           gis_layer_limits(out, error) && make_layer(out, error);
 }
 
 void gis_layer_input_clear(gis_layer_input *input)

@@ -15,6 +15,7 @@ typedef struct gis_layer_input_request {
     double scale; /* N of 1:N */
     const char *id_field;
     const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */
+    const char *symbol_size_field;     /* a factor for each of them */
     bool may_have_symbols;             /* the command knows --symbol: who gives points without one is told of it */
     gis_layer_rules rules;
 } gis_layer_input_request;
@@ -47,12 +48,21 @@ void gis_layer_input_clear(gis_layer_input *input);
 /* "layer buildings, FID 12", with the user's own id if there is one. */
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size);
 
+/* False, with an error about the feature, the field and what it holds: "the WHAT in FIELD is 7; it must be NEEDED". */
+bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,
+                            gis_error *error); /* rules.c */
+
 /* The stages, in this order. */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error); /* rules.c */
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error);  /* shapes.c */
 bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: who is ignored, who is fixed */
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
+bool gis_layer_limits(gis_layer_input *input, gis_error *error);
+
+/* So thin an overlap is told of where the tolerance is 0: a hundredth of a metre, or of the unit of a layer without a
+ * CRS. 0: nothing is to be told, for that is no tolerance that could be given. */
+double gis_layer_thin(const gis_layer_input *input); /* run.c */
 
 /* sunder_layer_separate or sunder_layer_check. */
 typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,

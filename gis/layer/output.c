@@ -8,10 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-static gis_value block_value(const sunder_report *report, size_t feature)
+/* A block is called by its first member: by the FID, or, where FIDs tell nobody apart, by the place in the input. */
+static gis_value block_value(const gis_layer_input *input, const sunder_report *report, size_t feature)
 {
     int64_t block = sunder_report_block(report, feature);
-    return block < 0 ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = block}};
+    if (block < 0) return (gis_value){.kind = GIS_NULL};
+    if (gis_source_fids_unique(input->source)) return gis_fid_value(input, (size_t)block);
+    return (gis_value){GIS_INTEGER, {.integer = block}};
 }
 
 bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
@@ -38,7 +41,7 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
             {GIS_REAL, {.real = dy}},
             {GIS_REAL, {.real = hypot(dx, dy)}},
             {GIS_TEXT, {.text = sunder_feature_status_string(sunder_report_status(report, i))}},
-            block_value(report, i),
+            block_value(input, report, i),
         };
         if (!gis_sink_write_moved(layer, gis_source_feature(input->source, i), dx, dy, values, error)) return false;
     }
@@ -71,7 +74,7 @@ static bool write_arrow(gis_sink_layer *layer, const gis_layer_input *input, con
                                 {GIS_REAL, {.real = move[0]}},
                                 {GIS_REAL, {.real = move[1]}},
                                 {GIS_REAL, {.real = hypot(move[0], move[1])}},
-                                block_value(report, i)};
+                                block_value(input, report, i)};
     const double to[2] = {from[0] + move[0], from[1] + move[1]};
     OGRGeometryH line = gis_geometry_line(from, to);
     bool ok = line ? gis_sink_write(layer, NULL, line, values, error) : gis_no_memory(error);

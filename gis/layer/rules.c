@@ -89,6 +89,37 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
+bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,
+                            gis_error *error)
+{
+    char who[GIS_WHO_SIZE], held[GIS_FIELD_TEXT_SIZE];
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    gis_feature_name(input, i, who, sizeof who);
+    gis_field_text(feature, field, held);
+    return gis_fail(error, "%s: the %s in %s is %s; it must be %s", who, what,
+                    OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, field)), held, needed);
+}
+
+/* Each one's own limit, in place of the common one. */
+bool gis_layer_limits(gis_layer_input *input, gis_error *error)
+{
+    int field;
+    if (!gis_field_find_numbers(input->source, "--max-shift-field", input->request->rules.max_shift_field, &field,
+                                error))
+        return false;
+    for (size_t i = 0; field >= 0 && i < input->n; i++) {
+        OGRFeatureH feature = gis_source_feature(input->source, i);
+        char who[GIS_WHO_SIZE];
+        if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
+        gis_length limit = {gis_field_number(feature, field), GIS_LAYER_UNIT};
+        if (!(limit.value >= 0) || !isfinite(limit.value))
+            return gis_layer_wrong_number(input, i, field, "limit", "a finite number, 0 or more", error);
+        gis_feature_name(input, i, who, sizeof who);
+        if (!gis_length_in_layer_units(&limit, &input->units, who, &input->feature[i].max_shift, error)) return false;
+    }
+    return true;
+}
+
 static int by_size(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -117,25 +148,14 @@ static bool weigh_by_area(gis_layer_input *input, bool root, gis_error *error)
 static bool weigh_by_field(gis_layer_input *input, gis_error *error)
 {
     int field;
-    if (!gis_field_find(input->source, "--weight-field", input->request->rules.weight_field, &field, error))
+    if (!gis_field_find_numbers(input->source, "--weight-field", input->request->rules.weight_field, &field, error))
         return false;
-    if (field < 0) return true;
-    OGRFieldDefnH definition = OGR_FD_GetFieldDefn(OGR_L_GetLayerDefn(gis_source_layer(input->source)), field);
-    OGRFieldType type = OGR_Fld_GetType(definition);
-    if (type != OFTInteger && type != OFTInteger64 && type != OFTReal && type != OFTString)
-        return gis_fail(error, "--weight-field: field %s of layer %s is of type %s; numbers are needed",
-                        OGR_Fld_GetNameRef(definition), gis_source_name(input->source), OGR_GetFieldTypeName(type));
-    for (size_t i = 0; i < input->n; i++) {
+    for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         double weight = gis_field_number(feature, field);
-        if (!(weight > 0) || !isfinite(weight)) {
-            char who[GIS_WHO_SIZE];
-            gis_feature_name(input, i, who, sizeof who);
-            return gis_fail(error, "%s: the weight in %s is %s; it must be a finite number greater than 0", who,
-                            OGR_Fld_GetNameRef(definition),
-                            type == OFTReal ? CPLSPrintf("%g", weight) : OGR_F_GetFieldAsString(feature, field));
-        }
+        if (!(weight > 0) || !isfinite(weight))
+            return gis_layer_wrong_number(input, i, field, "weight", "a finite number greater than 0", error);
         input->feature[i].weight *= weight;
     }
     return true;

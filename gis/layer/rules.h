@@ -14,10 +14,11 @@ const char *gis_weighting_string(gis_weighting weighting);
 typedef struct gis_layer_rules {
     gis_optional_length gap, max_shift, touch_tolerance;
     const char *ignore_where, *fixed_where; /* SQL */
-    const char *block_field, *weight_field;
+    const char *block_field, *weight_field, *max_shift_field;
     gis_weighting weighting;
     sunder_containment contained;
     bool no_blocks, list_inside;
+    bool count_thin;  /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
     unsigned threads; /* 0: as many as there are processors */
 } gis_layer_rules;
 

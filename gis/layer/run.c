@@ -2,6 +2,16 @@
  * option has called the program wrongly. */
 #include "layer/input.h"
 
+static const double thin_metres = 0.01;
+
+double gis_layer_thin(const gis_layer_input *input)
+{
+    if (!input->request->rules.count_thin || input->units.geographic) return 0;
+    double thin = input->units.has_crs ? thin_metres / input->units.unit_metres : thin_metres;
+    return input->gap == 0 || thin < input->gap ? thin : 0;
+}
+
+/* Symbols join by touch where a tolerance is asked for, and not else: they are meant to be told apart. */
 static sunder_layer_options core_options(const gis_layer_input *input)
 {
     const gis_layer_rules *rules = &input->request->rules;
@@ -10,9 +20,12 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.gap = input->gap;
     core.touch_tolerance = input->tolerance;
     core.no_blocks = rules->no_blocks;
+    core.no_touch = input->points && !rules->touch_tolerance.text;
+    core.thin = gis_layer_thin(input);
     core.list_inside = rules->list_inside;
     core.contained = rules->contained;
     core.threads = rules->threads;
+    core.allow_jumps = input->points;
     return core;
 }
 

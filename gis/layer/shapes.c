@@ -118,52 +118,91 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
     return true;
 }
 
-/* The feature's own symbol, from --symbol-field, else the common one. */
-static bool point_shape(gis_layer_input *input, size_t i, int field, const sunder_shape *common, gis_error *error)
-{
-    OGRFeatureH feature = gis_source_feature(input->source, i);
-    char who[GIS_WHO_SIZE];
-    gis_feature_name(input, i, who, sizeof who);
-    if (field < 0 || gis_field_is_blank(feature, field)) {
-        if (common) return place_symbol(input, i, common, who, error);
-        return gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
-                        input->request->symbol_field);
-    }
-    sunder_shape *own = NULL;
-    const char *text = OGR_F_GetFieldAsString(feature, field);
-    if (!gis_shape_is_text(text))
-        return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
-                        input->request->symbol_field);
-    if (!read_symbol(input, text, who, &own, error)) {
-        error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
-        return false;
-    }
-    bool ok = place_symbol(input, i, own, who, error);
-    sunder_shape_free(own);
-    return ok;
-}
-
-/* What makes the shapes: part is room for those of one feature; symbols are for points. */
+/* What makes the shapes: part is room for those of one feature; the rest is for points. */
 typedef struct shaping {
     gis_polygonal_part part;
     sunder_shape *symbol; /* NULL: every point has its own */
     int symbol_field;     /* -1: none has */
+    int size_field;       /* -1: all symbols are as large as they are */
 } shaping;
 
-/* --symbol and --symbol-field. */
+/* --symbol, --symbol-field and --symbol-size-field. */
 static bool read_symbols(const gis_layer_input *input, shaping *how, gis_error *error)
 {
-    const char *symbol = input->request->symbol;
-    if (!gis_field_find(input->source, "--symbol-field", input->request->symbol_field, &how->symbol_field, error))
+    const gis_layer_input_request *request = input->request;
+    const char *symbol = request->symbol;
+    if (!gis_field_find(input->source, "--symbol-field", request->symbol_field, &how->symbol_field, error) ||
+        !gis_field_find_numbers(input->source, "--symbol-size-field", request->symbol_size_field, &how->size_field,
+                                error))
         return false;
     if (!symbol) return true;
     if (!gis_shape_is_text(symbol)) return gis_fail_usage(error, "--symbol %s: expected " SYMBOL_FORMS, symbol);
     return read_symbol(input, symbol, "--symbol", &how->symbol, error);
 }
 
+/* The feature's own symbol, from --symbol-field; *own stays NULL where it has none and the common one holds. */
+static bool own_symbol(const gis_layer_input *input, size_t i, const shaping *how, const char *who, sunder_shape **own,
+                       gis_error *error)
+{
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    if (how->symbol_field < 0 || gis_field_is_blank(feature, how->symbol_field))
+        return how->symbol || gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
+                                       input->request->symbol_field);
+    const char *text = OGR_F_GetFieldAsString(feature, how->symbol_field);
+    if (!gis_shape_is_text(text))
+        return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
+                        input->request->symbol_field);
+    if (read_symbol(input, text, who, own, error)) return true;
+    error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
+    return false;
+}
+
+/* The shape times a factor: corners as the nearest doubles, by the even-odd rule where that breaks it. */
+static bool enlarge(const sunder_shape *shape, double factor, const char *who, sunder_shape **out, gis_error *error)
+{
+    gis_polygons all = {0};
+    sunder_error why;
+    bool ok = gis_polygons_append_shape(&all, shape, 0, 0, error);
+    for (size_t k = 0; ok && k < 2 * all.vertices; k++) all.xy[k] *= factor;
+    if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, out, &why) != SUNDER_OK &&
+        gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, out, &why) != SUNDER_OK)
+        ok = gis_core_failed(error, who, &why);
+    gis_polygons_clear(&all);
+    return ok;
+}
+
+static bool place_enlarged(gis_layer_input *input, size_t i, int size_field, const sunder_shape *symbol,
+                           const char *who, gis_error *error)
+{
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    if (size_field < 0 || gis_field_is_blank(feature, size_field)) return place_symbol(input, i, symbol, who, error);
+    sunder_shape *larger = NULL;
+    double factor = gis_field_number(feature, size_field);
+    if (!(factor > 0) || !isfinite(factor))
+        return gis_layer_wrong_number(input, i, size_field, "size of the symbol", "a finite number greater than 0",
+                                      error);
+    if (!enlarge(symbol, factor, who, &larger, error)) return false;
+    bool ok = sunder_shape_is_empty(larger)
+                  ? gis_fail(error, "%s: its symbol times %g encloses nothing that doubles can tell", who, factor)
+                  : place_symbol(input, i, larger, who, error);
+    sunder_shape_free(larger);
+    return ok;
+}
+
+static bool point_shape(gis_layer_input *input, size_t i, const shaping *how, gis_error *error)
+{
+    char who[GIS_WHO_SIZE];
+    sunder_shape *own = NULL;
+    gis_feature_name(input, i, who, sizeof who);
+    bool ok = own_symbol(input, i, how, who, &own, error) &&
+              place_enlarged(input, i, how->size_field, own ? own : how->symbol, who, error);
+    sunder_shape_free(own);
+    return ok;
+}
+
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
 {
-    shaping how = {.symbol_field = -1};
+    shaping how = {.symbol_field = -1, .size_field = -1};
     gis_content wanted = input->points ? GIS_POINTS : GIS_POLYGONS;
     bool ok = !input->points || read_symbols(input, &how, error);
     for (size_t i = 0; ok && i < input->n; i++) {
@@ -172,8 +211,7 @@ bool gis_layer_shapes(gis_layer_input *input, gis_error *error)
         input->other += content != GIS_NOTHING && content != wanted;
         ok = gis_go_on(error);
         if (ok && content == wanted)
-            ok = input->points ? point_shape(input, i, how.symbol_field, how.symbol, error)
-                               : polygon_shape(input, i, &how.part, error);
+            ok = input->points ? point_shape(input, i, &how, error) : polygon_shape(input, i, &how.part, error);
     }
     sunder_shape_free(how.symbol);
     gis_polygonal_part_clear(&how.part);

@@ -39,7 +39,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     if (status) return status;
     (*report)->summary.pairs_tested = s->start.tested;
     sunder_i_count_relations(&s->model, &s->start, &(*report)->summary.before);
-    return SUNDER_OK;
+    return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, &(*report)->summary.thin, err);
 }
 
 /* What is settled beforehand: pairs without a solution, the bodies in doubles, relations as they stand. */

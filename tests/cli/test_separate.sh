@@ -62,7 +62,7 @@ refused 1 'no field nothing' separate in.gpkg never.gpkg --weight-field nothing
 # Blocks by a field move as one; features that touch do, too, unless --no-blocks.
 expect 0 separate in.gpkg b.gpkg --block-field grp -q
 same "$(moves b.gpkg houses | cut -d' ' -f5,7)" "$(moves b.gpkg houses | cut -d' ' -f7,5)" "c and d move alike"
-same "$(value b.gpkg houses 3 sunder_blk) $(value b.gpkg houses 4 sunder_blk) $(value b.gpkg houses 1 sunder_blk)" '0 0 (null)'
+same "$(value b.gpkg houses 3 sunder_blk) $(value b.gpkg houses 4 sunder_blk) $(value b.gpkg houses 1 sunder_blk)" '3 3 (null)'
 refused 1 'no field nothing' separate in.gpkg never.gpkg --block-field nothing
 layer row.gpkg row POLYGON <<'X'
 id,WKT

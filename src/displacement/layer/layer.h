@@ -26,7 +26,8 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
-    bool joins, list_inside; /* joins: touch and containment make blocks */
+    bool touch_joins, containment_joins, list_inside;
+    double thin; /* 0: nobody asks what a tolerance would join */
     sunder_containment contained;
     unsigned threads;
     sunder_progress progress; /* NULL: nobody asks how far it is */

@@ -142,9 +142,9 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
     uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
     if (!parent) return sunder_i_no_memory(err);
     sunder_i_union_init(parent, n);
-    for (size_t k = 0; k < relations->n && model->rules.joins; k++) {
+    for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if (r->touch || (r->contained && model->rules.contained == SUNDER_CONTAINMENT_BLOCK))
+        if ((r->touch && model->rules.touch_joins) || (r->contained && model->rules.containment_joins))
             sunder_i_union_join(parent, r->a, r->b);
     }
     const sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)

@@ -38,11 +38,15 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
                              o->gap);
     if ((int)o->contained < SUNDER_CONTAINMENT_BLOCK || (int)o->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)o->contained);
+    if (!(o->thin >= 0) || !isfinite(o->thin))
+        return sunder_i_fail(err, SUNDER_EARG, "what counts as thin, %g, is negative or not finite", o->thin);
     if (!(o->effort >= 0) || !isfinite(o->effort))
         return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", o->effort);
     rules->gap = o->gap;
     rules->tolerance = tolerance;
-    rules->joins = !o->no_blocks;
+    rules->touch_joins = !o->no_blocks && !o->no_touch;
+    rules->containment_joins = !o->no_blocks && o->contained == SUNDER_CONTAINMENT_BLOCK;
+    rules->thin = rules->touch_joins && !(tolerance > 0) ? o->thin : 0;
     rules->list_inside = o->list_inside;
     rules->contained = o->contained;
     rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();

@@ -76,14 +76,14 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
 }
 
 /* Blocks by their first members. */
-static sunder_status number_blocks(int64_t *block, size_t n, size_t blocks, sunder_error *err)
+static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
 {
-    int64_t *to = sunder_i_alloc(blocks, sizeof *to), next = 0;
+    int64_t *to = sunder_i_alloc(n, sizeof *to);
     if (!to) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < blocks; k++) to[k] = -1;
+    for (size_t k = 0; k < n; k++) to[k] = -1;
     for (size_t f = 0; f < n; f++) {
         if (block[f] < 0) continue;
-        if (to[block[f]] < 0) to[block[f]] = next++;
+        if (to[block[f]] < 0) to[block[f]] = (int64_t)f;
         block[f] = to[block[f]];
     }
     sunder_i_free(to);
@@ -106,7 +106,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
         if (n) memcpy(report->move, move, 2 * n * sizeof *move);
         if (n) memcpy(report->status, standing, n * sizeof *standing);
         if (n) memcpy(report->block, block, n * sizeof *block);
-        status = number_blocks(report->block, n, report->summary.blocks, err);
+        status = number_blocks(report->block, n, err);
     }
     if (!status) status = number_conflicts(report, number, err);
     for (size_t k = 0; !status && k < report->bound_pairs; k++) {

@@ -17,15 +17,13 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
         sunder_report_free(r);
         return sunder_i_no_memory(err);
     }
-    /* Bodies are numbered by their first members, so one pass over them numbers the blocks as promised. */
-    int64_t blocks = 0;
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
-        const int64_t number = body->members > 1 ? blocks++ : -1;
+        const int64_t number = body->members > 1 ? (int64_t)model->member[body->member] : -1;
         for (uint32_t k = 0; k < body->members; k++) r->block[model->member[body->member + k]] = number;
+        r->summary.blocks += body->members > 1;
     }
     r->summary.features = n;
-    r->summary.blocks = (size_t)blocks;
     r->summary.max_feature = SIZE_MAX;
     for (size_t f = 0; f < n; f++) {
         const sunder_feature *feature = &model->layer->feature[f];

@@ -44,6 +44,12 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
+/* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
+
+/* Pairs between blocks that overlap by no more than the rules' `thin`; 0 where that is 0. */
+sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
+                                           const sunder_i_relations *relations, size_t *n, sunder_error *err);
+
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
 /* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0

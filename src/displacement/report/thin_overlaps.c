@@ -1,0 +1,39 @@
+/* How many pairs would a small tolerance join? Layers drawn without snapping overlap by hairs along common walls;
+ * whoever leaves the tolerance at 0 sees them as conflicts, and is told so. */
+#include "displacement/report/report.h"
+
+#include "base/parallel.h"
+
+typedef struct thin_search {
+    const sunder_i_model *model;
+    const sunder_i_placement *placement;
+    const sunder_i_relations *relations;
+    bool *thin; /* [relations] */
+} thin_search;
+
+static sunder_status look_at(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const thin_search *s = context;
+    for (size_t k = begin; k < end; k++) {
+        const sunder_i_relation *r = &s->relations->pair[k];
+        if (!r->overlap || r->contained || s->model->body_of[r->a] == s->model->body_of[r->b]) continue;
+        const sunder_status status = sunder_i_overlap_is_thin(
+            &s->placement->translate[r->a], &s->placement->translate[r->b], s->model->rules.thin, &s->thin[k], err);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
+                                           const sunder_i_relations *relations, size_t *n, sunder_error *err)
+{
+    *n = 0;
+    if (!(model->rules.thin > 0)) return SUNDER_OK;
+    thin_search s = {model, placement, relations, sunder_i_calloc(relations->n, sizeof *s.thin)};
+    if (!s.thin) return sunder_i_no_memory(err);
+    const sunder_status status =
+        sunder_i_parallel(model->rules.threads, relations->n, SUNDER_I_GRAIN_PAIRS, look_at, &s, err);
+    for (size_t k = 0; k < relations->n && !status; k++) *n += s.thin[k];
+    sunder_i_free(s.thin);
+    return status;
+}
