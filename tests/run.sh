@@ -20,6 +20,7 @@ setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
+setup_want "Chromium" chromium chromium --version
 setup_install
 
 setup_build "$source" "$build"

@@ -63,12 +63,16 @@ bool gis_page_lede(const gis_page_model *model, const gis_thinning *thinning, gi
         gis_text_add(to, "There was nothing to do: no two were in conflict.");
         return true;
     }
-    gis_text_add(to, after == 0 ? "All " : "Of ");
-    add_number_of(to, before, "conflict", "conflicts");
-    if (after == 0) {
-        gis_text_add(to, before == 1 ? " is solved" : " are solved");
+    if (before == 1) {
+        gis_text_add(to, after == 0 ? "The one conflict is solved" : "The one conflict remains");
+    } else if (after == 0) {
+        gis_text_add(to, "All ");
+        gis_report_count(to, before);
+        gis_text_add(to, " conflicts are solved");
     } else {
-        gis_text_add(to, ", ");
+        gis_text_add(to, "Of ");
+        gis_report_count(to, before);
+        gis_text_add(to, " conflicts, ");
         gis_report_count(to, after);
         gis_text_add(to, after == 1 ? " remains" : " remain");
     }

@@ -10,10 +10,11 @@ function readColours() {
   return colours;
 }
 
-// Something of so many pixels: seen as a dot; an outline is drawn; an arrow is; places where it stood are.
-const leastShape = 1.5, leastOutline = 6, leastArrow = 4, leastGhost = 8;
-// So many features, or fewer, are drawn one by one, so that overlaps show through; and so many corners of many at once.
-const fewFeatures = 4000, manyCorners = 4000;
+// From so many pixels on a feature has a shape, and is no dot; has an outline; an arrow is drawn; where it stood is.
+const leastShape = 2.5, leastOutline = 6, leastArrow = 4, leastGhost = 8;
+// So many features, or fewer, are drawn one by one, so that overlaps show through; of more so many corners at once
+// (browsers fill a few small paths faster than a large one).
+const fewFeatures = 4000, manyCorners = 100;
 
 // Puts a feature's rings, moved by a part of its move, into the path that is open. Returns how many corners.
 function traceFeature(context, layer, view, f, part) {
@@ -40,9 +41,9 @@ function sizeInView(layer, view, f, part) {
 }
 
 function drawDot(context, layer, view, f, part) {
-  const x = view.x + (layer.boxes[4 * f] + part * layer.move[2 * f]) * view.scale;
-  const y = view.y - (layer.boxes[4 * f + 3] + part * layer.move[2 * f + 1]) * view.scale;
-  context.fillRect(x, y, leastShape, leastShape);
+  const [x0, y0, x1, y1] = layer.boxes.subarray(4 * f, 4 * f + 4);
+  const x = view.x + (x0 + part * layer.move[2 * f]) * view.scale, y = view.y - (y1 + part * layer.move[2 * f + 1]) * view.scale;
+  context.fillRect(x, y, Math.max(1, (x1 - x0) * view.scale), Math.max(1, (y1 - y0) * view.scale));
 }
 
 // Those of one status that are seen: small ones as dots, the others one by one, or many in one path.
