@@ -399,8 +399,8 @@ SUNDER_API sunder_status sunder_pair_distance(const sunder_shape *p, const sunde
 
 /* ---- Obstacles -------------------------------------------------------------------------------------------- */
 
-/* What the interior of something that moves may not meet, of routes and of layers: a polygonal set, or lines and points,
- * or both. */
+/* What the interior of something that moves may not meet, of routes and of layers: a polygonal set, or lines and
+ * points, or both. */
 typedef struct sunder_obstacle {
     const sunder_shape *shape; /* NULL: none. All is borrowed: for the call, or as long as what it is given to lives */
     const double *xy;          /* x0 y0 x1 y1 ... of all lines, one after the other; finite */
@@ -432,7 +432,7 @@ typedef struct sunder_layer_options {
     unsigned threads; /* 0: one for each processor; the result is the same for every number */
     sunder_progress progress;
     void *progress_user;
-    bool allow_jumps; /* features may jump over others; not honoured yet: they always may */
+    bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
     double effort;    /* >= 0: how hard to search for better sides and for proofs; not honoured yet */
     uint64_t seed;    /* of what search is random; nothing is yet */
 } sunder_layer_options;
@@ -555,7 +555,12 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
  * Every move is such that its feature's vertices plus the move are doubles again, exactly, where any such move will do
  * (else summary.rounded counts the feature, and the vertices as rounded are what is verified). What remains in conflict
  * is listed, and stands no worse than it stood: no nearer, and no deeper in each other by the least translation that
- * parts the two. Nobody moves to ease it. */
+ * parts the two. Nobody moves to ease it.
+ *
+ * Unless allow_jumps, no feature jumps over another: for every feature A with the anchor a (sunder_shape_anchor()) and
+ * the move t, and every other B with the move s, that is neither ignored nor of A's block and does not hold a, the
+ * closed segment from a to a + t - s, not rounded, does not meet B where it stood. So what stands in a yard that has no
+ * room for it keeps its conflict, whatever its limit. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);

@@ -47,6 +47,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_solver_find_infeasible(s, err);
     if (!status) status = sunder_i_model_cut(&s->model, err);
+    if (!status) status = sunder_i_model_anchor(&s->model, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
     s->now.pair = sunder_i_alloc(s->start.n, sizeof *s->now.pair);
@@ -103,6 +104,8 @@ static sunder_status conclude(sunder_i_solver *s, sunder_report *report, double 
     if (status) return status;
     sunder_i_free(s->now.pair);
     s->now = last;
+    status = sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
+    if (status) return status;
     report->summary.seconds_solve = solved - began;
     report->summary.seconds_verify = sunder_i_now() - solved;
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);

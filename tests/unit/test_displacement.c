@@ -230,13 +230,18 @@ static void check_courtyard(void **state)
     assert_int_equal(left(&s.summary), 0);
     assert_true(s.summary.max < 1); /* there is room inside */
     end(&s);
-    /* No room: the one inside has to leave, and nothing forbids that. */
-    begin(&s, 3);
-    add(&s, "POLYGON ((0 0, 30 0, 30 30, 0 30, 0 0), (10 10, 20 10, 20 20, 10 20, 10 10))");
-    add_box(&s, 12, 12, 5, 5);
-    run(&s, false);
-    assert_int_equal(left(&s.summary), 0);
-    end(&s);
+    /* No room: the one inside has to leave, if it may jump; else it stays. */
+    for (int jumps = 0; jumps < 2; jumps++) {
+        begin(&s, 3);
+        add(&s, "POLYGON ((0 0, 30 0, 30 30, 0 30, 0 0), (10 10, 20 10, 20 20, 10 20, 10 10))");
+        add_box(&s, 12, 12, 5, 5);
+        s.options.allow_jumps = jumps;
+        run(&s, false);
+        assert_int_equal(left(&s.summary), jumps ? 0 : 1);
+        assert_true((s.summary.moved > 0) == (jumps > 0));
+        assert_true(s.summary.verified);
+        end(&s);
+    }
 }
 
 /* A yard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than

@@ -25,6 +25,7 @@ static void free_clusters(sunder_i_solver *s)
 
 void sunder_i_solver_free(sunder_i_solver *s)
 {
+    sunder_i_jumps_free(&s->jumps);
     sunder_i_placement_free(&s->model, &s->placement);
     sunder_i_model_free(&s->model);
     sunder_i_free(s->start.pair);
@@ -183,7 +184,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         sunder_i_cluster *c = &s->cluster[s->clusters++];
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
             const sunder_i_body *body = &s->model.body[s->member[end].body];
-            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY;
+            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY || !s->model.rules.jumps;
         }
         c->body = s->body + first;
         c->n = end - first;

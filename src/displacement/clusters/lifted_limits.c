@@ -59,7 +59,15 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *s, bool *lifted, sund
 
 /* ---- Within them ------------------------------------------------------------------------------------------------- */
 
-/* Marks the sets, by their roots, of which a body went too far, was set aside, or ran into one that was. */
+/* Marks the sets of two bodies that met, if one of them was set aside. */
+static void note_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
+{
+    if (!s->aside[i] && !s->aside[j]) return;
+    root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
+}
+
+/* Marks the sets, by their roots, of which a body went too far, was set aside, or ran into one that was, or jumped over
+ * it. */
 static void find_offenders(sunder_i_solver *s, bool *root)
 {
     const sunder_i_model *model = &s->model;
@@ -69,10 +77,10 @@ static void find_offenders(sunder_i_solver *s, bool *root)
             root[sunder_i_union_find(s->parent, b)] = true;
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (!sunder_i_is_conflict_of_bodies(model, r) || (!s->aside[i] && !s->aside[j])) continue;
-        root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
+        if (sunder_i_is_conflict_of_bodies(model, r)) note_meeting(s, model->body_of[r->a], model->body_of[r->b], root);
     }
+    for (size_t k = 0; k < s->jumps.n; k++)
+        note_meeting(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
 }
 
 /* Forgets what these bodies were joined with, and what was given up of them. */

@@ -40,6 +40,8 @@ sunder_status sunder_i_solver_relate(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_placement_move(&s->model, &s->placement, s->changed, err);
     if (status) return status;
+    status = sunder_i_jumps_update(&s->jumps, &s->model, s->changed, err);
+    if (status) return status;
     sunder_i_relations now;
     status = sunder_i_placement_relate(&s->model, &s->placement, s->changed, &s->now, &now, err);
     if (status) return status;

@@ -79,6 +79,34 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     return sunder_i_solver_add_edge(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
+/* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
+ * wider margin, if that may still grow. */
+static void widen(sunder_i_solver *s, uint32_t i, uint32_t j, bool *any)
+{
+    const uint32_t b = s->model.body[i].fixed ? j : i;
+    if (s->widened[b] >= MOST_MARGINS) return;
+    if (s->dirty[b] && s->widened[b]) return; /* once a round */
+    s->widened[b]++;
+    s->dirty[b] = *any = true;
+}
+
+/* Who jumped over one of another cluster joins it. */
+static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    for (size_t k = 0; k < s->jumps.n; k++) {
+        const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
+        if (s->aside && (s->aside[i] || s->aside[j])) continue;
+        if (are_together(s, i, j)) {
+            widen(s, i, j, any);
+            continue;
+        }
+        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+        *any = true;
+    }
+    return SUNDER_OK;
+}
+
 /* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
  * Returns whether there is anything to do. */
 static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
@@ -111,12 +139,9 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             s->dirty[b] = *any = true;
             continue;
         }
-        if (s->widened[b] >= MOST_MARGINS) continue;
-        if (s->dirty[b] && s->widened[b]) continue; /* once a round */
-        s->widened[b]++;
-        s->dirty[b] = *any = true;
+        widen(s, i, j, any);
     }
-    return SUNDER_OK;
+    return find_jumps(s, any, err);
 }
 
 sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to, sunder_error *err)

@@ -3,6 +3,7 @@
 #ifndef SUNDER_I_SOLVER_H
 #define SUNDER_I_SOLVER_H
 
+#include "displacement/layer/jumps.h"
 #include "displacement/layer/placement.h"
 #include "displacement/search/cluster.h"
 
@@ -23,6 +24,7 @@ typedef struct sunder_i_solver {
     sunder_i_model model;
     sunder_i_placement placement;
     sunder_i_relations start, now;
+    sunder_i_jumps jumps;  /* as the features stand */
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge;

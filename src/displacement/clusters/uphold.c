@@ -58,7 +58,7 @@ static sunder_status breaks_rule(const sunder_i_solver *s, const sunder_i_relati
 sunder_status sunder_i_solver_is_upheld(const sunder_i_solver *s, bool *upheld, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    *upheld = true;
+    *upheld = s->jumps.n == 0;
     for (size_t k = 0; k < s->now.n && *upheld && !status; k++) {
         bool breaks;
         status = breaks_rule(s, &s->now.pair[k], &breaks, err);
@@ -138,6 +138,7 @@ static sunder_status put(trial *t, const double *to, sunder_error *err)
         if (to) goal_of(t, k, to, goal);
         sunder_i_solver_place(s, t->body[k], goal);
         status = sunder_i_placement_move_body(&s->model, &s->placement, t->body[k], err);
+        if (!status) status = sunder_i_jumps_follow(&s->jumps, &s->model, t->body[k], err);
     }
     return status;
 }
@@ -152,6 +153,11 @@ static sunder_status try_place(trial *t, const double to[2], sunder_error *err)
     sunder_status status = put(t, to, err);
     for (size_t k = 0; k < t->n && t->well && !status; k++)
         status = sunder_i_placement_visit(&s->model, &s->placement, t->body[k], &t->near, look_at_pair, t, err);
+    for (size_t k = 0; k < t->n && t->well && !status; k++) {
+        bool jumps;
+        status = sunder_i_jumps_of_body(&s->jumps, &s->model, t->body[k], &t->near, &jumps, err);
+        t->well = !jumps;
+    }
     if (status) return status;
     return t->well ? sunder_i_solver_relate(s, err) : put(t, NULL, err);
 }
@@ -299,12 +305,25 @@ static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_erro
     return status;
 }
 
+/* Who still jumps over another, since no margin made good what rounding took, stays where it came from. */
+static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    while (s->jumps.n && !status) {
+        *pinned = true;
+        status = pin(s, s->model.body_of[s->jumps.pair[0].a], s->model.body_of[s->jumps.pair[0].b], err);
+    }
+    return status;
+}
+
 sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     size_t budget = IN_VAIN;
-    for (bool any = s->now.n > 0, pinned; any && !status;) {
+    for (bool any = s->now.n + s->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
+        status = pin_jumps(s, &pinned, err);
+        any = pinned;
         for (size_t k = 0; k < s->now.n && !status; k++) {
             const sunder_i_relation r = s->now.pair[k];
             const uint32_t i = s->model.body_of[r.a], j = s->model.body_of[r.b];

@@ -28,6 +28,7 @@ typedef struct sunder_i_rules {
     double gap, tolerance;
     bool touch_joins, containment_joins, list_inside;
     double thin; /* 0: nobody asks what a tolerance would join */
+    bool jumps;  /* features may jump over others */
     sunder_containment contained;
     unsigned threads;
     sunder_progress progress; /* NULL: nobody asks how far it is */

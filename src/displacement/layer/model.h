@@ -19,6 +19,7 @@ typedef struct sunder_i_body {
     bool pinned;              /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
+    double anchors[4];        /* of its members' anchors, likewise */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
@@ -52,6 +53,11 @@ struct sunder_i_model {
     sunder_i_body_piece *outline; /* [features] the convex hull of each, for where its pieces are too many */
     double *corner;               /* [2 * corners] relative to the body's origin */
     size_t corners;
+    /* Where jumps are not allowed; else NULL: */
+    sunder_i_body_piece *anchor; /* [features] each anchor as a piece of one corner */
+    double *anchor_at;           /* [2 * features] the anchors as they are */
+    sunder_i_id_pair *held;      /* a feature, and one of another body that holds its anchor; sorted */
+    size_t held_n;
     sunder_shape **whole; /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
     double *box;          /* [4 * features] as they stood at the start */
     bool *present;        /* [features] */
@@ -88,6 +94,13 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
+
+/* ---- anchors.c --------------------------------------------------------------------------------------------------- */
+
+/* The anchors, where they matter; after the pieces are cut. */
+sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
+/* Does g, of another body, hold the anchor of f? Then f may leave it. */
+bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 

@@ -48,6 +48,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
     rules->containment_joins = !o->no_blocks && o->contained == SUNDER_CONTAINMENT_BLOCK;
     rules->thin = rules->touch_joins && !(tolerance > 0) ? o->thin : 0;
     rules->list_inside = o->list_inside;
+    rules->jumps = o->allow_jumps;
     rules->contained = o->contained;
     rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
     rules->progress = o->progress;

@@ -13,7 +13,7 @@
 
 #include <math.h>
 
-static double *reserve(sunder_i_scratch *scratch, size_t n)
+double *sunder_i_scratch_reserve(sunder_i_scratch *scratch, size_t n)
 {
     if (scratch->failed || !sunder_i_reserve(&scratch->xy, &scratch->capacity, 2 * n, sizeof(double))) {
         scratch->failed = true;
@@ -44,7 +44,7 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
 size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                                  sunder_i_scratch *scratch)
 {
-    double *d = reserve(scratch, na + nb);
+    double *d = sunder_i_scratch_reserve(scratch, na + nb);
     if (!d) return 0;
     size_t i = sunder_i_extreme_corner(a, na, 1), j = sunder_i_extreme_corner(b, nb, -1), n = 0;
     double x = a[2 * i] - b[2 * j] - offset[0], y = a[2 * i + 1] - b[2 * j + 1] - offset[1], u[2], v[2];

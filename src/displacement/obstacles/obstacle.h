@@ -12,6 +12,8 @@ typedef struct sunder_i_scratch {
     bool failed;
 } sunder_i_scratch;
 
+/* Room for n corners; NULL: memory is out. What was there is kept. */
+double *sunder_i_scratch_reserve(sunder_i_scratch *scratch, size_t n);
 /* Least (sign +1) or greatest (sign -1) of n corners by y, then x: from there edges turn from direction 0 to 2 pi. */
 size_t sunder_i_extreme_corner(const double *corner, size_t n, double sign);
 /* Does edge u come before v, so turning? Upper half-plane first; within a half the cross product tells, as doubles

@@ -34,6 +34,7 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     look l = {t, 0};
     s->clashes = 0;
     sunder_i_search_near(s, t, s->gap, look_at, &l);
+    sunder_i_search_passing(s, t, s->gap, look_at, &l);
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0)
             l.worst = fmax(l.worst, hypot(t[2 * k], t[2 * k + 1]) - sunder_i_search_limit(s, (uint32_t)k));
@@ -56,6 +57,7 @@ void sunder_i_search_look_again(sunder_i_search *s, const double *t, uint32_t i)
         for (size_t c = 0; c < 4; c++)
             box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
                      (c < 2 ? -s->gap : s->gap);
-        if (sunder_i_box_meet(box, q->box)) look_at(s, i < j ? i : j, i < j ? j : i, &l);
+        if (sunder_i_box_meet(box, q->box) || sunder_i_search_may_pass(s, t, i, j, s->gap))
+            look_at(s, i < j ? i : j, i < j ? j : i, &l);
     }
 }

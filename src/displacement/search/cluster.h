@@ -8,7 +8,7 @@ typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
     double margin;                    /* what is demanded beyond the gap, to cover rounding */
-    bool limited;                     /* a limit or a fixed body is in it: it may have no solution */
+    bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;

@@ -80,9 +80,9 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     size_t n;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
     if (!edge) return;
-    sunder_i_support h = sunder_i_support_at(edge, n, at->near);
-    if (h.distance > s->gap + at->reach) return;
-    if (at->near != at->u) h = sunder_i_support_at(edge, n, at->u);
+    sunder_i_support h = sunder_i_search_support(part, edge, n, at->near);
+    if (h.distance > (part->shadow ? gap : s->gap) + at->reach) return;
+    if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;
     /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
@@ -151,6 +151,7 @@ static bool constrain_all(sunder_i_search *s, double reach)
     p->n = 0;
     around a = {.t = s->t, .reach = reach};
     sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
+    sunder_i_search_passing(s, s->t, s->gap + reach, constrain, &a);
     sort_constraints(s);
     return a.clashing;
 }

@@ -41,6 +41,42 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
         sunder_i_search_visit(s, model->wall + q->wall, q->walls, p, back, reach, &part, true, true, add_wall, o);
 }
 
+/* Shadows as obstacles: moved by `shift`, and as far as they matter. */
+typedef struct shading {
+    sunder_i_obstacles *obstacles;
+    double shift[2], far;
+    bool any;
+} shading;
+
+static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    shading *shade = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (!edge) return;
+    double *corner = sunder_i_scratch_reserve(&s->scratch, n + 3);
+    if (!corner) {
+        s->failed = true;
+        return;
+    }
+    n = sunder_i_shadow_corners(edge, n, shade->far, corner);
+    for (size_t k = 0; k < 2 * n; k++) corner[k] += shade->shift[k & 1];
+    s->steps += OBSTACLE_WORK;
+    shade->any = true;
+    sunder_i_obstacles_add(shade->obstacles, corner, n, fmax(gap, 0) + 2 * s->tolerance);
+}
+
+/* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. Are there any? */
+static bool add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const double t[2],
+                        const sunder_i_body *q, const double at[2], double reach)
+{
+    const double u[2] = {at[0] - t[0], at[1] - t[1]};
+    shading shade = {o, {t[0], t[1]}, hypot(u[0], u[1]) + reach, false};
+    sunder_i_search_body_shadows(s, p, q, u, reach + s->gap - s->model->rules.gap, add_shadow, &shade);
+    return shade.any;
+}
+
 static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
 
 /* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
@@ -134,12 +170,34 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     return !beyond && isfinite(place[0]) && isfinite(place[1]);
 }
 
+typedef struct shade {
+    const double *u;
+    bool deep;
+} shade;
+
+static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    shade *at = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    at->deep = at->deep || (edge && sunder_i_search_support(part, edge, n, at->u).distance < gap);
+}
+
+/* Does the relative move u lie in a shadow? */
+static bool is_shaded(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+{
+    shade at = {u, false};
+    sunder_i_search_shadows(s, i, j, u, s->gap - s->model->rules.gap, take_shade, &at);
+    return at.deep;
+}
+
 size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2])
 {
     const sunder_i_model *model = s->model;
     const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, none[2] = {0, 0};
     const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
     const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
     double shift;
@@ -147,15 +205,16 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, SHALLOW * fmin(extent(p->box), extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs &&
-        free_pair_exactly(s, ps, qs, target, shallow, places[0]))
+        free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, i, j, places[0]))
         return 1;
     const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));; reach *= PAIR_GROWTH) {
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
         add_obstacles(s, &o, p, many, q, many, offset, target, reach);
+        const bool shaded = add_shadows(s, &o, p, none, q, target, reach);
         size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
-        if (n == 0 && reach > all && outside_all(&o, target, INFINITY, places[0])) n = 1;
+        if (n == 0 && reach > all && !shaded && outside_all(&o, target, INFINITY, places[0])) n = 1;
         s->failed = s->failed || o.failed;
         sunder_i_obstacles_free(&o);
         if (n || s->failed) return n;
@@ -221,6 +280,7 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
         add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
+        add_shadows(s, o, q, t, p, at, reach);
     }
 }
 
@@ -229,8 +289,9 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
     const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0};
     const sunder_i_rtree *tree = s->model->standing;
-    const double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
+    double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
+    if (!s->model->rules.jumps) all = fmin(all, now + FARTHEST_LEAP * (extent(p->box) + s->gap));
     for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         sunder_i_list foreign = {0};

@@ -104,6 +104,7 @@ void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, con
     part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     reach += shift;
     sunder_i_search_visit(s, model->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    sunder_i_search_body_shadows(s, p, q, u, reach - shift - model->rules.gap, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
     if (p->walls)
         sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);
@@ -132,6 +133,7 @@ static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, co
                    size_t n)
 {
     const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
+    if (part->shadow) return fmin(margin, sunder_i_shadow_support_at(edge, n, home).distance);
     if (part->inclusion == SUNDER_I_LAPSED) return s->gap;
     if (part->inclusion == SUNDER_I_STRICT) return margin;
     return fmin(margin, sunder_i_support_at(edge, n, home).distance);
@@ -145,9 +147,27 @@ static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
     return s->shifted;
 }
 
+/* Those of a shadow; they are not kept. */
+static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+                                                  double *gap)
+{
+    s->steps++;
+    const size_t corners = make_obstacle(s, part);
+    if (!corners || !sunder_i_steps(1 + corners / 8) ||
+        !sunder_i_reserve(&s->shifted, &s->shifted_capacity, corners + 1, sizeof *s->shifted)) {
+        s->failed = true;
+        return NULL;
+    }
+    *n = sunder_i_shadow_edges(s->scratch.xy, corners, s->shifted);
+    if (*n == 0) return NULL;
+    *gap = owed(s, part, s->shifted, *n);
+    return s->shifted;
+}
+
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
                                                     double *gap)
 {
+    if (part->shadow) return shadow_edges(s, part, n, gap);
     const sunder_i_obstacle_edge *edge =
         part->relaxation ? NULL : sunder_i_obstacle_cache_find(&s->cache, part->key, n);
     *gap = s->gap;
@@ -189,7 +209,7 @@ static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, vo
     double gap;
     size_t n;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
-    if (edge) m->worst = fmax(m->worst, gap - sunder_i_support_at(edge, n, m->u).distance);
+    if (edge) m->worst = fmax(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
 }
 
 double sunder_i_search_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], bool *yields)

@@ -4,6 +4,7 @@
 
 #include "displacement/layer/inclusion.h"
 #include "displacement/obstacles/obstacle_cache.h"
+#include "displacement/obstacles/shadow.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/search/cluster.h"
 
@@ -92,13 +93,21 @@ typedef struct sunder_i_piece_pair {
     uint64_t key;                       /* tells it from all others */
     sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
     bool relaxed;                       /* the bodies: some of the pieces owe each other less */
+    bool shadow;                        /* one of the two is an anchor, which may not jump over the other */
     const sunder_i_relaxation *relaxation; /* ... these; or NULL */
 } sunder_i_piece_pair;
 
+/* The support line of its obstacle, or shadow, of these edges, that is farthest below u. */
+static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *part,
+                                                       const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
+{
+    return part->shadow ? sunder_i_shadow_support_at(edge, n, u) : sunder_i_support_at(edge, n, u);
+}
+
 typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *part, void *context);
 
-/* All pairs of pieces of the two whose boxes are within reach of each other at relative position u; yields: they are
- * held to their relaxations, where there are any. */
+/* All pairs of pieces of the two whose boxes are within reach of each other at relative position u, and the shadows
+ * that come as near; yields: they are held to their relaxations, where there are any. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
 /* Of that: what `from` (n pieces of one body, or walls) has within reach of the pieces of `other`, which stands at v
@@ -114,12 +123,28 @@ double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_
 /* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out), and
  * the gap that it owes. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
-/* The same as edges, *n of them, which stay until the next call; NULL: memory is out. */
+/* The same as edges, *n of them, which stay until the next call; of a shadow those of shadow.h. NULL: memory is out, or
+ * it casts none. */
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
                                                     double *gap);
 
 /* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
+
+/* ---- shadows.c: who may not jump over whom ----------------------------------------------------------------------- */
+
+/* All shadows of bodies i and j that may lie within reach of relative position u. */
+void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
+                             sunder_i_visit_piece_pair visit, void *context);
+/* The same between any two bodies of the model. */
+void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
+                                  const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
+/* Every pair of bodies, one of them movable, that may have jumped over each other on their way from home to t, or are
+ * within reach of it, and do not stand within reach of each other there. */
+void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                             void *context);
+/* Is it such a pair? */
+bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
 /* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
 

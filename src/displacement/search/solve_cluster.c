@@ -35,6 +35,7 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
         if (!sunder_i_search_jump(&s) && cluster->limited) break;
         done = sunder_i_search_descend(&s);
     }
+    if (!done && !s.failed) done = sunder_i_search_spread(&s);
     if (!done && !s.failed && cluster->limited) {
         sunder_i_search_give_up(&s);
         sunder_i_search_hand_over(&s, cluster);

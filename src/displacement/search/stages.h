@@ -25,6 +25,11 @@ void sunder_i_search_clip(sunder_i_search *search);
 /* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
 
+/* ---- spread.c: away from one another ----------------------------------------------------------------------------- */
+
+/* Where nobody may jump and nothing is limited: all away from one centre until none clashes, and down from there. */
+bool sunder_i_search_spread(sunder_i_search *search);
+
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing

@@ -73,6 +73,17 @@
 #define BODY_GROWTH 2
 /* Nothing is farther off than so many times the sizes of all there is. */
 #define BEYOND_ALL 4
+/* Where nobody may jump, what is in sight of a body between its neighbours narrows with the distance: a place is looked
+ * for no farther off than so many times the body and the gap. */
+#define FARTHEST_LEAP 16
+
+/* ---- Away from one another (spread.c) ---------------------------------------------------------------------------- */
+
+/* The shares of the way from the centre that are tried, doubled each time; from some share on those that still clash
+ * look for a place by themselves. */
+#define LEAST_SPREAD 0x1p-5
+#define MOST_SPREAD 8
+#define ENOUGH_SPREAD 0.5
 
 /* ---- A few bodies by themselves (neighbourhood.c), and the whole (retry_cluster.c) ------------------------------- */
 

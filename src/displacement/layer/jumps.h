@@ -1,0 +1,26 @@
+/* Who jumped over whom, exactly; see jumps.c. */
+#ifndef SUNDER_I_JUMPS_H
+#define SUNDER_I_JUMPS_H
+
+#include "displacement/layer/model.h"
+
+/* The pairs that break the rule as the features stand, kept up to date while they move. Zeroed: nothing has moved. */
+typedef struct sunder_i_jumps {
+    double *way;            /* [4 * features] boxes of where each was on its straight way from home */
+    sunder_i_rtree tree;    /* of these */
+    sunder_i_id_pair *pair; /* features, a < b, of different bodies; sorted */
+    size_t n;
+} sunder_i_jumps;
+
+void sunder_i_jumps_free(sunder_i_jumps *jumps);
+/* Features f with changed[f] (NULL: all) stand elsewhere now, by model->move. Of no effect where jumps are allowed. */
+sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
+                                    sunder_error *err);
+/* One body stands elsewhere for now; the pairs stay what they were. */
+sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t body,
+                                    sunder_error *err);
+/* Is one of its members, as they all stand, in such a pair? near: scratch. */
+sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t body,
+                                     sunder_i_list *near, bool *any, sunder_error *err);
+
+#endif

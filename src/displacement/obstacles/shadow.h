@@ -1,0 +1,18 @@
+/* The shadow of a convex obstacle from the origin; see shadow.c. */
+#ifndef SUNDER_I_SHADOW_H
+#define SUNDER_I_SHADOW_H
+
+#include "displacement/obstacles/obstacle.h"
+
+/* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; a point or a segment will
+ * do. The first and the last are rays and begin at K: from the one the shadow lies to the right as one looks out, from
+ * the other to the left; between them stand the sides of K that the origin sees. Returns how many, at most n + 1; 0
+ * where the origin is in K, or too near to tell. edge: room for n + 1. */
+size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
+/* The support line of such a shadow that is farthest below u. */
+sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
+/* The shadow as a polygon that holds all of it up to the distance `far` from the origin: its corners into out, room for
+ * n + 3. Returns how many. */
+size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
+
+#endif

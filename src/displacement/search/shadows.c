@@ -1,0 +1,167 @@
+/* No jumps: shadows between bodies, as further pieces of what they owe each other.
+ *
+ * With a the anchor of a member of one body and B a piece of the other, as they stood, the anchor passes B exactly when
+ * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
+ * shadow is made as an obstacle is, of an anchor as a piece of one corner. It owes the margin, so that what was rounded
+ * stands clear of it; but never more than home has. What holds the anchor has no shadow from it.
+ *
+ * Most pairs never come near any of it: relative moves are short, and K lies as far from the origin as the anchor does
+ * from B. That is asked of boxes first. */
+#include "displacement/search/search.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
+
+/* Where u's part of the segment from the origin is, and what is within reach of it. */
+static void box_of_way(const double u[2], double reach, double box[4])
+{
+    for (int c = 0; c < 2; c++) {
+        box[c] = fmin(u[c], 0) - reach;
+        box[c + 2] = fmax(u[c], 0) + reach;
+    }
+}
+
+/* Does the box a - b - offset meet `way`? */
+static bool differ_into(const double a[4], const double b[4], const double offset[2], const double way[4])
+{
+    return a[0] - b[2] - offset[0] <= way[2] && a[2] - b[0] - offset[0] >= way[0] &&
+           a[1] - b[3] - offset[1] <= way[3] && a[3] - b[1] - offset[1] >= way[1];
+}
+
+/* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
+static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
+                       sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->anchor[f];
+        if (!anchor->corners) continue;
+        for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
+            const sunder_i_body_piece *piece = &model->piece[l];
+            const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
+            if (!differ_into(a->box, b->box, part->offset, way) || sunder_i_is_held(model, f, piece->feature)) continue;
+            part->a = a;
+            part->b = b;
+            part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | l;
+            visit(s, part, context);
+        }
+        if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
+    }
+}
+
+void sunder_i_search_body_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double u[2],
+                                  double reach, sunder_i_visit_piece_pair visit, void *context)
+{
+    sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, .shadow = true};
+    double way[4];
+    if (s->model->rules.jumps) return;
+    box_of_way(u, reach, way);
+    part.inclusion = SUNDER_I_LAPSED;
+    if (differ_into(p->anchors, q->box, part.offset, way)) visit_from(s, p, q, way, &part, false, visit, context);
+    if (differ_into(p->box, q->anchors, part.offset, way)) visit_from(s, q, p, way, &part, true, visit, context);
+}
+
+void sunder_i_search_shadows(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
+                             sunder_i_visit_piece_pair visit, void *context)
+{
+    sunder_i_search_body_shadows(s, &s->model->body[s->body[i]], &s->model->body[s->body[j]], u, reach, visit, context);
+}
+
+/* ---- Who may have passed whom ------------------------------------------------------------------------------------ */
+
+/* Where body k was on its way from home to t, from the first body's origin. */
+static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, double box[4])
+{
+    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
+    for (uint32_t c = 0; c < 4; c++) {
+        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = t[2 * k + (c & 1)];
+        box[c] = home + (c < 2 ? fmin(at, 0) : fmax(at, 0));
+    }
+}
+
+/* Do the two stand within reach of each other at t? */
+static bool are_near(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    double box[4];
+    for (uint32_t c = 0; c < 4; c++)
+        box[c] = p->box[c] + p->origin[c & 1] + t[2 * i + (c & 1)] - q->origin[c & 1] - t[2 * j + (c & 1)] +
+                 (c < 2 ? -reach : reach);
+    return sunder_i_box_meet(box, q->box);
+}
+
+bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
+{
+    const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
+    double way[4];
+    if (s->model->rules.jumps) return false;
+    box_of_way(u, reach - s->model->rules.gap, way);
+    return differ_into(p->anchors, q->box, offset, way) || differ_into(p->box, q->anchors, offset, way);
+}
+
+/* The shortest way from an anchor out of its body's own box. Whoever jumped over one and stands clear of it by more
+ * than `reach` has gone farther than that and the reach together. */
+static double least_depth(const sunder_i_search *s)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < s->n; k++) {
+        const sunder_i_body *b = &s->model->body[s->body[k]];
+        if (b->pieces == 0) continue;
+        for (int c = 0; c < 2; c++)
+            least = fmin(least, fmin(b->anchors[c] - b->box[c], b->box[c + 2] - b->anchors[c + 2]));
+    }
+    return least;
+}
+
+static double longest(const sunder_i_search *s, const double *t)
+{
+    double square = 0;
+    for (size_t k = 0; k < s->n; k++) square = fmax(square, t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]);
+    return sqrt(square);
+}
+
+typedef struct swept {
+    double box[4];
+    uint32_t body;
+} swept;
+
+static int by_left(const void *a, const void *b)
+{
+    const swept *p = a, *q = b;
+    if (p->box[0] != q->box[0]) return p->box[0] < q->box[0] ? -1 : 1;
+    return p->body < q->body ? -1 : p->body > q->body;
+}
+
+void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit,
+                             void *context)
+{
+    if (s->model->rules.jumps || s->n < 2) return;
+    /* Two that passed are apart by more than the reach along an axis; half of it is given to each. */
+    if (2 * longest(s, t) + reach - s->model->rules.gap < least_depth(s) + reach) return;
+    swept *list = sunder_i_alloc(s->n, sizeof *list);
+    if (!list) {
+        s->failed = true;
+        return;
+    }
+    for (uint32_t k = 0; k < s->n; k++) {
+        box_of_body(s, t, k, list[k].box);
+        list[k].body = k;
+    }
+    qsort(list, s->n, sizeof *list, by_left);
+    for (size_t x = 0; x < s->n && !s->failed; x++)
+        for (size_t y = x + 1; y < s->n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
+            const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
+                           j = list[x].body ^ list[y].body ^ i;
+            if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
+            if (!(s->mass[i] + s->mass[j] > 0) || are_near(s, t, i, j, reach)) continue;
+            if (sunder_i_search_may_pass(s, t, i, j, reach)) visit(s, i, j, context);
+        }
+    sunder_i_free(list);
+}
