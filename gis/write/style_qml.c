@@ -1,8 +1,9 @@
 /* style_qml.c: the QGIS style documents, put together from a few symbols.
  *
  * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
- * red; arrows are blue, conflicts magenta. Teal, red, blue and magenta stay apart for most colour-blind readers because
- * they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
+ * red; arrows are blue, conflicts magenta, those with barriers violet. Where a proved conflict has a disc and a thick
+ * line, an unresolved one has a ring and a thin line. Teal, red, blue and magenta stay apart for most colour-blind
+ * readers because they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
 #include "sunder.h"
 #include "write/style.h"
 
@@ -51,12 +52,18 @@ static void add_line(gis_text *to, const char *colour, const char *width)
     gis_text_print(to, "</layer>");
 }
 
-static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size)
+/* outline NULL: none. */
+static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *outline)
 {
     begin_layer(to, "SimpleMarker");
     add_property(to, "name", shape);
     add_property(to, "color", colour);
-    add_property(to, "outline_style", "no");
+    add_property(to, "outline_style", outline ? "solid" : "no");
+    if (outline) {
+        add_property(to, "outline_color", outline);
+        add_property(to, "outline_width", "0.4");
+        add_property(to, "outline_width_unit", "MM");
+    }
     add_property(to, "size", size);
     add_property(to, "size_unit", "MM");
     gis_text_print(to, "</layer>");
@@ -71,7 +78,7 @@ static void begin_symbol(gis_text *to, const char *type, const char *name)
 
 /* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
 static void add_marker_line(gis_text *to, const char *placement, const char *parent, const char *shape,
-                            const char *colour, const char *size)
+                            const char *colour, const char *size, const char *outline)
 {
     begin_layer(to, "MarkerLine");
     add_property(to, "placement", placement);
@@ -79,7 +86,7 @@ static void add_marker_line(gis_text *to, const char *placement, const char *par
     char name[32];
     snprintf(name, sizeof name, "@%s@1", parent);
     begin_symbol(to, "marker", name);
-    add_marker(to, shape, colour, size);
+    add_marker(to, shape, colour, size, outline);
     gis_text_print(to, "</symbol></layer>");
 }
 
@@ -87,7 +94,7 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
 {
     begin_symbol(to, symbol_type(of), name);
     if (of == OF_POINTS)
-        add_marker(to, "circle", colour, "2");
+        add_marker(to, "circle", colour, "2", NULL);
     else if (of == OF_LINES)
         add_line(to, colour, "0.6");
     else
@@ -127,6 +134,11 @@ static void add_by_status(gis_text *to, kind of)
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
+/* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
+#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_near')"
+#define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
+#define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
+
 static void begin_single(gis_text *to)
 {
     gis_text_print(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
@@ -142,21 +154,47 @@ static void add_arrows(gis_text *to)
     begin_single(to);
     begin_symbol(to, "line", "0");
     add_line(to, blue, "0.4");
-    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8");
+    add_marker_line(to, "lastvertex", "0", "filled_arrowhead", blue, "1.8", NULL);
     gis_text_print(to, "</symbol>\n");
     end_single(to);
 }
 
+/* How a conflict is drawn: with what, and whether it is known that it could not be solved. */
+static const struct {
+    const char *label, *filter, *colour;
+    bool open; /* a dashed line, and a ring */
+} conflict_rules[] = {
+    {"between features", "NOT (" IS_BARRIER ") AND NOT (" IS_OPEN ") AND NOT (" IS_ALLOWED ")", "231,0,138,255", false},
+    {"between features, unresolved", "NOT (" IS_BARRIER ") AND (" IS_OPEN ")", "231,0,138,255", true},
+    {"with a barrier", "(" IS_BARRIER ") AND NOT (" IS_OPEN ")", "106,27,154,255", false},
+    {"with a barrier, unresolved", "(" IS_BARRIER ") AND (" IS_OPEN ")", "106,27,154,255", true},
+    {"allowed", "NOT (" IS_BARRIER ") AND (" IS_ALLOWED ")", "150,150,150,255", false},
+};
+enum { CONFLICT_RULES = sizeof conflict_rules / sizeof *conflict_rules };
+
 /* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. */
+static void add_conflict_symbol(gis_text *to, int rule)
+{
+    const char *colour = conflict_rules[rule].colour;
+    bool open = conflict_rules[rule].open;
+    char name[12];
+    snprintf(name, sizeof name, "%d", rule);
+    begin_symbol(to, "line", name);
+    add_line(to, colour, open ? "0.5" : "1.2");
+    add_marker_line(to, "firstvertex", name, "circle", open ? "255,255,255,255" : colour, "2.2", open ? colour : NULL);
+    gis_text_print(to, "</symbol>\n");
+}
+
 static void add_conflicts(gis_text *to)
 {
-    static const char magenta[] = "231,0,138,255";
-    begin_single(to);
-    begin_symbol(to, "line", "0");
-    add_line(to, magenta, "1.2");
-    add_marker_line(to, "firstvertex", "0", "circle", magenta, "2.2");
-    gis_text_print(to, "</symbol>\n");
-    end_single(to);
+    gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" "
+                       "enableorderby=\"0\">\n<rules key=\"conflicts\">\n");
+    for (int k = 0; k < CONFLICT_RULES; k++)
+        gis_text_print(to, "<rule key=\"conflict %d\" symbol=\"%d\" label=\"%s\" filter=\"%s\"/>\n", k, k,
+                       conflict_rules[k].label, conflict_rules[k].filter);
+    gis_text_print(to, "</rules>\n<symbols>\n");
+    for (int k = 0; k < CONFLICT_RULES; k++) add_conflict_symbol(to, k);
+    gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
 static void add_plain(gis_text *to, kind of, const char *colour, const char *outline)

@@ -24,6 +24,25 @@ town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
     arrows=31,78,200=50 conflicts=231,0,138=50 || fail "the picture lacks a colour"
 cp "$work/picture.png" "${SUNDER_BUILD:-$work}/qgis_colours.png" 2>/dev/null || true
 
+# Conflicts are told apart by what they are with, and whether they are proved: an unresolved one is a thin line with a
+# ring. The rows are written over, so that all of it is there whatever the town's conflicts are.
+rows() { # value of kind, value of reason
+    cp "$work/out.gpkg" "$work/rows.gpkg"
+    sqlite3 "$work/rows.gpkg" "DELETE FROM layer_styles WHERE f_table_name = 'buildings';
+        UPDATE buildings_conflicts SET kind = '$1', reason = $2;" 2>/dev/null ||
+        ogrinfo -q -dialect sqlite -sql "UPDATE buildings_conflicts SET kind = '$1', reason = $2" "$work/rows.gpkg"
+    shift 2
+    "$python" "$here/render_colours.py" "$work/rows.gpkg" "$work/rows.png" buildings_conflicts -- "$@"
+}
+rows overlap "'no_room'" proved=231,0,138=600 || fail "a proved conflict is not magenta"
+proved=$(rows overlap "'no_room'" proved=231,0,138=0 | sed -n 's/^proved.*: \([0-9]*\) pixels.*/\1/p')
+unresolved=$(rows overlap "'unresolved'" unresolved=231,0,138=100 | sed -n 's/^unresolved.*: \([0-9]*\) pixels.*/\1/p')
+[ "$unresolved" -lt $((proved * 8 / 10)) ] || fail "unresolved conflicts look like proved ones: $unresolved and $proved pixels"
+rows barrier "'max_shift'" barrier=106,27,154=600 || fail "a conflict with a barrier is not violet"
+rows barrier_near "'unresolved'" barrier=106,27,154=100 || fail "a conflict near a barrier is not violet"
+rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not grey"
+rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
+
 # Without styles QGIS draws one colour of its own choice: then none of ours may be there, or the test proves nothing.
 "$SUNDER" separate --input-layer buildings --gap 3 --max-shift 1 --allow-conflicts --no-styles --quiet \
     "$town" "$work/plain.gpkg"
