@@ -134,11 +134,6 @@ static void add_by_status(gis_text *to, kind of)
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
-/* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
-#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_near')"
-#define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
-#define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
-
 static void begin_single(gis_text *to)
 {
     gis_text_print(to, "<renderer-v2 type=\"singleSymbol\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"
@@ -159,10 +154,15 @@ static void add_arrows(gis_text *to)
     end_single(to);
 }
 
+/* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
+#define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_near')"
+#define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
+#define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
+
 /* How a conflict is drawn: with what, and whether it is known that it could not be solved. */
 static const struct {
     const char *label, *filter, *colour;
-    bool open; /* a dashed line, and a ring */
+    bool open; /* a thin line, and a ring */
 } conflict_rules[] = {
     {"between features", "NOT (" IS_BARRIER ") AND NOT (" IS_OPEN ") AND NOT (" IS_ALLOWED ")", "231,0,138,255", false},
     {"between features, unresolved", "NOT (" IS_BARRIER ") AND (" IS_OPEN ")", "231,0,138,255", true},
