@@ -110,6 +110,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .max_shift_field = options->text[OPT_MAX_SHIFT_FIELD],
         .no_blocks = options->given[OPT_NO_BLOCKS],
         .list_inside = options->given[OPT_LIST_INSIDE],
+        .allow_jumps = options->given[OPT_ALLOW_JUMPS],
         .threads = thread_count(options),
     };
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;

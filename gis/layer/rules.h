@@ -17,7 +17,7 @@ typedef struct gis_layer_rules {
     const char *block_field, *weight_field, *max_shift_field;
     gis_weighting weighting;
     sunder_containment contained;
-    bool no_blocks, list_inside;
+    bool no_blocks, list_inside, allow_jumps;
     bool count_thin;  /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
     unsigned threads; /* 0: as many as there are processors */
 } gis_layer_rules;

@@ -25,7 +25,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.list_inside = rules->list_inside;
     core.contained = rules->contained;
     core.threads = rules->threads;
-    core.allow_jumps = input->points;
+    core.allow_jumps = input->points || rules->allow_jumps;
     return core;
 }
 

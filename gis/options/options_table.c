@@ -26,6 +26,8 @@ const gis_option gis_option_table[OPT_N] = {
                        "nothing joins by touch or containment"},
     [OPT_CONTAINED] = {OPT_CONTAINED, "--contained", GIS_TYPE_CHOICE, GIS_LAYERS, OWN, "block|ignore|separate", "block",
                        "if one lies in another; points: separate"},
+    [OPT_ALLOW_JUMPS] = {OPT_ALLOW_JUMPS, "--allow-jumps", GIS_TYPE_FLAG, GIS_SEPARATE, OWN, NULL, NULL,
+                         "over others, and out of yards; points always may"},
     [OPT_SYMBOL] = {OPT_SYMBOL, "--symbol", GIS_TYPE_TEXT, GIS_LAYERS, OWN, "SHAPE", NULL,
                     "drawn at each point: WKT, disc:R[:N], square:S ..."},
     [OPT_SYMBOL_FIELD] = {OPT_SYMBOL_FIELD, "--symbol-field", GIS_TYPE_TEXT, GIS_LAYERS, OWN, "FIELD", NULL,

@@ -1,0 +1,18 @@
+# shellcheck shell=bash disable=SC1091
+# No feature leaves a yard over a neighbour, unless --allow-jumps.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+# A hut that fills its yard up to half a metre, where the gap is a metre: the yard has a fixed wall around it.
+layer yard.gpkg yards POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,20 0,20 20,0 20,0 0),(5 5,5 15,15 15,15 5,5 5))"
+2,"POLYGON((5.5 5.5,14.5 5.5,14.5 14.5,5.5 14.5,5.5 5.5))"
+X
+expect 3 separate yard.gpkg o.gpkg -q --gap 1 --fixed-where 'id = 1'
+same "$(value o.gpkg yards 2 sunder_st)" blocked
+expect 0 separate yard.gpkg o.gpkg -q --overwrite --gap 1 --fixed-where 'id = 1' --allow-jumps
+same "$(value o.gpkg yards 2 sunder_st) $(value o.gpkg yards 2 sunder_len | awk '{ print ($1 > 14) }')" 'moved 1'
+
+refused 2 'takes no value' separate yard.gpkg never.gpkg --allow-jumps=yes
+refused 2 'belongs to other commands' check yard.gpkg --allow-jumps
+finish
