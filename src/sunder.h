@@ -520,7 +520,8 @@ typedef struct sunder_conflict {
     size_t n_blocked_by;
     bool inside_block; /* counted in inside_blocks alone */
     /* A limit of moves, a gap with which a solution of the pair and its neighbours is known, NAN: none; a feature or
-     * barrier without which it is, SIZE_MAX: none. Not sought yet: none is ever known. */
+     * barrier without which it is, SIZE_MAX: none. Upper estimates: all others stand as in the result; a few questions
+     * each, and none at effort 0. */
     double need_shift, need_gap;
     size_t need_gone;
 } sunder_conflict;

@@ -95,8 +95,38 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_solver_gather(s, err);
 }
 
+/* To where the report begins. */
+static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                          sunder_report **report, sunder_error *err)
+{
+    sunder_status status = sunder_i_order_layer(layer, &s->layer, &s->number, err);
+    if (!status) status = start(s, &s->layer, options, report, err);
+    if (!status) status = prepare(s, err);
+    if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
+    if (!status) status = solve(s, err);
+    if (!status && !sunder_i_progress(&s->model.rules, FOUND)) status = sunder_i_no_memory(err);
+    return status;
+}
+
+/* A question about a conflict: a small layer of its own, of which nothing is reported. What the first search does not
+ * find is not asked again, and nothing is improved. */
+static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options, sunder_i_solver *s,
+                                  sunder_error *err)
+{
+    sunder_report *report = NULL;
+    sunder_status status = sunder_i_order_layer(layer, &s->layer, &s->number, err);
+    if (!status) status = start(s, &s->layer, options, &report, err);
+    if (!status) status = prepare(s, err);
+    if (!status) status = sunder_i_solver_move_inside(s, err);
+    if (!status) status = sunder_i_solver_choose_holders(s, err);
+    if (!status) status = sunder_i_solver_settle(s, 0, 1, err);
+    sunder_report_free(report);
+    return status;
+}
+
 /* Relations once more from nothing, so that the verdict leans on no earlier one; and what is proved of them. */
-static sunder_status conclude(sunder_i_solver *s, sunder_report *report, double began, sunder_error *err)
+static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                              double began, sunder_error *err)
 {
     const double solved = sunder_i_now();
     sunder_i_relations last = {0};
@@ -113,6 +143,7 @@ static sunder_status conclude(sunder_i_solver *s, sunder_report *report, double 
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_proofs(report, s, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
+    if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
@@ -124,15 +155,8 @@ static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, con
                               sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = sunder_i_order_layer(layer, &s->layer, &s->number, err);
-    if (!status) status = start(s, &s->layer, options, report, err);
-    if (!status) status = prepare(s, err);
-    if (status) return status;
-    if (!sunder_i_progress(&s->model.rules, PREPARED)) return sunder_i_no_memory(err);
-    status = solve(s, err);
-    if (status) return status;
-    if (!sunder_i_progress(&s->model.rules, FOUND)) return sunder_i_no_memory(err);
-    status = conclude(s, *report, began, err);
+    sunder_status status = work(s, layer, options, report, err);
+    if (!status) status = conclude(s, options, *report, began, err);
     if (!status) sunder_i_progress(&s->model.rules, 1);
     return status;
 }

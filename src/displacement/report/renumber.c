@@ -62,6 +62,7 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
         c->b = number[c->b];
         if (c->a > c->b) turn(c);
         for (size_t i = 0; i < c->n_blocked_by; i++) blocker[i] = number[blocker[i]];
+        if (c->need_gone != SIZE_MAX) c->need_gone = number[c->need_gone];
         if (c->n_blocked_by) qsort(blocker, c->n_blocked_by, sizeof *blocker, by_number);
         if (list[k].proof) number_proof(list[k].proof, number);
     }

@@ -64,6 +64,15 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
 /* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
+/* ---- needs.c ----------------------------------------------------------------------------------------------------- */
+
+/* Solves a layer without much ado, to where its report would begin. The solver is to be freed, also on failure. */
+typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const sunder_layer_options *options,
+                                              sunder_i_solver *solver, sunder_error *err);
+/* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known. */
+sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
+                                    const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
+
 /* ---- blockers.c -------------------------------------------------------------------------------------------------- */
 
 /* Fills the conflicts' blocked_by. */

@@ -31,6 +31,19 @@
 #define SWEEPS 400
 #define STILL 1e-7
 
+/* ---- What would free a conflict (needs.c) ------------------------------------------------------------------------ */
+
+/* So many bodies move in a question at most: a question takes some milliseconds then. */
+#define NEED_MOVING 8
+/* Who stands within so many times as far as the pair lacks and owes takes part; where somebody goes farther without
+ * limits, so many times that, once. */
+#define NEED_REACH 4
+#define NEED_WIDER 4
+/* For each unit of effort, up to so many, what lies between what does and what does not is halved once, and so many of
+ * those in the way are let go by turns. */
+#define NEED_EFFORT 16
+#define NEED_GONE 2
+
 /* ---- What stands in the way (blockers.c) ------------------------------------------------------------------------- */
 
 /* Two that are apart by the gap and this share of the gap or of a feature's size still rest against each other. */
