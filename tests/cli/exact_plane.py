@@ -174,6 +174,18 @@ def lies_in(a, b):
     return True
 
 
+def corners_lie_in(a, b, d):
+    """Every corner of a in b, or no farther from it than d: what "a lies in b up to d" demands at least."""
+    if not b.area or not boxes_near(a.box, b.box, d):
+        return False
+    for p in {p for e in a.edges for p in e}:
+        if locate(b, p) < 0:
+            near = near_edges(b, (*p, *p), d)
+            if not any(n <= d * d * m for n, m in (square_to_edge(p, e) for e in near)):
+                return False
+    return True
+
+
 def square_to_edge(p, e):
     """(numerator, denominator) of the squared distance of a point."""
     a, b = e

@@ -64,23 +64,30 @@ def write(path, shapes, order, change=lambda x, y: (x, y)):
 class Run:
     """Moves by number, pairs in conflict, the longest move."""
 
-    def __init__(self, sunder, path, gap, limit, tolerance=TOLERANCE):
+    def __init__(self, sunder, path, gap, limit, tolerance=TOLERANCE, more=()):
         words = [sunder, "separate", path, "o.gpkg", "--overwrite", "-q", "--gap", repr(gap), "--touch-tolerance",
                  repr(tolerance), "--stats", "s.json"]
-        done = subprocess.run(words + (["--max-shift", repr(limit)] if limit else []), capture_output=True, text=True)
+        words += ["--max-shift", repr(limit)] if limit else []
+        done = subprocess.run(words + list(more), capture_output=True, text=True)
         if done.returncode not in (0, 3):
             raise SystemExit(f"{' '.join(words)}: {done.stderr}")
         with open("s.json", encoding="utf-8") as f:
-            self.longest = json.load(f)["displacement"]["max"]
+            stats = json.load(f)
+        self.longest = stats["displacement"]["max"]
+        self.proved = stats["clusters_optimal"] == stats["clusters"]  # of every group
         result = gdal.OpenEx("o.gpkg", gdal.OF_VECTOR)
         self.move, number = {}, {}
         for f in result.GetLayerByName("l"):
             number[f.GetFID()] = f.GetField("n")
             self.move[f.GetField("n")] = (f.GetField("sunder_dx") or 0.0, f.GetField("sunder_dy") or 0.0)
-        listed = {tuple(sorted((number[f.GetField("fid_a")], number[f.GetField("fid_b")]))): f.GetField("kind")
-                  for f in result.GetLayerByName("l_conflicts") if f.GetField("reason") not in ("same_block", "kept")}
+        listed = {}
+        for f in result.GetLayerByName("l_conflicts"):
+            a, b = number[f.GetField("fid_a")], number.get(f.GetField("fid_b"))
+            if f.GetField("reason") not in ("same_block", "kept"):
+                pair = (a, (f.GetField("barrier"), f.GetField("barr_fid"))) if b is None else (min(a, b), max(a, b))
+                listed[pair] = f.GetField("kind")
         self.conflicts = set(listed)
-        self.overlaps = {pair for pair, kind in listed.items() if kind != "too_close"}
+        self.overlaps = {pair for pair, kind in listed.items() if kind not in ("too_close", "barrier_near")}
 
 
 def find(root, k):
@@ -217,4 +224,5 @@ def main():
     sys.exit(1 if trouble else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,319 @@
+#include "hamlet.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Features and barriers ---- */
+
+static void add_box(house *h, double x, double y, double w, double d)
+{
+    const double xy[8] = {x, y, x + w, y, x + w, y + d, x, y + d};
+    house_part *p = &h->part[h->parts++];
+    memcpy(p->xy, xy, sizeof xy);
+    p->corners = 4;
+}
+
+static void set_outline(house *h, const double *xy, size_t outer, size_t inner)
+{
+    memcpy(h->xy, xy, 2 * (outer + inner) * sizeof *xy);
+    h->ring_end[0] = outer;
+    h->ring_end[1] = outer + inner;
+    h->rings = inner ? 2 : 1;
+}
+
+/* In units of the grid: a box, a triangle, a slanted quadrangle, an L, a U, a frame round a yard. */
+static void build(rng *r, house *h, double x, double y, double unit)
+{
+    const double w = unit * (double)rng_int(r, 3, 8), d = unit * (double)rng_int(r, 3, 8), a = unit, b = unit;
+    *h = (house){.weight = 1, .limit = INFINITY, .block = -1};
+    const double lean = unit * (double)rng_int(r, 0, 2);
+    const double triangle[] = {x, y, x + w, y + lean, x + lean, y + d};
+    const double slanted[] = {x, y, x + w, y + lean, x + w + lean, y + lean + d, x + lean, y + d};
+    const double box[] = {x, y, x + w, y, x + w, y + d, x, y + d};
+    const double l[] = {x, y, x + w, y, x + w, y + b, x + a, y + b, x + a, y + d, x, y + d};
+    const double u[] = {x,         y,     x + w, y,     x + w, y + d, x + w - a, y + d,
+                        x + w - a, y + b, x + a, y + b, x + a, y + d, x,         y + d};
+    const double frame[] = {x,     y,     x + w, y,         x + w,     y + d,     x,         y + d,
+                            x + a, y + b, x + a, y + d - b, x + w - a, y + d - b, x + w - a, y + b};
+    switch (rng_int(r, 0, 6)) {
+    case 0:
+        set_outline(h, triangle, 3, 0);
+        h->part[h->parts].corners = 3;
+        memcpy(h->part[h->parts++].xy, triangle, sizeof triangle);
+        break;
+    case 1:
+        set_outline(h, slanted, 4, 0);
+        h->part[h->parts].corners = 4;
+        memcpy(h->part[h->parts++].xy, slanted, sizeof slanted);
+        break;
+    case 2:
+        set_outline(h, l, 6, 0);
+        add_box(h, x, y, w, b);
+        add_box(h, x, y + b, a, d - b);
+        break;
+    case 3:
+        set_outline(h, u, 8, 0);
+        add_box(h, x, y, w, b);
+        add_box(h, x, y + b, a, d - b);
+        add_box(h, x + w - a, y + b, a, d - b);
+        break;
+    case 4:
+        set_outline(h, frame, 4, 4);
+        add_box(h, x, y, w, b);
+        add_box(h, x, y + d - b, w, b);
+        add_box(h, x, y + b, a, d - 2 * b);
+        add_box(h, x + w - a, y + b, a, d - 2 * b);
+        break;
+    default: set_outline(h, box, 4, 0); add_box(h, x, y, w, d);
+    }
+}
+
+static void found_barrier(rng *r, hamlet_barrier *b, double x, double y, double unit)
+{
+    const size_t points[] = {1, 2, 3, 4};
+    *b = (hamlet_barrier){.points = points[rng_int(r, 0, 3)], .gap = -1};
+    b->area = b->points == 4;
+    const double left = x + unit * (double)rng_int(r, -2, 12), low = y + unit * (double)rng_int(r, -2, 12);
+    const double w = unit * (double)rng_int(r, 1, 4), d = unit * (double)rng_int(r, 1, 4);
+    const double box[] = {left, low, left + w, low, left + w, low + d, left, low + d};
+    for (size_t k = 0; k < b->points; k++) {
+        b->xy[2 * k] = b->area ? box[2 * k] : x + unit * (double)rng_int(r, -2, 14);
+        b->xy[2 * k + 1] = b->area ? box[2 * k + 1] : y + unit * (double)rng_int(r, -2, 14);
+    }
+    if (rng_once_in(r, 2)) b->width = unit * 0.25 * (double)rng_int(r, 1, 6);
+    if (rng_once_in(r, 2)) b->gap = unit * 0.25 * (double)rng_int(r, 0, 4);
+}
+
+/* Do the boxes meet? Then it is not known where the side anchor is. */
+static bool may_cut(const hamlet *t, const hamlet_barrier *b)
+{
+    for (size_t k = 0; k < t->n; k++) {
+        const house *h = &t->house[k];
+        bool apart = false;
+        for (int c = 0; c < 2; c++) {
+            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+            for (size_t p = 0; p < h->ring_end[0]; p++) {
+                low[0] = fmin(low[0], h->xy[2 * p + (size_t)c]);
+                high[0] = fmax(high[0], h->xy[2 * p + (size_t)c]);
+            }
+            for (size_t p = 0; p < b->points; p++) {
+                low[1] = fmin(low[1], b->xy[2 * p + (size_t)c]);
+                high[1] = fmax(high[1], b->xy[2 * p + (size_t)c]);
+            }
+            apart = apart || low[0] > high[1] || low[1] > high[0];
+        }
+        if (!apart) return true;
+    }
+    return false;
+}
+
+void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
+{
+    const double unit = rng_once_in(r, 2) ? 1 : 0.125 * (double)rng_int(r, 1, 12);
+    const double x = rng_once_in(r, 3) ? 400000 : 0, y = x * 13;
+    const bool weights = rng_once_in(r, 3), limits = rng_once_in(r, 3), fixed = rng_once_in(r, 4);
+    *t = (hamlet){.n = n, .jumps = !(kinds & HAMLET_NO_JUMPS)};
+    t->gap = rng_once_in(r, 2) ? 0 : unit * 0.25 * (double)rng_int(r, 1, 8);
+    for (size_t k = 0; k < n; k++) {
+        house *h = &t->house[k];
+        build(r, h, x + unit * (double)rng_int(r, 0, 9), y + unit * (double)rng_int(r, 0, 9), unit);
+        if (weights) h->weight = (double)rng_int(r, 1, 32) / 8;
+        if (limits && rng_once_in(r, 2)) h->limit = unit * (double)rng_int(r, 0, 24) / 4;
+        h->fixed = fixed && rng_once_in(r, 3);
+    }
+    if (n > 2 && rng_once_in(r, 4)) t->house[0].block = t->house[n - 1].block = 7;
+    if (!(kinds & (HAMLET_BARRIERS_TOO | HAMLET_SIDES))) return;
+    t->barriers = (size_t)rng_int(r, 1, HAMLET_BARRIERS);
+    for (size_t k = 0; k < t->barriers; k++) {
+        hamlet_barrier *b = &t->barrier[k];
+        found_barrier(r, b, x, y, unit);
+        b->side = kinds & HAMLET_SIDES && !may_cut(t, b);
+    }
+}
+
+/* ---- As layers ---- */
+
+static sunder_shape *shape_of(const double *xy, const size_t *ring_end, size_t rings)
+{
+    sunder_shape *shape = NULL;
+    sunder_error err;
+    if (sunder_shape_from_rings(xy, ring_end, &rings, 1, SUNDER_VALIDITY_STRICT, &shape, &err)) {
+        fprintf(stderr, "hamlet: %s\n", err.message);
+        abort();
+    }
+    return shape;
+}
+
+sunder_report *hamlet_separate(const hamlet *t, double effort)
+{
+    sunder_shape *shape[HAMLET_HOUSES + HAMLET_BARRIERS] = {NULL};
+    sunder_feature feature[HAMLET_HOUSES];
+    sunder_barrier barrier[HAMLET_BARRIERS];
+    sunder_layer_options options;
+    sunder_layer *layer = NULL;
+    sunder_report *report = NULL;
+    sunder_error err;
+    sunder_layer_options_init(&options);
+    options.gap = t->gap;
+    options.touch_tolerance = 0;
+    options.no_blocks = true;
+    options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    options.allow_jumps = t->jumps;
+    options.effort = effort;
+    for (size_t k = 0; k < t->n; k++) {
+        const house *h = &t->house[k];
+        shape[k] = shape_of(h->xy, h->ring_end, h->rings);
+        feature[k] = (sunder_feature){
+            .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = h->block, .fixed = h->fixed};
+    }
+    for (size_t k = 0; k < t->barriers; k++) {
+        const hamlet_barrier *b = &t->barrier[k];
+        if (b->area) shape[t->n + k] = shape_of(b->xy, &b->points, 1);
+        barrier[k] = (sunder_barrier){.geometry = {.shape = shape[t->n + k]}, .width = b->width, .gap = b->gap};
+        barrier[k].side = b->side;
+        if (b->area) continue;
+        barrier[k].geometry.xy = b->xy;
+        barrier[k].geometry.line_end = &b->points;
+        barrier[k].geometry.lines = 1;
+    }
+    if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_set_barriers(layer, barrier, t->barriers, &err) ||
+        sunder_layer_separate(layer, &options, &report, &err)) {
+        fprintf(stderr, "hamlet: %s\n", err.message);
+        abort();
+    }
+    sunder_layer_free(layer);
+    for (size_t k = 0; k < t->n + t->barriers; k++) sunder_shape_free(shape[k]);
+    return report;
+}
+
+/* ---- As problems ---- */
+
+typedef struct posing {
+    const hamlet *t;
+    optimum_problem *m;
+    size_t body_of[HAMLET_HOUSES];
+    size_t barriers; /* the body of all of them */
+    double anchor[HAMLET_HOUSES][2];
+} posing;
+
+/* Features of one block are one body. The anchors are the library's, nearest doubles of it. */
+static void start(posing *p, const hamlet *t, optimum_problem *m)
+{
+    *p = (posing){.t = t, .m = m};
+    *m = (optimum_problem){.bodies = 0};
+    for (size_t k = 0; k < t->n; k++) {
+        const house *h = &t->house[k];
+        p->body_of[k] = m->bodies;
+        for (size_t j = 0; j < k; j++)
+            if (h->block >= 0 && t->house[j].block == h->block) p->body_of[k] = p->body_of[j];
+        if (p->body_of[k] == m->bodies) m->body[m->bodies++] = (optimum_body){0, INFINITY};
+        optimum_body *body = &m->body[p->body_of[k]];
+        body->weight += h->weight;
+        body->limit = h->fixed ? 0 : fmin(body->limit, h->limit);
+        sunder_shape *shape = shape_of(h->xy, h->ring_end, h->rings);
+        sunder_shape_anchor(shape, p->anchor[k]);
+        sunder_shape_free(shape);
+    }
+    p->barriers = m->bodies;
+    m->body[m->bodies++] = (optimum_body){1, 0};
+}
+
+static void keep_houses_apart(posing *p, size_t a, size_t b)
+{
+    const house *g = &p->t->house[a], *h = &p->t->house[b];
+    for (size_t i = 0; i < g->parts; i++)
+        for (size_t j = 0; j < h->parts; j++)
+            optimum_keep_apart(p->m, p->body_of[a], p->body_of[b], g->part[i].xy, g->part[i].corners, h->part[j].xy,
+                               h->part[j].corners, p->t->gap);
+}
+
+/* Convex parts: a polygon, or the segments of a line, or a point. */
+static size_t barrier_parts(const hamlet_barrier *b) { return b->area || b->points == 1 ? 1 : b->points - 1; }
+static size_t part_corners(const hamlet_barrier *b) { return b->area || b->points == 1 ? b->points : 2; }
+
+static void keep_off_barrier(posing *p, size_t a, size_t k)
+{
+    const hamlet_barrier *b = &p->t->barrier[k];
+    const house *h = &p->t->house[a];
+    const double radius = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
+    for (size_t i = 0; i < h->parts; i++)
+        for (size_t j = 0; j < barrier_parts(b); j++)
+            optimum_keep_apart(p->m, p->body_of[a], p->barriers, h->part[i].xy, h->part[i].corners, b->xy + 2 * j,
+                               part_corners(b), radius);
+}
+
+static bool in_convex(const double *xy, size_t n, const double at[2])
+{
+    for (size_t k = 0; k < n; k++) {
+        const double *p = xy + 2 * k, *q = xy + 2 * ((k + 1) % n);
+        if ((q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]) < 0) return false;
+    }
+    return true;
+}
+
+/* Neither feature jumps over the other. */
+static void keep_from_jumps(posing *p, size_t a, size_t b)
+{
+    for (int turn = 0; turn < 2; turn++) {
+        const size_t jumper = turn ? b : a, over = turn ? a : b;
+        const house *h = &p->t->house[over];
+        bool holds = false;
+        for (size_t i = 0; i < h->parts; i++)
+            holds = holds || in_convex(h->part[i].xy, h->part[i].corners, p->anchor[jumper]);
+        for (size_t i = 0; i < h->parts && !holds; i++)
+            optimum_keep_off(p->m, p->body_of[over], p->body_of[jumper], h->part[i].xy, h->part[i].corners,
+                             p->anchor[jumper]);
+    }
+}
+
+/* Barriers with sides meet no feature, so the side anchor is the plain one, and out of a convex polygon there is one
+ * way only, which is allowed. */
+static void keep_side(posing *p, size_t a, size_t k)
+{
+    const hamlet_barrier *b = &p->t->barrier[k];
+    if (!b->side || (b->area && in_convex(b->xy, b->points, p->anchor[a]))) return;
+    for (size_t j = 0; j < barrier_parts(b); j++)
+        optimum_keep_off(p->m, p->barriers, p->body_of[a], b->xy + 2 * j, part_corners(b), p->anchor[a]);
+}
+
+static bool is_asked(const sunder_conflict *listed, size_t n, const sunder_conflict *besides, size_t a, size_t b)
+{
+    for (size_t k = 0; k < n; k++)
+        if (listed[k].a == a && listed[k].b == b) return &listed[k] == besides;
+    return true;
+}
+
+void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
+                 optimum_problem *m)
+{
+    posing p;
+    start(&p, t, m);
+    for (size_t b = 0; b < t->n; b++) {
+        for (size_t a = 0; a < b; a++) {
+            if (p.body_of[a] == p.body_of[b]) continue;
+            if (is_asked(listed, n, besides, a, b)) keep_houses_apart(&p, a, b);
+            if (!t->jumps) keep_from_jumps(&p, a, b);
+        }
+        for (size_t k = 0; k < t->barriers; k++) {
+            if (is_asked(listed, n, besides, b, t->n + k)) keep_off_barrier(&p, b, k);
+            keep_side(&p, b, k);
+        }
+    }
+}
+
+void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, optimum_problem *m)
+{
+    posing p;
+    start(&p, t, m);
+    if (pair->b < t->n)
+        keep_houses_apart(&p, pair->a, pair->b);
+    else
+        keep_off_barrier(&p, pair->a, pair->b - t->n);
+    for (size_t k = 0; k < t->barriers && rules & HAMLET_KEEP_SIDES; k++) {
+        keep_side(&p, pair->a, k);
+        if (pair->b < t->n) keep_side(&p, pair->b, k);
+    }
+    if (rules & HAMLET_KEEP_FROM_JUMPS && pair->b < t->n) keep_from_jumps(&p, pair->a, pair->b);
+}
