@@ -485,10 +485,16 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_BARRIER,      /* the interior of a feature meets a barrier's stored geometry */
     SUNDER_CONFLICT_BARRIER_NEAR, /* it does not, but is nearer than it should be */
     SUNDER_CONFLICT_CONTAINED,
-    SUNDER_CONFLICT_DUPLICATE
+    SUNDER_CONFLICT_DUPLICATE,
+    /* What sunder_layer_check_moves() finds, and nobody else; of one feature alone where b is SIZE_MAX: */
+    SUNDER_CONFLICT_WORSE,          /* in conflict, and worse than it stood */
+    SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and was allowed no more than `required` */
+    SUNDER_CONFLICT_JUMP,           /* a jumped over b, on the way `from` - `to` as b sees it */
+    SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
 } sunder_conflict_kind;
 
-/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate". */
+/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate", "worse", "limit", "jump",
+ * "not_a_translate". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
@@ -550,6 +556,16 @@ typedef struct sunder_layer_summary {
  *         non-zero gap. */
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
+
+/* What broke a rule on the way from `before` to `after`, two layers of the same features in the same order, whoever
+ * moved them: as the report's conflicts, of the four kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and what is
+ * fixed or ignored are those of `before`; options as for what moved it. Features of a block may have moved each by
+ * itself: their rigidity is not asked for; nor what cannot be
+ * known, the move of a repaired shape of which the repaired form was written. summary.verified: nothing was found.
+ * Fails   as sunder_layer_check(); SUNDER_EARG too for layers of different sizes. */
+SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
+                                                  const sunder_layer_options *options, sunder_report **out,
+                                                  sunder_error *err);
 
 /* Takes the features apart at little cost; src/displacement/README tells how.
  *

@@ -419,6 +419,22 @@ static void check_same(const town *t, const sunder_report *a, const sunder_repor
 }
 
 /* A check of the features as written, blocks given by number, counts what `after` says. */
+/* Nothing broke a rule on the way: neither did the moves, nor, told from the coordinates alone, the features. */
+static void check_way(const town *t, const sunder_feature *now, const sunder_layer_options *o)
+{
+    sunder_layer *before = NULL, *after = NULL;
+    sunder_report *report = NULL;
+    size_t n;
+    assert_int_equal(sunder_layer_new(t->feature, t->n, &before, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_new(now, t->n, &after, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_check_moves(before, after, o, &report, NULL), SUNDER_OK);
+    const sunder_conflict *c = sunder_report_conflicts(report, &n);
+    if (n) fail_msg("%s: %zu and %zu", sunder_conflict_kind_string(c->kind), c->a, c->b);
+    sunder_report_free(report);
+    sunder_layer_free(before);
+    sunder_layer_free(after);
+}
+
 static void check_again(const town *t, const sunder_report *report, const house *now,
                         const sunder_layer_options *options)
 {
@@ -434,6 +450,7 @@ static void check_again(const town *t, const sunder_report *report, const house 
         feature[k].shape = shape;
         feature[k].block = sunder_report_block(report, k);
     }
+    check_way(t, feature, &o);
     o.no_blocks = true;
     sunder_report *again = run_check(feature, t->n, &o);
     sunder_report_summary(report, &s);

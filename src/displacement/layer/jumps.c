@@ -24,15 +24,15 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps)
 
 /* ---- Ways -------------------------------------------------------------------------------------------------------- */
 
-static const double *move_of(const sunder_i_model *model, uint32_t f)
+static const double *move_of(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
-    return model->move + 2 * (size_t)model->body_of[f];
+    return jumps->own ? jumps->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];
 }
 
 /* From home to where the feature stands, rounded outward. */
 static void set_way(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
-    const double *home = model->box + 4 * (size_t)f, *t = move_of(model, f);
+    const double *home = model->box + 4 * (size_t)f, *t = move_of(jumps, model, f);
     double *way = jumps->way + 4 * (size_t)f;
     for (int c = 0; c < 4; c++) {
         const double out = c < 2 ? -INFINITY : INFINITY, there = nextafter(home[c] + t[c & 1], out);
@@ -64,21 +64,22 @@ static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, 
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
-/* Did f's anchor pass g? */
-static sunder_status ask(const sunder_i_model *model, uint32_t f, uint32_t g, bool *jumps, sunder_error *err)
+sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
+                                  bool *over, sunder_error *err)
 {
-    const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(model, f), *s = move_of(model, g);
+    const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
     const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
-    return sunder_i_passes(&way, model->layer->feature[g].shape, jumps, err);
+    return sunder_i_passes(&way, model->layer->feature[g].shape, over, err);
 }
 
-static sunder_status ask_both(const sunder_i_model *model, uint32_t f, uint32_t g, bool *jumps, sunder_error *err)
+static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
+                              bool *any, sunder_error *err)
 {
-    const double *t = move_of(model, f), *s = move_of(model, g);
-    *jumps = false;
+    const double *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
+    *any = false;
     if (model->body_of[f] == model->body_of[g] || (t[0] == s[0] && t[1] == s[1])) return SUNDER_OK;
-    const sunder_status status = ask(model, f, g, jumps, err);
-    return status || *jumps ? status : ask(model, g, f, jumps, err);
+    const sunder_status status = sunder_i_jumps_over(jumps, model, f, g, any, err);
+    return status || *any ? status : sunder_i_jumps_over(jumps, model, g, f, any, err);
 }
 
 typedef struct pair_search {
@@ -101,7 +102,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         for (size_t i = 0; i < list->n && !status; i++) {
             const uint32_t g = list->item[i];
             bool jumps = false;
-            if (g > f || (s->changed && !s->changed[g])) status = ask_both(s->model, f, g, &jumps, err);
+            if (g > f || (s->changed && !s->changed[g])) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
             if (jumps) list->item[kept++] = g;
         }
         list->n = kept;
@@ -176,7 +177,8 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
         if (!model->present[f]) continue;
         near->n = 0;
         if (!sunder_i_rtree_query(&jumps->tree, jumps->way + 4 * (size_t)f, near)) return sunder_i_no_memory(err);
-        for (size_t k = 0; k < near->n && !status && !*any; k++) status = ask_both(model, f, near->item[k], any, err);
+        for (size_t k = 0; k < near->n && !status && !*any; k++)
+            status = ask_both(jumps, model, f, near->item[k], any, err);
     }
     return status;
 }

@@ -8,6 +8,7 @@
 typedef struct sunder_i_jumps {
     double *way;            /* [4 * features] boxes of where each was on its straight way from home */
     sunder_i_rtree tree;    /* of these */
+    const double *own;      /* [2 * features] lent: each feature's move; NULL: they move with their bodies */
     sunder_i_id_pair *pair; /* features, a < b, of different bodies; sorted */
     size_t n;
 } sunder_i_jumps;
@@ -16,6 +17,9 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps);
 /* Features f with changed[f] (NULL: all) stand elsewhere now, by model->move. Of no effect where jumps are allowed. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
                                     sunder_error *err);
+/* Did the anchor of f pass g? */
+sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
+                                  bool *over, sunder_error *err);
 /* One body stands elsewhere for now; the pairs stay what they were. */
 sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t body,
                                     sunder_error *err);

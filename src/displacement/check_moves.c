@@ -1,0 +1,225 @@
+/* What broke a rule on the way from one layer to another, whoever moved it.
+ *
+ * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
+ * then asked for its limit, and with all others for the rule against jumps; and no pair that is in conflict afterwards
+ * may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it was. */
+#include "displacement/layer/rounding.h"
+#include "displacement/report/report.h"
+
+#include "base/clock.h"
+#include "base/watch.h"
+#include "separation/separation.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct comparison {
+    const sunder_layer *before, *after;
+    sunder_i_model model;         /* of `before` */
+    sunder_i_placement placement; /* first of `before`, then of `after` */
+    sunder_i_relations start, now;
+    sunder_i_jumps jumps;
+    double *move;     /* [2 * features] */
+    bool *translated; /* [features] it is a translate */
+    sunder_conflict *found;
+    size_t n, capacity;
+} comparison;
+
+static void clear(comparison *c)
+{
+    sunder_i_jumps_free(&c->jumps);
+    sunder_i_placement_free(&c->model, &c->placement);
+    sunder_i_model_free(&c->model);
+    sunder_i_free(c->start.pair);
+    sunder_i_free(c->now.pair);
+    sunder_i_free(c->move);
+    sunder_i_free(c->translated);
+    sunder_i_free(c->found);
+}
+
+static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
+{
+    if (!sunder_i_reserve(&c->found, &c->capacity, c->n + 1, sizeof *c->found)) return NULL;
+    c->found[c->n] =
+        (sunder_conflict){.a = a, .b = b, .kind = kind, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX};
+    return &c->found[c->n++];
+}
+
+/* ---- Feature by feature ------------------------------------------------------------------------------------------ */
+
+/* The way of the anchor of a, as seen from what moved by s. */
+static void draw(const comparison *c, size_t a, const double s[2], sunder_conflict *out)
+{
+    sunder_shape_anchor(c->before->feature[a].shape, out->from);
+    for (int k = 0; k < 2; k++) out->to[k] = out->from[k] + (c->move[2 * a + (size_t)k] - s[k]);
+}
+
+static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
+{
+    const sunder_feature *was = &c->before->feature[f], *is = &c->after->feature[f];
+    const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
+    const bool there = was->shape && !sunder_shape_is_empty(was->shape),
+               still = is->shape && !sunder_shape_is_empty(is->shape);
+    c->translated[f] = there == still && (!there || sunder_i_move_between(was->shape, is->shape, c->move + 2 * f));
+    /* What was given is not what was written of a set that had to be repaired: then its move is not known. */
+    if (!c->translated[f] && there && still && sunder_shape_repaired(was->shape)) return SUNDER_OK;
+    if (!c->translated[f])
+        return add(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
+    const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
+    const double limit = sunder_i_limit_of(body);
+    if (sunder_i_is_within_limit(t, limit)) return SUNDER_OK;
+    sunder_conflict *found = add(c, SUNDER_CONFLICT_LIMIT, f, SIZE_MAX);
+    if (!found) return sunder_i_no_memory(err);
+    found->distance = hypot(t[0], t[1]);
+    found->required = limit;
+    draw(c, f, none, found);
+    return SUNDER_OK;
+}
+
+/* ---- Pairs ------------------------------------------------------------------------------------------------------- */
+
+/* Who jumped, and over whom: the one, or both over each other. */
+static sunder_status check_jumps(comparison *c, sunder_error *err)
+{
+    c->jumps.own = c->move;
+    sunder_status status = sunder_i_jumps_update(&c->jumps, &c->model, NULL, err);
+    for (size_t k = 0; k < c->jumps.n && !status; k++)
+        for (int e = 0; e < 2 && !status; e++) {
+            const uint32_t f = e ? c->jumps.pair[k].b : c->jumps.pair[k].a,
+                           g = e ? c->jumps.pair[k].a : c->jumps.pair[k].b;
+            bool jumps = false;
+            if (c->translated[f] && c->translated[g])
+                status = sunder_i_jumps_over(&c->jumps, &c->model, f, g, &jumps, err);
+            if (status || !jumps) continue;
+            sunder_conflict *found = add(c, SUNDER_CONFLICT_JUMP, f, g);
+            if (!found) return sunder_i_no_memory(err);
+            draw(c, f, c->move + 2 * (size_t)g, found);
+        }
+    return status;
+}
+
+/* The features as they stand in `after`. */
+static sunder_status place_after(comparison *c, sunder_error *err)
+{
+    sunder_i_placement *p = &c->placement;
+    for (uint32_t f = 0; f < c->model.features; f++) {
+        const sunder_shape *shape = c->after->feature[f].shape;
+        c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
+        if (!c->model.present[f]) continue;
+        p->translate[f].shape = shape;
+        sunder_shape_box(shape, p->box + 4 * (size_t)f);
+    }
+    sunder_i_rtree_free(&p->tree);
+    return sunder_i_rtree_build(p->box, c->model.present, c->model.features, &p->tree, err);
+}
+
+/* Is it in conflict between blocks, and does it stand worse than it did? */
+static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, bool *worse, sunder_error *err)
+{
+    const sunder_i_relation *was = sunder_i_relations_find(&c->start, r->a, r->b);
+    *worse = false;
+    if (!sunder_i_is_conflict_of_bodies(&c->model, r) || (was && was->contained && r->contained)) return SUNDER_OK;
+    const sunder_i_pair before = {c->before->feature[r->a].shape, c->before->feature[r->b].shape, NULL, NULL},
+                        after = {c->after->feature[r->a].shape, c->after->feature[r->b].shape, NULL, NULL};
+    return sunder_i_pair_worsened(&before, &after, worse, err);
+}
+
+/* Leaves only those in c->now. */
+static sunder_status find_worse(comparison *c, sunder_error *err)
+{
+    size_t out = 0;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < c->now.n && !status; k++) {
+        bool worse = false;
+        status = is_worse(c, &c->now.pair[k], &worse, err);
+        if (worse) c->now.pair[out++] = c->now.pair[k];
+    }
+    c->now.n = out;
+    return status;
+}
+
+/* Those pairs as the report describes conflicts, and how far they stood from each other before. */
+static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_error *err)
+{
+    sunder_status status = place_after(c, err);
+    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->now, err);
+    if (!status) report->summary.pairs_tested = c->now.tested;
+    if (!status) status = find_worse(c, err);
+    if (!status) status = sunder_i_report_conflicts(report, &c->model, &c->placement, &c->now, false, err);
+    for (size_t k = 0; k < report->conflicts && !status; k++) {
+        const sunder_conflict *told = &report->conflict[k];
+        double on_a[2], on_b[2];
+        sunder_conflict *found = add(c, SUNDER_CONFLICT_WORSE, told->a, told->b);
+        if (!found) return sunder_i_no_memory(err);
+        *found = *told;
+        found->kind = SUNDER_CONFLICT_WORSE;
+        status = sunder_pair_distance(c->before->feature[told->a].shape, c->before->feature[told->b].shape,
+                                      &found->before, on_a, on_b, err);
+    }
+    return status;
+}
+
+/* ---- The whole --------------------------------------------------------------------------------------------------- */
+
+static sunder_status begin(comparison *c, const sunder_layer_options *options, sunder_error *err)
+{
+    sunder_i_rules rules;
+    if (c->before->n != c->after->n)
+        return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
+    sunder_status status = sunder_i_rules_of(options, &rules, err);
+    if (!status) status = sunder_i_model_init(c->before, &rules, &c->model, err);
+    if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
+    if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->start, err);
+    if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
+    if (!status) status = sunder_i_model_cut(&c->model, err);
+    if (!status) status = sunder_i_model_anchor(&c->model, err);
+    if (status) return status;
+    c->move = sunder_i_calloc(2 * c->before->n, sizeof *c->move);
+    c->translated = sunder_i_calloc(c->before->n, sizeof *c->translated);
+    return c->move && c->translated ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status compare(comparison *c, const sunder_layer_options *options, sunder_report **report,
+                             sunder_error *err)
+{
+    const double began = sunder_i_now();
+    sunder_status status = begin(c, options, err);
+    if (!status) status = sunder_i_report_new(&c->model, report, err);
+    for (uint32_t f = 0; f < c->before->n && !status; f++) {
+        if (c->before->feature[f].ignored)
+            c->translated[f] = true;
+        else
+            status = check_feature(c, f, err);
+        if (!status && !sunder_i_look()) status = sunder_i_cancelled(err);
+    }
+    if (!status) status = check_jumps(c, err);
+    if (!status) status = check_pairs(c, *report, err);
+    if (status) return status;
+    sunder_i_free((*report)->conflict);
+    (*report)->conflict = c->found;
+    (*report)->conflicts = c->n;
+    c->found = NULL;
+    (*report)->summary.verified = c->n == 0;
+    (*report)->summary.seconds_verify = sunder_i_now() - began;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
+                                       const sunder_layer_options *options, sunder_report **out, sunder_error *err)
+{
+    comparison c = {.before = before, .after = after};
+    sunder_i_watch watch;
+    sunder_report *report = NULL;
+    sunder_layer_options o;
+    sunder_layer_options_init(&o);
+    if (options) o = *options;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    const sunder_status status = compare(&c, &o, &report, err);
+    sunder_i_watch_end(&watch);
+    clear(&c);
+    if (status)
+        sunder_report_free(report);
+    else
+        *out = report;
+    return status;
+}

@@ -1,0 +1,79 @@
+/* The move that took a shape from one place to another, where it is a translate, rounded to doubles.
+ *
+ * Where every sum x + t is exact, t is the difference at any vertex. Where sums were rounded each vertex allows an
+ * interval of t, about as wide as a unit in the last place of x + t: the difference at a vertex of the least unit is
+ * tried first, then the ends and the middle of what all intervals have in common, the shortest first. What is tried is
+ * asked of every vertex: so what is found is one, whatever was tried. */
+#include "displacement/layer/rounding.h"
+
+#include "shape/shape.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Do the two have the same rings, but for where they stand? */
+static bool same_rings(const sunder_shape *p, const sunder_shape *q)
+{
+    if (p->raw_polygons != q->raw_polygons) return false;
+    if (p->raw_polygons == 0) return true;
+    const size_t rings = p->raw_poly_end[p->raw_polygons - 1];
+    return memcmp(p->raw_poly_end, q->raw_poly_end, p->raw_polygons * sizeof *p->raw_poly_end) == 0 &&
+           memcmp(p->raw_ring_end, q->raw_ring_end, rings * sizeof *p->raw_ring_end) == 0;
+}
+
+/* Coordinate c of every vertex, before and after. */
+typedef struct coordinates {
+    const double *before, *after;
+    size_t n, c;
+} coordinates;
+
+static bool is_move(const coordinates *k, double t)
+{
+    for (size_t v = 0; v < k->n; v++)
+        if (k->before[2 * v + k->c] + t != k->after[2 * v + k->c]) return false;
+    return isfinite(t);
+}
+
+/* What all vertices allow, roughly: the sum is rounded to x' from half a unit on either side of it. */
+static void find_common(const coordinates *k, double *low, double *high, double *finest)
+{
+    double least = INFINITY;
+    *low = -INFINITY;
+    *high = INFINITY;
+    *finest = 0;
+    for (size_t v = 0; v < k->n; v++) {
+        const double x = k->before[2 * v + k->c], y = k->after[2 * v + k->c], size = fmax(fabs(x), fabs(y));
+        *low = fmax(*low, (y - x) - (y - nextafter(y, -INFINITY)) / 2);
+        *high = fmin(*high, (y - x) + (nextafter(y, INFINITY) - y) / 2);
+        if (!(size < least)) continue;
+        least = size;
+        *finest = y - x;
+    }
+}
+
+static bool find_along(const coordinates *k, double *t)
+{
+    double low, high, finest;
+    *t = 0;
+    if (is_move(k, 0)) return true;
+    find_common(k, &low, &high, &finest);
+    const double near = fabs(low) < fabs(high) ? low : high, far = near == low ? high : low;
+    const double tried[] = {near, nextafter(near, far), finest, low + (high - low) / 2, nextafter(far, near), far};
+    bool found = false;
+    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
+        if (!is_move(k, tried[i]) || (found && fabs(tried[i]) >= fabs(*t))) continue;
+        *t = tried[i];
+        found = true;
+    }
+    return found;
+}
+
+bool sunder_i_move_between(const sunder_shape *before, const sunder_shape *after, double t[2])
+{
+    t[0] = t[1] = 0;
+    if (!same_rings(before, after)) return false;
+    coordinates k = {before->raw_xy, after->raw_xy, sunder_i_shape_raw_vertices(before), 0};
+    for (; k.c < 2; k.c++)
+        if (!find_along(&k, &t[k.c])) return false;
+    return true;
+}

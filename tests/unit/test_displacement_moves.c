@@ -1,0 +1,201 @@
+/* sunder_layer_check_moves(): what breaks a rule on the way is told by name, and what does not is not. */
+#include "polyset.h"
+#include "sunder.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 4 };
+
+typedef struct scene {
+    sunder_feature was[MOST], is[MOST];
+    size_t n;
+    sunder_layer_options options;
+    sunder_report *report;
+    const sunder_conflict *found;
+    size_t found_n;
+} scene;
+
+static void begin(scene *s, double gap)
+{
+    memset(s, 0, sizeof *s);
+    sunder_layer_options_init(&s->options);
+    s->options.gap = gap;
+}
+
+/* A feature, and where it went. */
+static sunder_feature *add(scene *s, const char *was, const char *is)
+{
+    sunder_feature *f = &s->was[s->n];
+    *f = (sunder_feature){.weight = 1, .max_shift = INFINITY, .block = -1};
+    s->is[s->n] = *f;
+    f->shape = polyset_shape_of_wkt(was);
+    s->is[s->n++].shape = polyset_shape_of_wkt(is);
+    assert_non_null(f->shape);
+    return f;
+}
+
+static void run(scene *s)
+{
+    sunder_layer *before = NULL, *after = NULL;
+    assert_int_equal(sunder_layer_new(s->was, s->n, &before, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_new(s->is, s->n, &after, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_check_moves(before, after, &s->options, &s->report, NULL), SUNDER_OK);
+    s->found = sunder_report_conflicts(s->report, &s->found_n);
+    sunder_layer_summary summary;
+    sunder_report_summary(s->report, &summary);
+    assert_int_equal(summary.verified, s->found_n == 0);
+    sunder_layer_free(before);
+    sunder_layer_free(after);
+}
+
+static void end(scene *s)
+{
+    sunder_report_free(s->report);
+    for (size_t k = 0; k < s->n; k++) {
+        sunder_shape_free((sunder_shape *)s->was[k].shape);
+        sunder_shape_free((sunder_shape *)s->is[k].shape);
+    }
+}
+
+#define HOUSE "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))"
+#define NEIGHBOUR "POLYGON ((6 0, 10 0, 10 4, 6 4, 6 0))"
+
+static void check_translates(void **state)
+{
+    static const struct {
+        const char *is;
+        bool translate;
+    } cases[] = {{HOUSE, true},
+                 {"POLYGON ((1 2, 5 2, 5 6, 1 6, 1 2))", true},
+                 {"POLYGON ((1 2, 5 2, 5 6, 1 6.5, 1 2))", false},
+                 {"POLYGON ((1 2, 5 2, 5 6, 1 6.000000000000001, 1 2))", false},
+                 {"POLYGON ((1 2, 5 2, 5 6, 1 2))", false},
+                 {"POLYGON EMPTY", false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        scene s;
+        begin(&s, 0);
+        add(&s, HOUSE, cases[k].is);
+        run(&s);
+        assert_int_equal(s.found_n, cases[k].translate ? 0 : 1);
+        if (s.found_n) {
+            assert_int_equal(s.found[0].kind, SUNDER_CONFLICT_NOT_A_TRANSLATE);
+            assert_true(s.found[0].a == 0 && s.found[0].b == SIZE_MAX);
+        }
+        end(&s);
+    }
+    /* Rounded: 0.1 and 0.7, each the nearest double to itself and 100. */
+    scene s;
+    begin(&s, 0);
+    add(&s, "POLYGON ((0.1 0, 0.7 0, 0.7 1, 0.1 1, 0.1 0))", "POLYGON ((100.1 0, 100.7 0, 100.7 1, 100.1 1, 100.1 0))");
+    run(&s);
+    assert_int_equal(s.found_n, 0);
+    end(&s);
+}
+
+static void check_limits(void **state)
+{
+    for (int k = 0; k < 4; k++) {
+        scene s;
+        begin(&s, 0);
+        sunder_feature *f = add(&s, HOUSE, "POLYGON ((3 4, 7 4, 7 8, 3 8, 3 4))");
+        f->max_shift = k == 0 ? 5 : k == 1 ? nextafter(5, 0) : INFINITY;
+        f->fixed = k == 2;
+        f->ignored = k == 3;
+        run(&s);
+        const bool breaks = k == 1 || k == 2;
+        assert_int_equal(s.found_n, breaks);
+        if (breaks) {
+            assert_int_equal(s.found[0].kind, SUNDER_CONFLICT_LIMIT);
+            assert_true(s.found[0].distance == 5 && s.found[0].to[0] == 5 && s.found[0].to[1] == 6);
+        }
+        end(&s);
+    }
+}
+
+static void check_jumps(void **state)
+{
+    for (int k = 0; k < 4; k++) {
+        scene s;
+        begin(&s, 0);
+        add(&s, HOUSE, "POLYGON ((12 0, 16 0, 16 4, 12 4, 12 0))");
+        /* The neighbour stays; or goes as far, or out of the way at once, which leaves the ways to meet no one. */
+        add(&s, NEIGHBOUR,
+            k == 1   ? "POLYGON ((18 0, 22 0, 22 4, 18 4, 18 0))"
+            : k == 2 ? "POLYGON ((6 64, 10 64, 10 68, 6 68, 6 64))"
+                     : NEIGHBOUR);
+        if (k == 3) s.was[0].block = s.was[1].block = 7;
+        run(&s);
+        assert_int_equal(s.found_n, k == 0 ? 2 : 0); /* each over the other, as that sees it */
+        if (s.found_n) {
+            assert_int_equal(s.found[0].kind, SUNDER_CONFLICT_JUMP);
+            assert_true(s.found[0].a == 0 && s.found[0].b == 1 && s.found[0].from[0] == 2 && s.found[0].to[0] == 14);
+            assert_true(s.found[1].a == 1 && s.found[1].b == 0 && s.found[1].from[0] == 8 && s.found[1].to[0] == -4);
+        }
+        end(&s);
+    }
+    scene s;
+    begin(&s, 0);
+    add(&s, HOUSE, "POLYGON ((12 0, 16 0, 16 4, 12 4, 12 0))");
+    add(&s, NEIGHBOUR, NEIGHBOUR);
+    s.options.allow_jumps = true;
+    run(&s);
+    assert_int_equal(s.found_n, 0);
+    end(&s);
+}
+
+static void check_worse(void **state)
+{
+    /* Two, one apart, with a gap of three: nearer, farther, into each other. */
+    static const char *const to[] = {"POLYGON ((5 0, 9 0, 9 4, 5 4, 5 0))", NEIGHBOUR,
+                                     "POLYGON ((7 0, 11 0, 11 4, 7 4, 7 0))", "POLYGON ((3 0, 7 0, 7 4, 3 4, 3 0))"};
+    for (int k = 0; k < 4; k++) {
+        scene s;
+        begin(&s, 3);
+        add(&s, HOUSE, HOUSE);
+        add(&s, NEIGHBOUR, to[k]);
+        run(&s);
+        const bool worse = k == 0 || k == 3;
+        assert_int_equal(s.found_n, worse);
+        if (worse) {
+            assert_int_equal(s.found[0].kind, SUNDER_CONFLICT_WORSE);
+            assert_true(s.found[0].before == 2 && s.found[0].distance == (k == 0 ? 1 : 0));
+        }
+        end(&s);
+    }
+}
+
+static void check_sizes(void **state)
+{
+    scene s;
+    begin(&s, 0);
+    add(&s, HOUSE, HOUSE);
+    sunder_layer *one = NULL, *none = NULL;
+    sunder_report *report = NULL;
+    assert_int_equal(sunder_layer_new(s.was, 1, &one, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_new(s.was, 0, &none, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_check_moves(one, none, NULL, &report, NULL), SUNDER_EARG);
+    assert_null(report);
+    assert_int_equal(sunder_layer_check_moves(none, none, NULL, &report, NULL), SUNDER_OK);
+    sunder_report_free(report);
+    sunder_layer_free(one);
+    sunder_layer_free(none);
+    s.report = NULL;
+    end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_translates), cmocka_unit_test(check_limits), cmocka_unit_test(check_jumps),
+        cmocka_unit_test(check_worse),      cmocka_unit_test(check_sizes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
