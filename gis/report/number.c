@@ -63,6 +63,17 @@ static void add_plain(gis_text *to, double size, int digits)
     gis_text_add_bytes(to, text + whole, n - whole);
 }
 
+/* A power of ten. */
+static void add_raised(gis_text *to, int power)
+{
+    static const char *const digits[] = {"\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",
+                                         "\xE2\x81\xB4", "\xE2\x81\xB5", "\xE2\x81\xB6", "\xE2\x81\xB7",
+                                         "\xE2\x81\xB8", "\xE2\x81\xB9"};
+    char text[16];
+    snprintf(text, sizeof text, "%d", power);
+    for (const char *c = text; *c; c++) gis_text_add(to, *c == '-' ? "\xE2\x81\xBB" : digits[*c - '0']);
+}
+
 void gis_report_number(gis_text *to, double value, int digits)
 {
     double size = fabs(value);
@@ -81,7 +92,8 @@ void gis_report_number(gis_text *to, double value, int digits)
         char text[64];
         int n = snprintf(text, sizeof text, "%.*e", digits - 1, size);
         const char *power = memchr(text, 'e', (size_t)n);
-        gis_text_print(to, "%.*s" NO_BREAK "\xC3\x97" NO_BREAK "10^%d", (int)(power - text), text, atoi(power + 1));
+        gis_text_print(to, "%.*s" NO_BREAK "\xC3\x97" NO_BREAK "10", (int)(power - text), text);
+        add_raised(to, atoi(power + 1));
     }
 }
 

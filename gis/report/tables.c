@@ -115,15 +115,19 @@ static void add_reasons(const gis_page_model *model, gis_text *to)
 
 bool gis_page_blocked(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
-    static const char *const heads[] = {
-        "feature", "and", "kind", "reason", "distance", "depth", "required", "in the way", "would be free with"};
+    static const struct {
+        const char *words, *class;
+    } heads[] = {{"feature", ""},           {"and", ""},         {"kind", ""},           {"reason", ""},
+                 {"distance", "number"},    {"depth", "number"}, {"required", "number"}, {"in the way", ""},
+                 {"would be free with", ""}};
     (void)thinning;
     if (model->n_conflicts == 0) return true;
     gis_text_add(to, "<section id=\"blocked\"><h2>What is blocked, and why</h2>\n");
     add_reasons(model, to);
     gis_text_add(to, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Conflicts that remain\">"
                      "<table class=\"sortable\"><thead><tr>");
-    for (size_t k = 0; k < sizeof heads / sizeof *heads; k++) gis_text_print(to, "<th scope=\"col\">%s</th>", heads[k]);
+    for (size_t k = 0; k < sizeof heads / sizeof *heads; k++)
+        gis_text_print(to, "<th scope=\"col\" class=\"%s\">%s</th>", heads[k].class, heads[k].words);
     gis_text_add(to, "</tr></thead><tbody>\n");
     bool ok = true;
     for (size_t k = 0; ok && k < model->n_conflicts && k < MOST_ROWS; k++)
