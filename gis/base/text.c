@@ -38,16 +38,20 @@ void gis_text_add_bytes(gis_text *text, const char *bytes, size_t n)
 
 void gis_text_add(gis_text *text, const char *string) { gis_text_add_bytes(text, string, strlen(string)); }
 
+/* Into the room that there is; once more, if that was too little. */
 void gis_text_print(gis_text *text, const char *format, ...)
 {
     va_list arguments, again;
+    if (!reserve(text, 64)) return;
     va_start(arguments, format);
     va_copy(again, arguments);
-    int n = vsnprintf(NULL, 0, format, again);
-    va_end(again);
-    if (n >= 0 && reserve(text, (size_t)n)) {
-        vsnprintf(text->at + text->length, (size_t)n + 1, format, arguments);
-        text->length += (size_t)n;
+    size_t room = text->capacity - text->length;
+    int n = vsnprintf(text->at + text->length, room, format, arguments);
+    if (n >= 0 && (size_t)n >= room) {
+        text->at[text->length] = '\0';
+        if (reserve(text, (size_t)n)) vsnprintf(text->at + text->length, (size_t)n + 1, format, again);
     }
+    if (n >= 0 && !text->failed) text->length += (size_t)n;
+    va_end(again);
     va_end(arguments);
 }

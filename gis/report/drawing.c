@@ -166,29 +166,34 @@ static void keep_between(const double *xy, size_t n, size_t first, size_t last, 
     }
 }
 
+/* Marks what is kept: the ends of two lines, then what lies between them. */
+static void keep_ring(const double *xy, size_t n, double tolerance, bool *keep, size_t *stack)
+{
+    /* From the first corner to the one farthest from it and back: two lines. */
+    size_t opposite = 0;
+    double most = 0;
+    for (size_t i = 1; i < n; i++) {
+        double d = squared_distance(xy + 2 * i, xy, xy);
+        if (d > most) {
+            most = d;
+            opposite = i;
+        }
+    }
+    keep[0] = keep[opposite] = true;
+    if (!(most > tolerance * tolerance)) return;
+    keep_between(xy, n, 0, opposite, tolerance, keep, stack);
+    keep_between(xy, n, opposite, n, tolerance, keep, stack);
+}
+
 bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
 {
     corners->n = 0;
-    if (n < 3) return true;
+    if (n == 0) return true;
     bool *keep = calloc(n, sizeof *keep);
     size_t *stack = malloc((n + 1) * sizeof *stack);
     bool ok = (keep && stack && reserve(corners, n, error)) || gis_no_memory(error);
     if (ok) {
-        /* From the first corner to the one farthest from it and back: two lines. */
-        size_t opposite = 0;
-        double most = 0;
-        for (size_t i = 1; i < n; i++) {
-            double d = squared_distance(xy + 2 * i, xy, xy);
-            if (d > most) {
-                most = d;
-                opposite = i;
-            }
-        }
-        keep[0] = keep[opposite] = true;
-        if (most > tolerance * tolerance) {
-            keep_between(xy, n, 0, opposite, tolerance, keep, stack);
-            keep_between(xy, n, opposite, n, tolerance, keep, stack);
-        }
+        keep_ring(xy, n, tolerance, keep, stack);
         for (size_t i = 0; i < n; i++)
             if (keep[i]) memcpy(corners->xy + 2 * corners->n++, xy + 2 * i, 2 * sizeof *xy);
         if (corners->n < 3) corners->n = 0;

@@ -1,5 +1,5 @@
-/* model.h: what the page shows, before any of it is drawn or written: features, barriers and conflicts as the core
- * reports them, brought into the order in which a reader wants them. */
+/* model.h: what the page shows, before any of it is drawn or written: features and conflicts as the core reports them,
+ * brought into the order in which a reader wants them. */
 #ifndef GIS_REPORT_MODEL_H
 #define GIS_REPORT_MODEL_H
 

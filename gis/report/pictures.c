@@ -42,11 +42,11 @@ static bool add_feature(picture_writer *writer, const gis_page_feature *feature,
     return gis_picture_add_shape(&writer->picture, feature->shape, move, &writer->scratch, writer->to, error);
 }
 
-typedef bool choose_feature(const picture_writer *writer, const gis_page_feature *feature);
+typedef bool add_one(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error);
 
-/* A path of all that is chosen; none if there is nothing. */
-static bool add_path(picture_writer *writer, const char *class, double part, choose_feature *choose,
-                     sunder_feature_status status, gis_error *error)
+/* A path of all of one status; none if nothing of them is seen. */
+static bool add_path(picture_writer *writer, const char *class, double part, add_one *add, sunder_feature_status status,
+                     gis_error *error)
 {
     const gis_page_model *model = writer->model;
     size_t before = writer->to->length;
@@ -54,8 +54,8 @@ static bool add_path(picture_writer *writer, const char *class, double part, cho
     size_t begin = writer->to->length;
     for (size_t i = 0; i < model->n; i++) {
         const gis_page_feature *feature = &model->feature[i];
-        if (feature->status != status || (choose && !choose(writer, feature))) continue;
-        if (!gis_go_on(error) || !add_feature(writer, feature, part, error)) return false;
+        if (feature->status != status) continue;
+        if (!gis_go_on(error) || !add(writer, feature, part, error)) return false;
     }
     if (writer->to->length == begin)
         writer->to->length = before;
@@ -73,6 +73,11 @@ static bool has_moved(const picture_writer *writer, const gis_page_feature *feat
     return gis_picture_length(&writer->picture, feature->length) >= 20;
 }
 
+static bool add_ghost(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
+{
+    return !has_moved(writer, feature) || add_feature(writer, feature, part, error);
+}
+
 static void add_line(picture_writer *writer, const char *class, const double from[2], const double to[2])
 {
     double a[2], b[2];
@@ -86,7 +91,7 @@ static bool add_moves(picture_writer *writer, gis_error *error)
 {
     const gis_page_model *model = writer->model;
     for (int status = SUNDER_FEATURE_MOVED; status <= SUNDER_FEATURE_BLOCKED; status++)
-        if (!add_path(writer, "ghost", 0, has_moved, (sunder_feature_status)status, error)) return false;
+        if (!add_path(writer, "ghost", 0, add_ghost, (sunder_feature_status)status, error)) return false;
     for (size_t i = 0; i < model->n; i++) {
         const gis_page_feature *feature = &model->feature[i];
         double box[4], from[2];
@@ -119,7 +124,8 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
     begin_svg(&writer, "close-up", after ? "after" : "before");
     bool ok = true;
     for (int k = 0; ok && k < CLASSES; k++)
-        ok = add_path(&writer, after ? classes[k].after : classes[k].before, after, NULL, classes[k].status, error);
+        ok = add_path(&writer, after ? classes[k].after : classes[k].before, after, add_feature, classes[k].status,
+                      error);
     ok = ok && (!after || add_moves(&writer, error));
     if (ok && after) add_links(&writer);
     gis_text_add(to, "</svg>\n");
@@ -129,38 +135,40 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
 
 /* ---- The whole layer --------------------------------------------------------------------------------------------- */
 
-/* The longer side. Of features that are tiny at this size one is drawn in each square of so many units, so that a large
- * layer makes no large picture; what moved or is in conflict is drawn first there. */
-enum { OVERVIEW_SIDE = 10000, SQUARE = 40, SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
+/* The longer side. Of features that are tiny at this size one is drawn in each square of so many units, as a box, so
+ * that a large layer makes no large picture: larger squares where there are many. What moved or is in conflict is drawn
+ * first there. */
+enum { OVERVIEW_SIDE = 10000, SQUARE = 30, LARGE_SQUARE = 80, MANY = 10000 };
+enum { SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
 
 typedef struct overview_writer {
     picture_writer writer;
+    double square;
     bool *taken; /* [SQUARES][SQUARES] */
 } overview_writer;
 
-/* The square of a feature that is tiny; false: it is larger than one. */
-static bool tiny_square(const gis_picture *picture, const gis_page_feature *feature, size_t *square)
+/* Adds a feature that is tiny, if its square is free. False: it is not tiny. */
+static bool add_tiny(overview_writer *whole, const gis_page_feature *feature)
 {
+    const gis_picture *picture = &whole->writer.picture;
     double box[4], at[2];
     gis_page_box(feature, 1, box);
-    double size = fmax(box[2] - box[0], box[3] - box[1]);
-    if (gis_picture_length(picture, size) > SQUARE) return false;
-    gis_picture_place(picture, box[0], box[1], at);
-    size_t x = (size_t)fmin(SQUARES - 1, fmax(0, at[0] / SQUARE));
-    size_t y = (size_t)fmin(SQUARES - 1, fmax(0, at[1] / SQUARE));
-    *square = y * SQUARES + x;
+    double width = gis_picture_length(picture, box[2] - box[0]), height = gis_picture_length(picture, box[3] - box[1]);
+    if (fmax(width, height) > whole->square) return false;
+    gis_picture_place(picture, box[0], box[3], at);
+    size_t x = (size_t)fmin(SQUARES - 1, fmax(0, at[0] / whole->square));
+    size_t y = (size_t)fmin(SQUARES - 1, fmax(0, at[1] / whole->square));
+    if (whole->taken[y * SQUARES + x]) return true;
+    whole->taken[y * SQUARES + x] = true;
+    gis_text_print(whole->writer.to, "M%.0f %.0fh%.0fv%.0fh-%.0fz", at[0], at[1], fmax(1, width), fmax(1, height),
+                   fmax(1, width));
     return true;
 }
 
-static bool is_for_overview(const picture_writer *writer, const gis_page_feature *feature)
+static bool add_for_overview(picture_writer *writer, const gis_page_feature *feature, double part, gis_error *error)
 {
-    const overview_writer *whole = (const overview_writer *)writer; /* its first member */
-    size_t square;
-    if (!feature->shape) return false;
-    if (!tiny_square(&writer->picture, feature, &square)) return true;
-    bool first = !whole->taken[square];
-    whole->taken[square] = true;
-    return first;
+    overview_writer *whole = (overview_writer *)writer; /* its first member */
+    return !feature->shape || add_tiny(whole, feature) || add_feature(writer, feature, part, error);
 }
 
 static gis_picture whole_picture(const gis_page_model *model)
@@ -181,7 +189,9 @@ static gis_picture whole_picture(const gis_page_model *model)
 
 bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error *error)
 {
-    overview_writer whole = {{model, whole_picture(model), {0}, to}, calloc((size_t)SQUARES * SQUARES, sizeof(bool))};
+    overview_writer whole = {{model, whole_picture(model), {0}, to},
+                             model->n > MANY ? LARGE_SQUARE : SQUARE,
+                             calloc((size_t)SQUARES * SQUARES, sizeof(bool))};
     if (!whole.taken) return gis_no_memory(error);
     begin_svg(&whole.writer, "overview", "the whole layer, after");
     /* The most telling first, for the squares; drawn in the order of the classes, for what lies on top. */
@@ -189,7 +199,7 @@ bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error 
     bool ok = true;
     for (int k = CLASSES - 1; ok && k >= 0; k--) {
         whole.writer.to = &paths[k];
-        ok = add_path(&whole.writer, classes[k].after, 1, is_for_overview, classes[k].status, error) &&
+        ok = add_path(&whole.writer, classes[k].after, 1, add_for_overview, classes[k].status, error) &&
              (gis_text_get(&paths[k]) || gis_no_memory(error));
     }
     for (int k = 0; k < CLASSES; k++) {

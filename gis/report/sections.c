@@ -157,8 +157,8 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
         return true;
     }
     gis_text_add(to, "The layer is large, so that the map is thinned: ");
-    add_number_of(to, thinning->whole, "feature", "features");
-    gis_text_add(to, " that moved, are in conflict or stand near such are drawn with every corner; ");
+    add_number_of(to, thinning->whole, "feature is", "features are");
+    gis_text_add(to, " drawn with every corner, those in conflict and the longest moves before all others; ");
     gis_report_count(to, thinning->simpler);
     gis_text_add(to, " others are simplified by up to ");
     gis_report_length(to, thinning->tolerance, &model->unit);

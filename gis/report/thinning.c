@@ -1,10 +1,10 @@
 /* thinning.c: see thinning.h.
  *
- * The page is to open at once, so that its map has a size that it may not exceed. Features are of four ranks: those in
- * a conflict that remains or in its way; those that moved; those near any of them; the rest. The ranks are drawn whole,
- * one after the other, as long as there is room; from the rank on that there is no room for, corners are left out that
- * lie within a tolerance, and features that are as small, and the tolerance is doubled until the map is small enough.
- * The choice depends on the layer alone. */
+ * The page is to open at once, so that its map has a size that it may not exceed. Features are drawn whole in the order
+ * of their importance, as long as there is room: those in a conflict that remains or in its way, those that moved, the
+ * farthest first, those near any of them, the rest. Of the others corners are left out that lie within a tolerance, and
+ * features that are as small; the tolerance is doubled until the map is small enough. The choice depends on the layer
+ * alone. */
 #include "report/thinning.h"
 
 #include "base/interrupt.h"
@@ -13,21 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum rank { RANK_INVOLVED, RANK_MOVED, RANK_NEAR, RANK_REST, RANKS } rank;
-
-/* Bytes of the map, of which so much may be spent on what is drawn whole, if there is anything else; what a feature and
- * a corner take in it, on the average over layers of buildings. */
-static const double most_bytes = 6.5e6, most_whole = 0.75;
+/* Bytes of the map, of which so much may be spent on what is drawn whole, if not all can be; what a feature and a
+ * corner take in it, on the average over layers of buildings. */
+static const double most_bytes = 6.5e6, most_whole = 0.6;
 enum { FEATURE_BYTES = 24, CORNER_BYTES = 6 };
 
 /* Nearness is asked of a grid of so many cells in each direction. */
 enum { CELLS = 512 };
-
-static rank rank_of(const gis_page_feature *feature)
-{
-    if (feature->involved) return RANK_INVOLVED;
-    return feature->length > 0 ? RANK_MOVED : RANK_REST;
-}
 
 /* The cells that a box meets, a cell more on every side: first and last in x, then in y. */
 static void cells_of(const gis_page_model *model, const double box[4], size_t cells[4])
@@ -55,25 +47,65 @@ static bool meets_marked(const gis_page_model *model, const double box[4], const
     return false;
 }
 
-static bool rank_all(const gis_page_model *model, unsigned char *ranks, gis_error *error)
+static bool is_telling(const gis_page_feature *feature) { return feature->involved || feature->length > 0; }
+
+/* Marks the cells of all that moved or is involved. */
+static void mark_telling(const gis_page_model *model, bool *marked)
 {
-    bool *marked = calloc((size_t)CELLS * CELLS, sizeof *marked);
-    if (!marked) return gis_no_memory(error);
     for (size_t i = 0; i < model->n; i++) {
         const gis_page_feature *feature = &model->feature[i];
-        ranks[i] = (unsigned char)rank_of(feature);
-        if (!feature->shape || ranks[i] == RANK_REST) continue;
+        if (!feature->shape || !is_telling(feature)) continue;
         double after[4];
         gis_page_box(feature, 1, after);
         mark_cells(model, feature->box, marked);
         mark_cells(model, after, marked);
     }
+}
+
+/* ---- What is drawn whole ----------------------------------------------------------------------------------------- */
+
+/* A map that is being filled. */
+typedef struct room {
+    const gis_page_model *model;
+    gis_thinning *thinning;
+    double taken, most;
+    bool full; /* something found no room: nothing that matters less is drawn whole */
+} room;
+
+static double whole_bytes(const gis_page_feature *feature)
+{
+    return FEATURE_BYTES + CORNER_BYTES * (double)sunder_shape_vertices(feature->shape);
+}
+
+static void draw_whole(room *map, size_t i)
+{
+    const gis_page_feature *feature = &map->model->feature[i];
+    if (!feature->shape || map->full || map->thinning->drawn[i]) return;
+    double bytes = whole_bytes(feature);
+    map->full = map->taken + bytes > map->most;
+    if (map->full) return;
+    map->taken += bytes;
+    map->thinning->drawn[i] = GIS_DRAWN_WHOLE;
+    map->thinning->whole++;
+}
+
+static bool fill(room *map, gis_error *error)
+{
+    const gis_page_model *model = map->model;
+    bool *marked = calloc((size_t)CELLS * CELLS, sizeof *marked);
+    if (!marked) return gis_no_memory(error);
+    mark_telling(model, marked);
     for (size_t i = 0; i < model->n; i++)
-        if (ranks[i] == RANK_REST && model->feature[i].shape && meets_marked(model, model->feature[i].box, marked))
-            ranks[i] = RANK_NEAR;
+        if (model->feature[i].involved) draw_whole(map, i);
+    for (size_t k = 0; k < model->n_moved; k++) draw_whole(map, model->moved[k]);
+    for (size_t i = 0; i < model->n; i++)
+        if (model->feature[i].shape && meets_marked(model, model->feature[i].box, marked)) draw_whole(map, i);
+    for (size_t i = 0; i < model->n; i++) draw_whole(map, i);
     free(marked);
     return true;
 }
+
+/* ---- What is not ------------------------------------------------------------------------------------------------- */
 
 static bool is_as_small(const gis_page_feature *feature, double tolerance)
 {
@@ -97,9 +129,8 @@ static bool simpler_bytes(const gis_page_feature *feature, double tolerance, gis
     return true;
 }
 
-/* Simplifies from rank `first` on, with the thinning's tolerance; *bytes is what that takes. */
-static bool thin(const gis_page_model *model, const unsigned char *ranks, rank first, gis_thinning *thinning,
-                 double *bytes, gis_error *error)
+/* Simplifies what is not drawn whole, with the thinning's tolerance; *bytes is what that takes. */
+static bool thin(const gis_page_model *model, gis_thinning *thinning, double *bytes, gis_error *error)
 {
     gis_corners scratch = {0};
     bool ok = true;
@@ -107,48 +138,38 @@ static bool thin(const gis_page_model *model, const unsigned char *ranks, rank f
     thinning->simpler = thinning->left_out = 0;
     for (size_t i = 0; ok && i < model->n; i++) {
         double one;
-        if (!model->feature[i].shape || ranks[i] < first) continue;
+        if (!model->feature[i].shape || thinning->drawn[i] == GIS_DRAWN_WHOLE) continue;
         ok = gis_go_on(error) && simpler_bytes(&model->feature[i], thinning->tolerance, &scratch, &one, error);
-        thinning->drawn[i] = ok && one > 0 ? GIS_DRAWN_SIMPLER : GIS_DRAWN_NOT;
-        *bytes += ok ? one : 0;
-        thinning->simpler += ok && one > 0;
-        thinning->left_out += !ok || !(one > 0);
+        bool drawn = ok && one > 0;
+        thinning->drawn[i] = drawn ? GIS_DRAWN_SIMPLER : GIS_DRAWN_NOT;
+        *bytes += drawn ? one : 0;
+        thinning->simpler += drawn;
+        thinning->left_out += !drawn;
     }
     gis_corners_clear(&scratch);
     return ok;
 }
 
-static bool choose(const gis_page_model *model, const unsigned char *ranks, gis_thinning *thinning, gis_error *error)
+static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
 {
-    double of_rank[RANKS] = {0}, all = 0, whole = 0, bytes;
+    double all = 0, bytes;
     for (size_t i = 0; i < model->n; i++)
-        if (model->feature[i].shape)
-            of_rank[ranks[i]] += FEATURE_BYTES + CORNER_BYTES * (double)sunder_shape_vertices(model->feature[i].shape);
-    for (int k = 0; k < RANKS; k++) all += of_rank[k];
-    rank first = RANK_INVOLVED; /* the first that is not drawn whole */
-    while (first < RANKS && (all <= most_bytes || whole + of_rank[first] <= most_whole * most_bytes))
-        whole += of_rank[first++];
-    for (size_t i = 0; i < model->n; i++)
-        if (model->feature[i].shape && ranks[i] < first) {
-            thinning->drawn[i] = GIS_DRAWN_WHOLE;
-            thinning->whole++;
-        }
-    if (first == RANKS) return true;
+        if (model->feature[i].shape) all += whole_bytes(&model->feature[i]);
+    room map = {model, thinning, 0, all <= most_bytes ? most_bytes : most_whole * most_bytes, false};
+    if (!fill(&map, error)) return false;
+    if (!map.full) return true;
     double size = fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
     for (thinning->tolerance = size / 0x1p14;; thinning->tolerance *= 2) {
-        if (!thin(model, ranks, first, thinning, &bytes, error)) return false;
-        if (whole + bytes <= most_bytes) return true;
+        if (!thin(model, thinning, &bytes, error)) return false;
+        if (map.taken + bytes <= most_bytes) return true;
     }
 }
 
 bool gis_thinning_choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
 {
     *thinning = (gis_thinning){.drawn = calloc(model->n + 1, 1)};
-    unsigned char *ranks = malloc(model->n + 1);
-    bool ok = (ranks && thinning->drawn) || gis_no_memory(error);
-    ok = ok && (model->empty || (rank_all(model, ranks, error) && choose(model, ranks, thinning, error)));
-    free(ranks);
-    return ok;
+    if (!thinning->drawn) return gis_no_memory(error);
+    return model->empty || choose(model, thinning, error);
 }
 
 void gis_thinning_clear(gis_thinning *thinning)

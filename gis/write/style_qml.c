@@ -3,7 +3,8 @@
  * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
  * red; arrows are blue, conflicts magenta, those with barriers violet. Where a proved conflict has a disc and a thick
  * line, an unresolved one has a ring and a thin line. Teal, red, blue and magenta stay apart for most colour-blind
- * readers because they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
+ * readers because they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions
+ * read. */
 #include "sunder.h"
 #include "write/style.h"
 

@@ -110,6 +110,16 @@ expect 0 separate in.gpkg /vsistdout/ --of GeoJSON --report beside.html
 page beside.html
 says out FeatureCollection
 
+# A large layer is thinned, and the page says so.
+"$SUNDER_BUILD/sunder-town" --buildings 140000 --seed 3 large.gpkg >town_said || fail "no large town"
+expect 0 separate large.gpkg large_out.gpkg -l buildings --gap 1 --ignore-where 'fid > 500' --report large.html --layers conflicts \
+    --allow-conflicts -q
+rm large.gpkg
+page large.html
+says large.html 'the map is thinned'
+bytes=$(wc -c <large.html)
+[ "$bytes" -lt 10000000 ] && [ "$bytes" -gt 3000000 ] || fail "the page of 140,000 features has $bytes bytes"
+
 # Names that are markup, program, or no text at all; and where they show.
 python3 - <<'P' || fail "cannot make the names"
 import json, sqlite3
