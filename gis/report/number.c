@@ -129,14 +129,39 @@ void gis_report_area(gis_text *to, double value, const gis_report_unit *unit)
     add_unit(to, value, unit->area);
 }
 
-void gis_report_share(gis_text *to, double part)
+/* The number of so many digits that is nearest above (sign 1) or below (-1). The digits are put a step farther until
+ * what they say is on that side: once, since they are the nearest. */
+static double to_side(double value, int digits, int sign)
+{
+    char text[64];
+    if (!isfinite(value) || value == 0) return value;
+    double step = pow(10, floor(log10(fabs(value))) - digits + 1);
+    snprintf(text, sizeof text, "%.*e", digits - 1, value);
+    double said = strtod(text, NULL);
+    return sign * (said - value) >= 0 ? said : said + sign * step;
+}
+
+void gis_report_length_or_more(gis_text *to, double value, const gis_report_unit *unit)
+{
+    gis_report_length(to, to_side(value, LENGTH_DIGITS, 1), unit);
+}
+
+void gis_report_length_or_less(gis_text *to, double value, const gis_report_unit *unit)
+{
+    gis_report_length(to, to_side(value, LENGTH_DIGITS, -1), unit);
+}
+
+void gis_report_area_or_less(gis_text *to, double value, const gis_report_unit *unit)
+{
+    gis_report_area(to, to_side(value, AREA_DIGITS, -1), unit);
+}
+
+void gis_report_share_or_more(gis_text *to, double part)
 {
     double percent = part * 100;
-    if (part > 0 && percent < 0.1)
+    if (percent > 0 && percent < 0.1)
         gis_text_add(to, "&lt;" NO_BREAK "0.1");
-    else if (part < 1 && percent > 99.9)
-        gis_text_add(to, "&gt;" NO_BREAK "99.9");
     else
-        gis_report_number(to, percent < 10 ? round(percent * 10) / 10 : round(percent), 3);
+        gis_report_number(to, percent < 10 ? ceil(percent * 10) / 10 : ceil(percent), LENGTH_DIGITS);
     gis_text_add(to, NO_BREAK "%");
 }

@@ -21,9 +21,13 @@ void gis_report_number(gis_text *to, double value, int digits);
 void gis_report_length(gis_text *to, double value, const gis_report_unit *unit);
 /* As many digits as it takes to tell it from another length, three at least. */
 void gis_report_length_beside(gis_text *to, double value, double other, const gis_report_unit *unit);
-/* Four digits, and the unit squared. */
+/* Of a limit: what is said is no less, or no more, than the value. */
+void gis_report_length_or_more(gis_text *to, double value, const gis_report_unit *unit);
+void gis_report_length_or_less(gis_text *to, double value, const gis_report_unit *unit);
+/* Four digits, and the unit squared; of a lower bound no more than the value. */
 void gis_report_area(gis_text *to, double value, const gis_report_unit *unit);
-/* A part of a whole as a percentage: 0 % and 100 % are said only of what is exactly that. */
-void gis_report_share(gis_text *to, double part);
+void gis_report_area_or_less(gis_text *to, double value, const gis_report_unit *unit);
+/* A part of a whole as a percentage that is no less than it. */
+void gis_report_share_or_more(gis_text *to, double part);
 
 #endif

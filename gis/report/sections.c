@@ -126,12 +126,12 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
     close_figure(to, detail.failed || !detail.length ? "" : gis_text_get(&detail));
 
     open_figure(to, "", "of the cost might be saved, at most");
-    gis_report_share(to, model->request->optimality_gap);
+    gis_report_share_or_more(to, model->request->optimality_gap);
     detail.length = 0;
     gis_text_add(&detail, "cost ");
     gis_report_area(&detail, summary->cost, &model->unit);
     gis_text_add(&detail, ", proved bound ");
-    gis_report_area(&detail, summary->lower_bound, &model->unit);
+    gis_report_area_or_less(&detail, summary->lower_bound, &model->unit);
     close_figure(to, detail.failed ? "" : gis_text_get(&detail));
 
     open_figure(to, model->request->verified ? " good" : " bad", "verified");

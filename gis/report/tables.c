@@ -52,12 +52,12 @@ static bool add_needs(const gis_page_model *model, const sunder_conflict *confli
     gis_text_add(to, "<td>");
     if (!isnan(conflict->need_shift)) {
         gis_text_add(to, "moves of up to ");
-        gis_report_length(to, conflict->need_shift, &model->unit);
+        gis_report_length_or_more(to, conflict->need_shift, &model->unit);
         separator = "; or ";
     }
     if (!isnan(conflict->need_gap)) {
         gis_text_print(to, "%sa gap of ", separator);
-        gis_report_length(to, conflict->need_gap, &model->unit);
+        gis_report_length_or_less(to, conflict->need_gap, &model->unit);
         separator = "; or ";
     }
     if (conflict->need_gone != SIZE_MAX) {
@@ -186,11 +186,11 @@ static void add_proof(const gis_page_model *model, gis_text *to)
                    rules->weighting != GIS_WEIGHTING_EVEN || rules->weight_field ? ", each by its weight" : "");
     close_term(to);
     open_term(to, "proved lower bound");
-    gis_report_area(to, summary->lower_bound, &model->unit);
+    gis_report_area_or_less(to, summary->lower_bound, &model->unit);
     gis_text_add(to, " <span class=\"aside\">no placement that solves every pair not listed costs less</span>");
     close_term(to);
     open_term(to, "optimality gap");
-    gis_report_share(to, request->optimality_gap);
+    gis_report_share_or_more(to, request->optimality_gap);
     close_term(to);
     open_term(to, "groups");
     gis_report_count(to, summary->clusters);
