@@ -91,7 +91,8 @@ int gis_command_buffer(const gis_options *options)
     bool taken,
         ok = gis_resolve_buffer(options, &run.request, &error) && gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_BUFFER_READ);
-    ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) && make_and_write(&run, &error) &&
+    ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) &&
+         gis_destinations_spare(&run.to, run.buffer.input.source, &error) && make_and_write(&run, &error) &&
          deliver(&run, taken, &error);
     int status = ok ? GIS_DONE : gis_say_failure(&error);
     gis_sink_free(run.sink);

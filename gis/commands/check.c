@@ -136,7 +136,8 @@ int gis_command_check(const gis_options *options)
     bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_CHECK_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
-         gis_layer_input_read(&run.request, &run.input, &error) && check_and_write(&run, &error) &&
+         gis_layer_input_read(&run.request, &run.input, &error) &&
+         gis_destinations_spare(&run.to, run.input.source, &error) && check_and_write(&run, &error) &&
          deliver(&run, taken, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before)) : gis_say_failure(&error);
     gis_sink_free(run.sink);

@@ -287,7 +287,8 @@ int gis_command_separate(const gis_options *options)
     gis_progress_stage(&run.progress, 0, GIS_SEPARATE_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error);
     run.request.rules.count_thin = is_summarised(&run);
-    ok = ok && gis_layer_input_read(&run.request, &run.input, &error);
+    ok = ok && gis_layer_input_read(&run.request, &run.input, &error) &&
+         gis_destinations_spare(&run.to, run.input.source, &error);
     run.read = gis_clock() - run.start;
     ok = ok && solve_and_write(&run, &error) && deliver(&run, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.after)) : gis_say_failure(&error);

@@ -83,6 +83,18 @@ bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_
     return check_texts(to, error) && check_files(to, error);
 }
 
+bool gis_destinations_spare(const gis_destinations *to, const gis_source *source, gis_error *error)
+{
+    const struct {
+        const char *option, *path;
+    } files[] = {{"--stats", to->stats}, {"--report", to->report}};
+    for (size_t i = 0; i < N_OF(files); i++)
+        if (files[i].path && !is_stdout(files[i].path) && gis_source_lies_in(source, files[i].path))
+            return gis_fail_usage(error, "%s %s: that is a part of the input; give another file", files[i].option,
+                                  files[i].path);
+    return true;
+}
+
 bool gis_print_json(const void *json, gis_error *error)
 {
     const gis_text *text = &((const gis_json *)json)->text;

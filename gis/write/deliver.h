@@ -20,6 +20,10 @@ typedef struct gis_destinations {
  * a file that something is read from? Asked before the work, so that its failure does not come when all is done. */
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error);
 
+/* Is neither the file of --stats nor that of --report one of the files of this source (the attributes beside a
+ * Shapefile)? */
+bool gis_destinations_spare(const gis_destinations *to, const gis_source *source, gis_error *error);
+
 typedef struct gis_delivery {
     const gis_destinations *to;
     gis_sink *sink;                                   /* finished (gis_sink_finish); NULL: there is no output */

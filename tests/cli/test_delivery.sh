@@ -42,6 +42,8 @@ if [ -w /dev/full ]; then
         failed "--stats: cannot write /dev/full: $full" out $command --stats /dev/full
         [ ! -s out ] || fail "something on stdout: $command"
     done
+    failed "--report: cannot write /dev/full: $full" out separate in.gpkg o.gpkg --report /dev/full
+    failed "$full" /dev/full separate in.gpkg o.gpkg --stats new.json --report new.html
     expect 0 separate in.gpkg kept.gpkg -q
     failed "$full" /dev/full separate in.gpkg kept.gpkg --overwrite
     failed "$full" /dev/full separate in.gpkg kept.gpkg --update --output-layer other
@@ -51,12 +53,18 @@ fi
 
 # A file of the output that is in the way shows at the last step: the statistics, which are in place by then, go again.
 failed 'taken.dbf' out separate in.gpkg taken.shp --stats s.json --quiet
-failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet
+failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet --report new.html
 
 refused 1 '--stats' separate in.gpkg o.gpkg --stats /proc/nothing.json
 refused 2 'that is the output' separate in.gpkg o.gpkg --stats ./o.gpkg
 refused 2 'that is an input' separate in.gpkg o.gpkg --stats ./in.gpkg
 refused 2 'that is an input' check in.gpkg --stats in.gpkg
+ogr2ogr parts.shp in.gpkg
+for command in "separate parts.shp o.gpkg" "check parts.shp" "buffer parts.shp o.gpkg --shape disc:1"; do
+    # shellcheck disable=SC2086 # words
+    refused 2 'that is a part of the input' $command --stats parts.dbf
+done
+refused 2 'that is a part of the input' separate parts.shp o.gpkg --report parts.shx
 echo 'POLYGON((0 0,1 0,0 1))' >p.wkt
 refused 2 'that is an input' sum @p.wkt square:1 --stats p.wkt
 chmod 444 s.json
