@@ -19,6 +19,12 @@ asked() {
 }
 
 for limit in 0.5 2 10; do asked town "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" buildings 3 $limit; done
+if [ "${SUNDER_LAWS:-}" = all ]; then
+    for seed in 1 2 3 4; do
+        "$SUNDER_BUILD/sunder-town" --buildings 250 --seed $seed --trouble 0.6 "town$seed.gpkg" >/dev/null || fail "sunder-town"
+        for gap in 2 5; do for limit in 1 4 1000; do asked "town $seed" "town$seed.gpkg" buildings $gap $limit; done; done
+    done
+fi
 data=$SUNDER_SOURCE/../shared/data
 if [ ! -d "$data" ]; then
     echo "without $data: the town alone"

@@ -86,26 +86,35 @@ static void found_barrier(rng *r, hamlet_barrier *b, double x, double y, double 
     if (rng_once_in(r, 2)) b->gap = unit * 0.25 * (double)rng_int(r, 0, 4);
 }
 
-/* Do the boxes meet? Then it is not known where the side anchor is. */
+/* Convex parts: a polygon, or the segments of a line, or a point. */
+static size_t barrier_parts(const hamlet_barrier *b) { return b->area || b->points == 1 ? 1 : b->points - 1; }
+static size_t part_corners(const hamlet_barrier *b) { return b->area || b->points == 1 ? b->points : 2; }
+
+/* Does the line of an edge of the first have the second strictly beyond it? A segment has two edges. */
+static bool edge_parts(const double *p, size_t np, const double *q, size_t nq)
+{
+    for (size_t k = 0; k < np; k++) {
+        const double *a = p + 2 * k, *b = p + 2 * ((k + 1) % np);
+        bool beyond = np > 1;
+        for (size_t i = 0; i < nq; i++)
+            beyond = beyond && (b[0] - a[0]) * (q[2 * i + 1] - a[1]) - (b[1] - a[1]) * (q[2 * i] - a[0]) < 0;
+        if (beyond) return true;
+    }
+    return false;
+}
+
+/* Does it meet a feature? Then it is not known where the side anchor is. A segment in line with another is taken to. */
 static bool may_cut(const hamlet *t, const hamlet_barrier *b)
 {
-    for (size_t k = 0; k < t->n; k++) {
-        const house *h = &t->house[k];
-        bool apart = false;
-        for (int c = 0; c < 2; c++) {
-            double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-            for (size_t p = 0; p < h->ring_end[0]; p++) {
-                low[0] = fmin(low[0], h->xy[2 * p + (size_t)c]);
-                high[0] = fmax(high[0], h->xy[2 * p + (size_t)c]);
+    for (size_t k = 0; k < t->n; k++)
+        for (size_t i = 0; i < t->house[k].parts; i++)
+            for (size_t j = 0; j < barrier_parts(b); j++) {
+                const house_part *h = &t->house[k].part[i];
+                const double *q = b->xy + 2 * j;
+                if (!edge_parts(h->xy, h->corners, q, part_corners(b)) &&
+                    !edge_parts(q, part_corners(b), h->xy, h->corners))
+                    return true;
             }
-            for (size_t p = 0; p < b->points; p++) {
-                low[1] = fmin(low[1], b->xy[2 * p + (size_t)c]);
-                high[1] = fmax(high[1], b->xy[2 * p + (size_t)c]);
-            }
-            apart = apart || low[0] > high[1] || low[1] > high[0];
-        }
-        if (!apart) return true;
-    }
     return false;
 }
 
@@ -228,10 +237,6 @@ static void keep_houses_apart(posing *p, size_t a, size_t b)
             optimum_keep_apart(p->m, p->body_of[a], p->body_of[b], g->part[i].xy, g->part[i].corners, h->part[j].xy,
                                h->part[j].corners, p->t->gap);
 }
-
-/* Convex parts: a polygon, or the segments of a line, or a point. */
-static size_t barrier_parts(const hamlet_barrier *b) { return b->area || b->points == 1 ? 1 : b->points - 1; }
-static size_t part_corners(const hamlet_barrier *b) { return b->area || b->points == 1 ? b->points : 2; }
 
 static void keep_off_barrier(posing *p, size_t a, size_t k)
 {
