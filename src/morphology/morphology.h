@@ -106,6 +106,11 @@ bool sunder_i_gather(sunder_sum *const *part, size_t n, sunder_sum *out);
  * sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_shape *b,
                                         const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
+/* The same as a shape of which the members have disjoint interiors and share no wall: a wall that two share is inside,
+ * and yet their pieces leave it out, so that a segment or a point, which has no area, would pass along it. *out stays
+ * NULL where there is one member only, or where members cross in places that no doubles hold; else the corners are the
+ * members' own. */
+sunder_status sunder_i_without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 
 /* ---- fit.c ---- */
 

@@ -12,6 +12,7 @@
 #include "outline/outline.h"
 #include "sum/canonical.h"
 #include "sum/place.h"
+#include "sum/to_shape.h"
 
 #include <string.h>
 
@@ -80,5 +81,17 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
         *out = sum;
     else
         sunder_sum_free(sum);
+    return status;
+}
+
+sunder_status sunder_i_without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
+{
+    *out = NULL;
+    if (shape->polygons < 2) return SUNDER_OK;
+    sunder_sum *sum;
+    sunder_status status = sunder_shape_union(shape, NULL, &sum, err);
+    if (status != SUNDER_OK) return status;
+    status = sunder_i_sum_to_shape(sum, true, SUNDER_VALIDITY_STRICT, out, err);
+    sunder_sum_free(sum);
     return status;
 }

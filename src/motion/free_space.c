@@ -10,11 +10,11 @@
  *   repaired shapes            corners may have denominators: the lattice admits them */
 #include "motion/free_space.h"
 
+#include "morphology/morphology.h"
 #include "motion/diagonals.h"
 #include "outline/contained_sides.h"
 #include "outline/outline.h"
 #include "predicate/predicate.h"
-#include "sum/to_shape.h"
 
 #include <float.h>
 #include <limits.h>
@@ -279,28 +279,12 @@ static sunder_status build(maker *m, sunder_error *err)
     return status;
 }
 
-/* The union of the members of a shape, as a shape of which the members have disjoint interiors and share no wall: a
- * wall that two share is inside, and yet their pieces leave it out, so that a segment or a point, which has no area,
- * would pass along it. *out stays NULL where there is one member only, or where members cross in places that no doubles
- * hold; else the corners are the members' own. */
-static sunder_status without_seams(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
-{
-    *out = NULL;
-    if (shape->polygons < 2) return SUNDER_OK;
-    sunder_sum *sum;
-    sunder_status status = sunder_shape_union(shape, NULL, &sum, err);
-    if (status != SUNDER_OK) return status;
-    status = sunder_i_sum_to_shape(sum, true, SUNDER_VALIDITY_STRICT, out, err);
-    sunder_sum_free(sum);
-    return status;
-}
-
 /* What the interiors of the robot's pieces leave out of its own makes a difference to obstacles without area, unless a
  * disc covers it. */
 static sunder_status build_with_lines(maker *m, sunder_error *err)
 {
     sunder_shape *whole;
-    sunder_status status = without_seams(m->robot, &whole, err);
+    sunder_status status = sunder_i_without_seams(m->robot, &whole, err);
     if (status != SUNDER_OK) return status;
     if (whole) m->robot = whole;
     status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_no_memory(err);

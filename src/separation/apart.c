@@ -72,26 +72,31 @@ static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
 
 /* With the gap on the lattice, which may have to be a finer one for it. */
 static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
-                                   const sunder_i_operands_options *options, double gap, bool *apart, sunder_error *err)
+                                   const sunder_i_operands_options *options, const double gap[2], bool *apart,
+                                   sunder_error *err)
 {
     sunder_i_operands_options with_gap = *options;
-    with_gap.extra = &gap;
-    with_gap.extra_n = 1;
+    with_gap.extra = gap;
+    with_gap.extra_n = 2;
     sunder_i_operands g;
     sunder_status status = sunder_i_operands_init(&g, p, q, &with_gap, err);
     if (status) return status;
     sunder_i_lattice *l = &g.placed.lattice;
-    const int64_t n = sunder_i_lattice_int(l, gap, 0);
+    const int64_t n = sunder_i_operands_add(&g, (sunder_i_point){sunder_i_lattice_int(l, gap[0], 0), 0},
+                                            (sunder_i_point){sunder_i_lattice_int(l, gap[1], 0), 0})
+                          .x;
     const nearness answer = any_near(&g, sunder_i_approx(l, n), &n);
     status = sunder_i_operands_end(&g, err);
     if (status == SUNDER_OK) *apart = answer == FAR;
     return status;
 }
 
-sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
-                             double gap, bool *apart, sunder_error *err)
+sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                const double gap[2], bool *apart, sunder_error *err)
 {
-    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, gap)) {
+    /* What the low part adds to doubles is within their doubt. */
+    const double most = gap[1] > 0 ? nextafter(gap[0], INFINITY) : gap[0];
+    if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, most)) {
         *apart = true;
         return SUNDER_OK;
     }
@@ -100,13 +105,19 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     nearness answer = sunder_i_operands_overlap(&g) ? NEAR : FAR;
-    const double units = gap / g.unit;
-    if (answer == FAR && gap > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
+    const double units = gap[0] / g.unit;
+    if (answer == FAR && gap[0] > 0) answer = units > 0 && units < 0x1p500 ? any_near(&g, units, NULL) : IN_DOUBT;
     status = sunder_i_operands_end(&g, err);
     if (status) return status;
     if (answer == IN_DOUBT) return exactly_apart(p, q, &options, gap, apart, err);
     *apart = answer == FAR;
     return SUNDER_OK;
+}
+
+sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                             double gap, bool *apart, sunder_error *err)
+{
+    return sunder_i_apart_by(p, tp, q, tq, (double[2]){gap, 0}, apart, err);
 }
 
 sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart,

@@ -1,5 +1,9 @@
 /* Two features: are they apart, how far, and what is the least translation that takes them apart. The public functions
- * are in sunder.h; these are the same questions for shapes that stand translated by exact vectors. */
+ * are in sunder.h; these are the same questions for shapes that stand translated by exact vectors.
+ *
+ * P may also be flat, of pieces without area, segments and points (shape/of_pieces.h): then what is said of its
+ * interior holds of all of P, which the interior of Q may not meet; and that is taken for the union of the interiors of
+ * Q's pieces, which have to cover it (displacement/layer/seamless.h). */
 #ifndef SUNDER_I_SEPARATION_H
 #define SUNDER_I_SEPARATION_H
 
@@ -12,6 +16,9 @@ sunder_status sunder_i_overlap(const sunder_shape *p, const double tp[2], const 
 /* Interiors disjoint and the distance at least gap? Exact. gap >= 0. */
 sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                              double gap, bool *apart, sunder_error *err);
+/* The same for a gap that is the sum of two doubles, the second at most half a unit in the last place of the first. */
+sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
+                                const double gap[2], bool *apart, sunder_error *err);
 /* Does P + tp lie in Q + tq (closed sets)? Exact. */
 sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                  bool *contained, sunder_error *err);

@@ -44,6 +44,7 @@ struct sunder_shape {
     sunder_i_extent extent; /* of a rational shape: the box, and the low bit of what was given */
     double box[4];          /* rounded outward if rational */
 
+    bool flat;               /* made of convex pieces, with or without area (of_pieces.c) */
     bool repaired, rational; /* rational: some corner is no pair of doubles */
     sunder_i_arena arena;    /* of the numbers of those */
     sunder_i_exact *exact;   /* [vertices] of rational shapes, else NULL */

@@ -112,6 +112,7 @@ typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
 static parting side_parts(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q, side *by)
 {
     bool parts = false;
+    if (p->n < 2) return PARTED_NOT; /* a point has no sides */
     for (uint32_t k = 0; k < p->n; k++) {
         const side s = side_of(c, p, k);
         uint32_t m = 0;

@@ -21,7 +21,8 @@ bool sunder_i_cone_of(const sunder_i_operands *g, int side, uint32_t v, sunder_i
     const double *xy = g->xy[side], *a = xy + 2 * s->prev[v], *b = xy + 2 * v, *d = xy + 2 * s->next[v];
     const double in_x = b[0] - a[0], in_y = b[1] - a[1], out_x = d[0] - b[0], out_y = d[1] - b[1];
     const double bound = (fabs(in_x) + fabs(in_y)) * g->error + 8 * g->magnitude * g->coarse;
-    if (in_x * out_y - in_y * out_x <= -bound) return false;
+    /* A point by itself is its own neighbour: all edges meet it. */
+    if (in_x * out_y - in_y * out_x <= -bound && s->next[v] != v) return false;
     *out = (sunder_i_cone){b[0], b[1], in_x, in_y, out_x, out_y};
     return true;
 }

@@ -46,6 +46,7 @@ static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *c, 
     for (uint32_t e = 0; e < s->vertices; e++) {
         const double *a = xy + 2 * e, *b = xy + 2 * s->next[e];
         if (!sunder_i_step()) return false;
+        if (s->next[e] == e) continue; /* a point, which has none */
         if (many && out_of_reach(a, b, g->box[!side], reach)) continue;
         const double dx = b[0] - a[0], dy = b[1] - a[1];
         uint32_t looked_at;

@@ -1,6 +1,7 @@
 /* Do the interiors of two sets meet? They do if those of two pieces do, and two convex pieces have disjoint interiors
  * exactly if a side of one of them has all of the other on its right, or on it: the separating axis theorem, in the
- * plane and for closed sets that may touch. */
+ * plane and for closed sets that may touch. One of the pieces may be a segment, of two sides, there and back, or a
+ * point, which has none: then it is asked whether the other's interior meets it. */
 #include "separation/operands/operands.h"
 
 /* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
@@ -9,6 +10,7 @@ static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, side, i), q = sunder_i_operands_piece(g, !side, j);
     const sunder_i_point *at = g->at[side], *other = g->at[!side];
     sunder_i_lattice *l = &g->placed.lattice;
+    if (p.n < 2) return false;
     for (uint32_t k = 0; k < p.n; k++) {
         const sunder_i_point a = at[p.corner[k]], b = at[sunder_i_piece_next(&p, k)];
         uint32_t m = 0;

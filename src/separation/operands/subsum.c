@@ -102,7 +102,7 @@ static uint32_t lowest(sunder_i_operands *g, int side, uint32_t first, uint32_t 
     return best;
 }
 
-/* The piece's corners and sides, one more corner than sides; NULL if memory is out. */
+/* The piece's corners and sides, one more corner than sides; NULL if memory is out. A point has no sides. */
 static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, uint32_t piece)
 {
     sunder_i_turned_piece *r = g->turned[side] + piece;
@@ -118,6 +118,7 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
         block[i] = g->at[side][s->piece_vertex[first + k]];
         if (++k == n) k = 0;
     }
+    if (n < 2) return r; /* as if it were not made yet: that is no work */
     for (uint32_t i = 0; i < n; i++) r->side[i] = sunder_i_operands_diff(g, block[i + 1], block[i]);
     r->n = n;
     return r;

@@ -31,6 +31,7 @@ static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const
     const sunder_i_point *at = g->at[p->side];
     const double *xy = g->xy[p->side], *other = g->xy[q->side];
     const double per_length = 4 * g->error, fixed = 32 * g->magnitude * g->rough;
+    if (p->n < 2) return false; /* a point has no sides */
     for (uint32_t k = 0; k < p->n; k++) {
         const uint32_t a = p->corner[k], b = sunder_i_piece_next(p, k);
         const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];

@@ -130,6 +130,7 @@ static bool make_tables(sunder_i_squares *q, int side)
 
 bool sunder_i_squares_worth(const sunder_i_operands *g, uint64_t pairs)
 {
+    if (g->shape[0]->flat) return false; /* what has no area covers no square */
     return (uint64_t)g->shape[0]->pieces * g->shape[1]->pieces >= SUNDER_I_SQUARES_WHOLE &&
            sunder_i_operands_parts(g) >= pairs;
 }

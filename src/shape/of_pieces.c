@@ -1,0 +1,116 @@
+/* A shape each of whose members is one convex piece.
+ *
+ * Members may touch and overlap, so some pieces of a polygonal set are a polygonal set; what parts them lies inside it,
+ * or on the boundary that they get where others are left out. Beyond that pieces may have no area: a segment is a ring
+ * of two corners, there and back, a point a ring of one, which is its own neighbour; then the shape is flat. Corners
+ * that are no doubles keep their numbers, which stay where they are. */
+#include "shape/of_pieces.h"
+
+#include "base/error.h"
+#include "spatial/box.h"
+
+#include <string.h>
+
+static uint32_t first_corner(const sunder_i_piece_of *p) { return p->piece ? p->shape->piece_end[p->piece - 1] : 0; }
+
+static uint32_t corners_of(const sunder_i_piece_of *p)
+{
+    return p->shape ? p->shape->piece_end[p->piece] - first_corner(p) : p->n;
+}
+
+/* The k-th corner in doubles; *exact: its numbers, if it is no pair of these. */
+static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sunder_i_exact **exact)
+{
+    *exact = NULL;
+    if (!p->shape) return p->xy + 2 * (size_t)k;
+    const uint32_t v = p->shape->piece_vertex[first_corner(p) + k];
+    if (p->shape->rational && p->shape->exact[v].den.size) *exact = &p->shape->exact[v];
+    return p->shape->xy + 2 * (size_t)v;
+}
+
+void sunder_i_piece_box(const sunder_i_piece_of *p, double box[4])
+{
+    const sunder_i_exact *exact;
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < corners_of(p); k++) sunder_i_box_include(box, corner_of(p, k, &exact));
+    if (p->shape && p->shape->rational) sunder_i_box_grow(box, 0, box);
+}
+
+/* Room for all arrays, in the shape's arena. */
+static bool make_room(sunder_shape *s)
+{
+    sunder_i_arena *a = &s->arena;
+    s->xy = sunder_i_arena_alloc(a, s->vertices, 2 * sizeof *s->xy);
+    s->ring_end = sunder_i_arena_alloc(a, s->pieces, sizeof *s->ring_end);
+    s->poly_end = sunder_i_arena_alloc(a, s->pieces, sizeof *s->poly_end);
+    s->piece_end = s->ring_end;
+    s->next = sunder_i_arena_alloc(a, s->vertices, sizeof *s->next);
+    s->prev = sunder_i_arena_alloc(a, s->vertices, sizeof *s->prev);
+    s->piece_vertex = sunder_i_arena_alloc(a, s->vertices, sizeof *s->piece_vertex);
+    s->shared = sunder_i_arena_alloc(a, s->vertices, sizeof *s->shared);
+    if (s->rational) s->exact = sunder_i_arena_alloc(a, s->vertices, sizeof *s->exact);
+    return !a->failed;
+}
+
+static void fill(sunder_shape *s, const sunder_i_piece_of *piece)
+{
+    uint32_t at = 0;
+    for (uint32_t i = 0; i < s->pieces; i++) {
+        const uint32_t n = corners_of(&piece[i]), first = at;
+        for (uint32_t k = 0; k < n; k++, at++) {
+            const sunder_i_exact *exact;
+            memcpy(s->xy + 2 * (size_t)at, corner_of(&piece[i], k, &exact), 2 * sizeof *s->xy);
+            s->next[at] = k + 1 < n ? at + 1 : first;
+            s->prev[at] = k ? at - 1 : first + n - 1;
+            s->piece_vertex[at] = at;
+            s->shared[at] = true;
+            if (s->rational) s->exact[at] = exact ? *exact : (sunder_i_exact){.den = {NULL, 0}};
+        }
+        s->ring_end[i] = at;
+        s->poly_end[i] = i + 1;
+    }
+}
+
+/* The box, and bits low enough for all corners: of crossings those of what they were crossings of. */
+static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
+{
+    sunder_i_extent_add(&s->extent, s->xy, s->vertices);
+    for (uint32_t i = 0; i < s->pieces; i++) {
+        const sunder_shape *of = piece[i].shape;
+        if (of && of->rational && of->extent.low_bit < s->extent.low_bit) s->extent.low_bit = of->extent.low_bit;
+    }
+    for (int k = 0; k < 2; k++) {
+        s->box[k] = s->extent.low[k];
+        s->box[k + 2] = s->extent.high[k];
+    }
+    if (!s->rational) return;
+    sunder_i_box_grow(s->box, 0, s->box);
+    for (int k = 0; k < 2; k++) {
+        s->extent.low[k] = s->box[k];
+        s->extent.high[k] = s->box[k + 2];
+    }
+}
+
+sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n, sunder_shape **out, sunder_error *err)
+{
+    size_t corners = 0;
+    for (size_t i = 0; i < n; i++) corners += corners_of(&piece[i]);
+    if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
+    sunder_shape *s = sunder_i_calloc(1, sizeof *s);
+    if (!s) return sunder_i_no_memory(err);
+    sunder_i_arena_init(&s->arena);
+    s->vertices = (uint32_t)corners;
+    s->pieces = s->rings = s->polygons = (uint32_t)n;
+    for (size_t i = 0; i < n; i++) {
+        s->flat = s->flat || corners_of(&piece[i]) < 3;
+        s->rational = s->rational || (piece[i].shape && piece[i].shape->rational);
+    }
+    if (!make_room(s)) {
+        sunder_shape_free(s);
+        return sunder_i_no_memory(err);
+    }
+    fill(s, piece);
+    measure(s, piece);
+    *out = s;
+    return SUNDER_OK;
+}
