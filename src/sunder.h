@@ -462,7 +462,10 @@ typedef struct sunder_barrier {
     bool side;                /* its lines and boundaries may not be crossed; not honoured yet */
 } sunder_barrier;
 
-/* The barriers of a layer, in place of those that it had. Not honoured yet: they stand in the way of nothing.
+/* The barriers of a layer, in place of those that it had. A pair of a feature and a barrier is one, however many lines
+ * and pieces of it are near; cost follows what is near. (One exception to what is exact: a feature whose members, or
+ * whose own rings, cross in places that no doubles hold may have walls inside, and a line that lies wholly along one of
+ * these is taken for one that does not meet it.)
  * Fails   SUNDER_EARG      a width or a gap out of its range, or ends of lines that do not ascend
  *         SUNDER_EINVALID  a coordinate is not finite */
 SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,

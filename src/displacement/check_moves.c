@@ -3,6 +3,7 @@
  * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
  * then asked for its limit, and with all others for the rule against jumps; and no pair that is in conflict afterwards
  * may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it was. */
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
 
@@ -15,7 +16,10 @@
 
 typedef struct comparison {
     const sunder_layer *before, *after;
-    sunder_i_model model;         /* of `before` */
+    sunder_i_barriers barriers;   /* of `before` */
+    sunder_layer layer;           /* `before`, and parts of these behind it; its own copy */
+    size_t *number;               /* [things] as the interface counts them */
+    sunder_i_model model;         /* of all that */
     sunder_i_placement placement; /* first of `before`, then of `after` */
     sunder_i_relations start, now;
     sunder_i_jumps jumps;
@@ -30,6 +34,9 @@ static void clear(comparison *c)
     sunder_i_jumps_free(&c->jumps);
     sunder_i_placement_free(&c->model, &c->placement);
     sunder_i_model_free(&c->model);
+    sunder_i_barriers_free(&c->barriers);
+    sunder_i_free(c->layer.feature);
+    sunder_i_free(c->number);
     sunder_i_free(c->start.pair);
     sunder_i_free(c->now.pair);
     sunder_i_free(c->move);
@@ -106,11 +113,15 @@ static sunder_status place_after(comparison *c, sunder_error *err)
         const sunder_shape *shape = c->after->feature[f].shape;
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
         if (!c->model.present[f]) continue;
-        p->translate[f].shape = shape;
+        p->translate[f] = (sunder_i_translate){.shape = shape};
         sunder_shape_box(shape, p->box + 4 * (size_t)f);
+        if (!c->model.seamless) continue;
+        const sunder_status status = sunder_i_seamless_make(shape, &p->seamless[f], err);
+        if (status) return status;
+        p->translate[f].seamless = p->seamless[f].shape;
     }
     sunder_i_rtree_free(&p->tree);
-    return sunder_i_rtree_build(p->box, c->model.present, c->model.features, &p->tree, err);
+    return sunder_i_rtree_build(p->box, c->model.present, c->model.things, &p->tree, err);
 }
 
 /* Is it in conflict between blocks, and does it stand worse than it did? */
@@ -118,6 +129,10 @@ static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, b
 {
     const sunder_i_relation *was = sunder_i_relations_find(&c->start, r->a, r->b);
     *worse = false;
+    if (sunder_i_is_barrier(&c->model, r->b)) {
+        const sunder_i_translate home = sunder_i_at_home(&c->model, r->a);
+        return sunder_i_barrier_worsened(&c->model, &home, &c->placement.translate[r->a], r->b, worse, err);
+    }
     if (!sunder_i_is_conflict_of_bodies(&c->model, r) || (was && was->contained && r->contained)) return SUNDER_OK;
     const sunder_i_pair before = {c->before->feature[r->a].shape, c->before->feature[r->b].shape, NULL, NULL},
                         after = {c->after->feature[r->a].shape, c->after->feature[r->b].shape, NULL, NULL};
@@ -152,7 +167,15 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
         sunder_conflict *found = add(c, SUNDER_CONFLICT_WORSE, told->a, told->b);
         if (!found) return sunder_i_no_memory(err);
         *found = *told;
+        found->b = c->number[told->b];
         found->kind = SUNDER_CONFLICT_WORSE;
+        if (sunder_i_is_barrier(&c->model, (uint32_t)told->b)) {
+            const sunder_i_translate home = sunder_i_at_home(&c->model, (uint32_t)told->a);
+            sunder_i_barrier_stance stance;
+            status = sunder_i_barrier_stand(&c->model, &home, (uint32_t)told->b, &stance, err);
+            found->before = stance.distance;
+            continue;
+        }
         status = sunder_pair_distance(c->before->feature[told->a].shape, c->before->feature[told->b].shape,
                                       &found->before, on_a, on_b, err);
     }
@@ -167,7 +190,9 @@ static sunder_status begin(comparison *c, const sunder_layer_options *options, s
     if (c->before->n != c->after->n)
         return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = sunder_i_model_init(c->before, &rules, &c->model, err);
+    if (!status) status = sunder_i_barriers_make(c->before, rules.gap, &c->barriers, err);
+    if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, &c->number, err);
+    if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, NULL, &c->start, err);
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);

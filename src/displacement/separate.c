@@ -25,12 +25,15 @@
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
 
+/* as_given: features keep the order that they have. */
 static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                           sunder_report **report, sunder_error *err)
+                           bool as_given, sunder_report **report, sunder_error *err)
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = sunder_i_model_init(layer, &rules, &s->model, err);
+    if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
+    if (!status) status = sunder_i_order_layer(layer, &s->barriers, as_given, &s->layer, &s->number, err);
+    if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
     s->model.standing = &s->placement.tree;
     if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, NULL, NULL, &s->start, err);
@@ -99,8 +102,7 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
 static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                           sunder_report **report, sunder_error *err)
 {
-    sunder_status status = sunder_i_order_layer(layer, &s->layer, &s->number, err);
-    if (!status) status = start(s, &s->layer, options, report, err);
+    sunder_status status = start(s, layer, options, false, report, err);
     if (!status) status = prepare(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = solve(s, err);
@@ -114,8 +116,7 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
                                   sunder_error *err)
 {
     sunder_report *report = NULL;
-    sunder_status status = sunder_i_order_layer(layer, &s->layer, &s->number, err);
-    if (!status) status = start(s, &s->layer, options, &report, err);
+    sunder_status status = start(s, layer, options, false, &report, err);
     if (!status) status = prepare(s, err);
     if (!status) status = sunder_i_solver_move_inside(s, err);
     if (!status) status = sunder_i_solver_choose_holders(s, err);
@@ -165,8 +166,9 @@ static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const 
                            sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = start(s, layer, options, report, err);
+    sunder_status status = start(s, layer, options, true, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
+    if (!status) status = sunder_i_report_renumber(*report, s->number, err);
     if (status) return status;
     sunder_layer_summary *summary = &(*report)->summary;
     summary->after = summary->before;

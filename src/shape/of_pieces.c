@@ -28,6 +28,8 @@ static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sun
     return p->shape->xy + 2 * (size_t)v;
 }
 
+bool sunder_i_piece_has_area(const sunder_i_piece_of *piece) { return corners_of(piece) > 2; }
+
 void sunder_i_piece_box(const sunder_i_piece_of *p, double box[4])
 {
     const sunder_i_exact *exact;

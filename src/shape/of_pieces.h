@@ -15,7 +15,8 @@ typedef struct sunder_i_piece_of {
 
 /* The union of n pieces, which are borrowed as long as it lives. It is for separation/ alone: it has no raw rings. */
 sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n, sunder_shape **out, sunder_error *err);
-/* The box of one. */
+/* Has one an area? Its box. */
+bool sunder_i_piece_has_area(const sunder_i_piece_of *piece);
 void sunder_i_piece_box(const sunder_i_piece_of *piece, double box[4]);
 
 #endif

@@ -47,6 +47,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->move);
     free_clusters(s);
     sunder_i_free(s->layer.feature);
+    sunder_i_barriers_free(&s->barriers);
     sunder_i_free(s->number);
 }
 
@@ -56,7 +57,7 @@ sunder_status sunder_i_solver_init(sunder_i_solver *s, sunder_error *err)
     s->parent = sunder_i_alloc(n, sizeof *s->parent);
     s->dirty = sunder_i_calloc(n, sizeof *s->dirty);
     s->widened = sunder_i_calloc(n, sizeof *s->widened);
-    s->changed = sunder_i_calloc(s->model.features, sizeof *s->changed);
+    s->changed = sunder_i_calloc(s->model.things, sizeof *s->changed);
     s->reconsidered = sunder_i_calloc(n, sizeof *s->reconsidered);
     s->improved = sunder_i_calloc(n, sizeof *s->improved);
     s->carrier = sunder_i_alloc(n, sizeof *s->carrier);
@@ -130,7 +131,7 @@ static double margin_of(const sunder_i_solver *s, const sunder_i_cluster_member 
         if (s->widened[m[k].body] > widened) widened = s->widened[m[k].body];
     }
     int exponent;
-    frexp(largest + s->model.rules.gap, &exponent);
+    frexp(largest + fmax(s->model.rules.gap, s->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 

@@ -1,7 +1,7 @@
 /* What limits and fixed bodies leave no solution for by itself: pairs that no admissible moves resolve, found exactly
  * before anything moves. (What clusters give up later: given_up.c.) */
 #include "displacement/clusters/stages.h"
-#include "displacement/layer/resolution.h"
+#include "displacement/layer/barrier_pairs.h"
 
 #include "base/parallel.h"
 
@@ -31,10 +31,10 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         const double reach = sunder_i_limit_of(&model->body[i]) + sunder_i_limit_of(&model->body[j]);
         if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY ||
-            boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach))
+            (!sunder_i_is_barrier(model, r->b) &&
+             boxes_can_part(model->box + 4 * (size_t)r->a, model->box + 4 * (size_t)r->b, model->rules.gap, reach)))
             continue;
-        status = sunder_i_resolve(&model->rules, model->layer->feature[r->a].shape, model->layer->feature[r->b].shape,
-                                  nextafter(reach, INFINITY), &g->resolution[k], err);
+        status = sunder_i_resolve_things(model, r->a, r->b, nextafter(reach, INFINITY), &g->resolution[k], err);
         if (status || !g->resolution[k].beyond) continue;
         status = sunder_i_relaxation_of(model, r->a, r->b, &g->relaxation[k], err);
         g->relaxation[k].infeasible = true;

@@ -161,7 +161,8 @@ static size_t list_requirements(const sunder_i_model *model, sunder_i_requiremen
         const sunder_i_relaxation *t = &model->relaxations.item[k];
         const double shift = hypot(t->shift[0], t->shift[1]);
         if (!t->infeasible) continue;
-        required[n++] = (sunder_i_requirement){t->a, t->b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
+        const uint32_t b = sunder_i_whole_of(model, t->b);
+        required[n++] = (sunder_i_requirement){t->a, b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
     }
     return n;
 }

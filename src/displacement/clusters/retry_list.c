@@ -66,7 +66,7 @@ static sunder_i_retry retry_of(const sunder_i_model *model, const claim *c, cons
         x.resolve = x.resolve || !t->infeasible;
         x.disjoint = x.disjoint || sunder_i_can_be_disjoint(model, t);
         deepest = fmax(deepest, depth);
-        if (!(depth > 0)) x.missing = fmax(x.missing, model->rules.gap - t->gap);
+        if (!(depth > 0)) x.missing = fmax(x.missing, sunder_i_owed_above(model, t->a, t->b) - t->gap);
     }
     x.overlap = deepest > 0;
     if (x.overlap) x.missing = deepest;
@@ -186,7 +186,8 @@ static bool join_neighbours(sunder_i_solver *s)
     for (size_t e = 0; e < s->edges && ok; e++) alone[s->edge[e].a] = alone[s->edge[e].b] = false;
     for (size_t k = 0; k < model->relaxations.n && ok; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
-        const double depth = hypot(t->shift[0], t->shift[1]), missing = depth > 0 ? depth : model->rules.gap - t->gap;
+        const double depth = hypot(t->shift[0], t->shift[1]);
+        const double missing = depth > 0 ? depth : sunder_i_owed_above(model, t->a, t->b) - t->gap;
         const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
         if (t->infeasible && !sunder_i_can_be_disjoint(model, t)) continue;
         ok = join_about(s, alone, i, fmin(missing, sunder_i_limit_of(&model->body[i])), &near) &&

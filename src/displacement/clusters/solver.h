@@ -19,8 +19,9 @@ typedef struct sunder_i_entry {
 } sunder_i_entry;
 
 typedef struct sunder_i_solver {
-    sunder_layer layer; /* in the order of work; its own copy of the features */
-    size_t *number;     /* [features] what they were; NULL: nothing was put in order */
+    sunder_i_barriers barriers;
+    sunder_layer layer; /* in the order of work; its own copy of the features, and parts of barriers behind them */
+    size_t *number;     /* [things] what they were */
     sunder_i_model model;
     sunder_i_placement placement;
     sunder_i_relations start, now;
@@ -32,7 +33,7 @@ typedef struct sunder_i_solver {
     uint32_t *parent;                /* [bodies] union-find over edges */
     bool *dirty;                     /* [bodies] to be solved (again) */
     unsigned char *widened;          /* [bodies] how often the margin grew */
-    bool *changed;                   /* [features] moved in this round */
+    bool *changed;                   /* [things] moved in this round */
     bool *reconsidered;              /* [bodies] of the least of a component of conflicts: no solution was found */
     bool *improved;                  /* [bodies] better sides were looked for since the body's cluster was solved */
     double *limit;                   /* [bodies] the limits, while they are lifted */

@@ -12,7 +12,7 @@
  * stands worse: the loop ends. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
-#include "displacement/layer/resolution.h"
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 
 #include "separation/separation.h"
@@ -30,11 +30,25 @@ static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation 
     return !s->placement.rounded[r->a] && !s->placement.rounded[r->b] && a->t[0] == b->t[0] && a->t[1] == b->t[1];
 }
 
+/* The same of a barrier, which stands all of it as it did: any part of it may have been what was in conflict. */
+static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
+                                         sunder_error *err)
+{
+    const sunder_i_relation first = {.a = r->a, .b = sunder_i_whole_of(&s->model, r->b)};
+    const size_t at = sunder_i_lower_bound(&first, s->start.pair, s->start.n, sizeof first, sunder_i_by_id_pair);
+    *worse =
+        at == s->start.n || s->start.pair[at].a != r->a || sunder_i_whole_of(&s->model, s->start.pair[at].b) != first.b;
+    if (*worse || stand_as_they_did(s, r)) return SUNDER_OK;
+    const sunder_i_translate home = sunder_i_at_home(&s->model, r->a);
+    return sunder_i_barrier_worsened(&s->model, &home, &s->placement.translate[r->a], r->b, worse, err);
+}
+
 sunder_status sunder_i_solver_is_worse(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err)
 {
     const sunder_i_relation *was = sunder_i_relations_find(&s->start, r->a, r->b);
     *worse = !was || !sunder_i_is_conflict(was);
+    if (sunder_i_is_barrier(&s->model, r->b)) return is_worse_to_barrier(s, r, worse, err);
     if (*worse || stand_as_they_did(s, r) || (was->contained && r->contained)) return SUNDER_OK;
     const sunder_feature *feature = s->model.layer->feature;
     const sunder_i_translate *a = &s->placement.translate[r->a], *b = &s->placement.translate[r->b];

@@ -23,7 +23,7 @@ static sunder_status find_holders(sunder_i_model *model, sunder_error *err)
         for (size_t k = 0; k < near.n && !status; k++) {
             const uint32_t g = near.item[k];
             bool holds;
-            if (model->body_of[f] == model->body_of[g]) continue;
+            if (sunder_i_is_barrier(model, g) || model->body_of[f] == model->body_of[g]) continue;
             status = sunder_i_holds(model->layer->feature[g].shape, a, &holds, err);
             if (status || !holds) continue;
             if (!sunder_i_reserve(&model->held, &capacity, model->held_n + 1, sizeof *model->held))
@@ -42,7 +42,7 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     const size_t n = model->features;
     if (model->rules.jumps) return SUNDER_OK;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
-    model->anchor = sunder_i_calloc(n, sizeof *model->anchor);
+    model->anchor = sunder_i_calloc(model->things, sizeof *model->anchor);
     if (!model->anchor_at || !model->anchor) return sunder_i_no_memory(err);
     if (model->corners + n >= UINT32_MAX)
         return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", model->corners + n);
@@ -54,6 +54,7 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
         sunder_i_box_clear(body->anchors);
         for (uint32_t m = 0; m < body->members; m++) {
             const uint32_t f = model->member[body->member + m];
+            if (sunder_i_is_barrier(model, f)) continue;
             double *at = model->anchor_at + 2 * (size_t)f, *to = corner + 2 * model->corners;
             sunder_i_body_piece *anchor = &model->anchor[f];
             if (!model->present[f]) continue;

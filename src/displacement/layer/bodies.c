@@ -23,6 +23,8 @@ static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, 
             for (int k = 0; k < 2; k++) c[k] = shape->xy[2 * shape->piece_vertex[from] + (uint32_t)k] - body->origin[k];
             sunder_i_box_include(piece->box, c);
         }
+        const double beyond = sunder_i_reach_beyond(model, f);
+        if (beyond > 0) sunder_i_box_grow(piece->box, beyond, piece->box);
         sunder_i_box_join(body->box, piece->box);
         body->pieces++;
     }
@@ -79,7 +81,7 @@ static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body 
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
 {
     size_t pieces = 0, corners = 0;
-    for (size_t f = 0; f < model->features; f++)
+    for (size_t f = 0; f < model->things; f++)
         if (model->present[f]) {
             const sunder_shape *shape = model->layer->feature[f].shape;
             pieces += shape->pieces;
@@ -90,7 +92,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
         return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     model->piece = sunder_i_alloc(pieces, sizeof *model->piece);
     model->corner = sunder_i_alloc(2 * corners, sizeof *model->corner);
-    model->outline = sunder_i_calloc(model->features, sizeof *model->outline);
+    model->outline = sunder_i_calloc(model->things, sizeof *model->outline);
     model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
     if (!model->piece || !model->corner || !model->outline || !model->whole) return sunder_i_no_memory(err);
     for (size_t b = 0; b < model->bodies; b++) {

@@ -41,8 +41,12 @@ bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
 /* ---- order.c ----------------------------------------------------------------------------------------------------- */
 
-/* A copy of the layer in the order that it is worked on in: number[k] is what feature k was. Failure leaves what
- * sunder_i_free() takes. */
-sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out, size_t **number, sunder_error *err);
+typedef struct sunder_i_barriers sunder_i_barriers;
+
+/* A copy of the layer in the order that it is worked on in (or as given): number[k] is what feature k was. Behind its
+ * n features it has a fixed one for each part of its barriers, in their order, of which number[] tells the barrier, as
+ * the interface counts these. Failure leaves what sunder_i_free() takes. */
+sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
+                                   sunder_layer *out, size_t **number, sunder_error *err);
 
 #endif

@@ -2,6 +2,7 @@
 #include "displacement/layer/model.h"
 
 #include "base/invariant.h"
+#include "base/parallel.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -23,6 +24,8 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->whole);
     sunder_i_free(model->box);
     sunder_i_free(model->present);
+    for (size_t f = 0; model->seamless && f < model->features; f++) sunder_i_seamless_free(&model->seamless[f]);
+    sunder_i_free(model->seamless);
     sunder_i_free(model->inclusion);
     sunder_i_free(model->nested);
     sunder_i_free(model->wall);
@@ -34,14 +37,41 @@ void sunder_i_model_free(sunder_i_model *model)
     memset(model, 0, sizeof *model);
 }
 
-sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_model *model,
-                                  sunder_error *err)
+static sunder_status make_some_seamless(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_model *model = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t f = begin; f < end && !status; f++)
+        if (model->present[f])
+            status = sunder_i_seamless_make(model->layer->feature[f].shape, &model->seamless[f], err);
+    return status;
+}
+
+static sunder_status make_seamless(sunder_i_model *model, sunder_error *err)
+{
+    if (!model->barriers->flat) return SUNDER_OK;
+    model->seamless = sunder_i_calloc(model->features, sizeof *model->seamless);
+    if (!model->seamless) return sunder_i_no_memory(err);
+    return sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_SHAPES, make_some_seamless, model,
+                             err);
+}
+
+sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t f)
+{
+    return (sunder_i_translate){.shape = model->layer->feature[f].shape,
+                                .seamless = model->seamless ? model->seamless[f].shape : NULL};
+}
+
+sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
+                                  const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err)
 {
     memset(model, 0, sizeof *model);
-    const size_t n = layer->n;
+    const size_t n = layer->n + barriers->parts;
     model->layer = layer;
+    model->barriers = barriers;
     model->rules = *rules;
-    model->features = n;
+    model->features = layer->n;
+    model->things = n;
     model->body_of = sunder_i_alloc(n, sizeof *model->body_of);
     model->member = sunder_i_alloc(n, sizeof *model->member);
     model->body = sunder_i_calloc(n, sizeof *model->body);
@@ -54,9 +84,13 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_rule
         return sunder_i_no_memory(err);
     for (size_t f = 0; f < n; f++) {
         model->present[f] = sunder_i_is_present(&layer->feature[f]);
-        if (model->present[f]) sunder_shape_box(layer->feature[f].shape, model->box + 4 * f);
+        if (!model->present[f]) continue;
+        sunder_shape_box(layer->feature[f].shape, model->box + 4 * f);
+        const double beyond = sunder_i_reach_beyond(model, (uint32_t)f);
+        if (beyond > 0) sunder_i_box_grow(model->box + 4 * f, beyond, model->box + 4 * f);
     }
-    return sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
+    const sunder_status status = sunder_i_rtree_build(model->box, model->present, n, &model->tree, err);
+    return status ? status : make_seamless(model, err);
 }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
@@ -96,7 +130,7 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
 static void number_bodies(sunder_i_model *model, uint32_t *parent)
 {
     uint32_t bodies = 0;
-    for (size_t f = 0; f < model->features; f++) {
+    for (size_t f = 0; f < model->things; f++) {
         const uint32_t root = sunder_i_union_find(parent, (uint32_t)f);
         /* The least member is its own root, and comes first. */
         model->body_of[f] = root == f ? bodies++ : model->body_of[root];
@@ -111,7 +145,7 @@ static void number_bodies(sunder_i_model *model, uint32_t *parent)
         body->members = 0;
         body->limit = INFINITY;
     }
-    for (size_t f = 0; f < model->features; f++) {
+    for (size_t f = 0; f < model->things; f++) {
         const sunder_feature *feature = &model->layer->feature[f];
         sunder_i_body *body = &model->body[model->body_of[f]];
         model->member[body->member + body->members++] = (uint32_t)f;
@@ -135,13 +169,13 @@ static const char *check(const sunder_i_model *model)
             if (model->body_of[member[k]] != b || (k && member[k - 1] >= member[k])) return "members do not ascend";
         members += body->members;
     }
-    return members == model->features ? NULL : "a feature without a body";
+    return members == model->things ? NULL : "a thing without a body";
 }
 #endif
 
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err)
 {
-    const size_t n = model->features;
+    const size_t n = model->things;
     uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
     if (!parent) return sunder_i_no_memory(err);
     sunder_i_union_init(parent, n);
@@ -153,7 +187,7 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
     const sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
                                                                       : sunder_i_no_memory(err);
     if (!status) number_bodies(model, parent);
-    SUNDER_I_CHECK(status ? NULL : check(model), model->features);
+    SUNDER_I_CHECK(status ? NULL : check(model), model->things);
     sunder_i_free(parent);
     return status;
 }

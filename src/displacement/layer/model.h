@@ -4,8 +4,10 @@
 #ifndef SUNDER_I_MODEL_H
 #define SUNDER_I_MODEL_H
 
+#include "displacement/layer/barriers.h"
 #include "displacement/layer/inclusion.h"
 #include "displacement/layer/relaxation.h"
+#include "displacement/layer/seamless.h"
 #include "spatial/rtree.h"
 
 /* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
@@ -45,23 +47,26 @@ static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2
 struct sunder_i_model {
     const sunder_layer *layer;
     sunder_i_rules rules;
-    size_t bodies, features, pieces;
-    uint32_t *body_of; /* [features] */
-    uint32_t *member;  /* [features] features by body */
+    const sunder_i_barriers *barriers;
+    size_t bodies, pieces;
+    size_t features, things; /* features come first, then parts of barriers, which are fixed bodies each */
+    uint32_t *body_of;       /* [things] */
+    uint32_t *member;        /* [things] things by body */
     sunder_i_body *body;
     sunder_i_body_piece *piece;
-    sunder_i_body_piece *outline; /* [features] the convex hull of each, for where its pieces are too many */
+    sunder_i_body_piece *outline; /* [things] the convex hull of each, for where its pieces are too many */
     double *corner;               /* [2 * corners] relative to the body's origin */
     size_t corners;
     /* Where jumps are not allowed; else NULL: */
-    sunder_i_body_piece *anchor; /* [features] each anchor as a piece of one corner */
+    sunder_i_body_piece *anchor; /* [things] each anchor as a piece of one corner; barriers have none */
     double *anchor_at;           /* [2 * features] the anchors as they are */
     sunder_i_id_pair *held;      /* a feature, and one of another body that holds its anchor; sorted */
     size_t held_n;
-    sunder_shape **whole; /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
-    double *box;          /* [4 * features] as they stood at the start */
-    bool *present;        /* [features] */
-    sunder_i_rtree tree;  /* as they stood at the start */
+    sunder_shape **whole;        /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
+    double *box;                 /* [4 * things] as they stood at the start; see sunder_i_reach_beyond() */
+    bool *present;               /* [things] */
+    sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */
+    sunder_i_rtree tree;         /* as they stood at the start */
     const sunder_i_rtree *standing; /* as they stand now: the placement's; lent */
     sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
     size_t walls;
@@ -73,15 +78,61 @@ struct sunder_i_model {
     sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
     double *move;  /* [2 * bodies] where each stands now, relative to the start */
-    bool *inexact; /* [features] the translate was rounded */
+    bool *inexact; /* [things] the translate was rounded */
 };
+
+/* ---- Things ------------------------------------------------------------------------------------------------------ */
+
+/* Is the thing a part of a barrier, which has no anchor and no outline? Is the body? Of which barrier? */
+static inline bool sunder_i_is_barrier(const sunder_i_model *model, uint32_t thing) { return thing >= model->features; }
+
+static inline bool sunder_i_is_barrier_body(const sunder_i_model *model, const sunder_i_body *body)
+{
+    return sunder_i_is_barrier(model, model->member[body->member]);
+}
+
+static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t part)
+{
+    return model->barriers->barrier[part - model->features];
+}
+
+/* A thing by which all parts of a barrier are known: their first; else the thing itself. */
+static inline uint32_t sunder_i_whole_of(const sunder_i_model *model, uint32_t thing)
+{
+    if (!sunder_i_is_barrier(model, thing)) return thing;
+    return (uint32_t)model->features + sunder_i_first_part(model->barriers, thing - (uint32_t)model->features);
+}
+
+/* What the two owe each other, rounded down and up; of two features both are the gap. */
+static inline double sunder_i_owed_below(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t part = f > g ? f : g;
+    if (!sunder_i_is_barrier(model, part)) return model->rules.gap;
+    return sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, part));
+}
+
+static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t part = f > g ? f : g;
+    if (!sunder_i_is_barrier(model, part)) return model->rules.gap;
+    return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
+}
+
+/* What a thing is owed beyond the gap. All boxes of barriers, of bodies and pieces too, are grown by it: so who looks
+ * the gap about itself finds whom it owes anything. */
+static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
+{
+    return fmax(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
+}
 
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */
 
-/* The features' boxes and the tree over them as they were. On failure the model can be given to
- * sunder_i_model_free() all the same. */
-sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_model *model,
-                                  sunder_error *err);
+/* The boxes of the layer's features, behind which stand parts of barriers (layer.h), and the tree over them as they
+ * were. On failure the model can be given to sunder_i_model_free() all the same. */
+sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
+                                  const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err);
+/* A feature where it came from. */
+sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature);
 /* Joins what the rules join. */
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 void sunder_i_model_free(sunder_i_model *model);

@@ -4,7 +4,7 @@
  * everything are told apart by their places in the list, and may change roles. Numbers go up with y, whatever else
  * the layer holds: a feature far away changes the order of no two others. In the end the report speaks of features
  * as the caller numbered them (report/renumber.c). */
-#include "displacement/layer/layer.h"
+#include "displacement/layer/barriers.h"
 
 #include "shape/shape.h"
 
@@ -48,23 +48,37 @@ static int by_place(const void *x, const void *y)
     return order ? order : a->number < b->number ? -1 : a->number > b->number;
 }
 
-sunder_status sunder_i_order_layer(const sunder_layer *layer, sunder_layer *out, size_t **number, sunder_error *err)
+/* Parts of barriers behind the features, in the order of the barriers. */
+static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out, size_t *number)
 {
-    const size_t n = layer->n;
+    for (uint32_t k = 0; k < barriers->parts; k++) {
+        out->feature[out->n + k] =
+            (sunder_feature){.shape = barriers->shape[k], .weight = 1, .max_shift = 0, .block = -1, .fixed = true};
+        number[out->n + k] = out->n + barriers->barrier[k];
+    }
+}
+
+sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
+                                   sunder_layer *out, size_t **number, sunder_error *err)
+{
+    const size_t n = layer->n, things = n + barriers->parts;
     ranked *list = sunder_i_alloc(n, sizeof *list);
-    out->feature = sunder_i_alloc(n, sizeof *out->feature);
+    out->feature = sunder_i_alloc(things, sizeof *out->feature);
     out->n = n;
-    *number = sunder_i_alloc(n, sizeof **number);
+    out->barrier = layer->barrier;
+    out->barriers = layer->barriers;
+    *number = sunder_i_alloc(things, sizeof **number);
     const bool ok = list && out->feature && *number;
     for (size_t k = 0; ok && k < n; k++) {
         list[k] = (ranked){{INFINITY, INFINITY, INFINITY, INFINITY}, &layer->feature[k], k};
         if (sunder_i_is_present(list[k].feature)) sunder_shape_box(list[k].feature->shape, list[k].box);
     }
-    if (ok && n) qsort(list, n, sizeof *list, by_place);
+    if (ok && n && !as_given) qsort(list, n, sizeof *list, by_place);
     for (size_t k = 0; ok && k < n; k++) {
         out->feature[k] = *list[k].feature;
         (*number)[k] = list[k].number;
     }
+    if (ok) append_parts(barriers, out, *number);
     sunder_i_free(list);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

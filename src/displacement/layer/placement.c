@@ -1,6 +1,7 @@
 /* A placement: how the features stand at one moment, and which pairs of them are near. What is found here is exact
  * and is what the report stands on. */
 #include "displacement/layer/placement.h"
+#include "displacement/layer/barrier_pairs.h"
 
 #include "base/invariant.h"
 #include "base/parallel.h"
@@ -14,23 +15,30 @@
 
 sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err)
 {
-    const size_t n = model->features;
+    const size_t n = model->things;
     memset(placement, 0, sizeof *placement);
     placement->translate = sunder_i_calloc(n, sizeof *placement->translate);
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
+    placement->seamless = sunder_i_calloc(n, sizeof *placement->seamless);
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
     placement->box = sunder_i_alloc(4 * n, sizeof *placement->box);
-    if (!placement->translate || !placement->rounded || !placement->was_rounded || !placement->box)
+    if (!placement->translate || !placement->rounded || !placement->seamless || !placement->was_rounded ||
+        !placement->box)
         return sunder_i_no_memory(err);
     memcpy(placement->box, model->box, 4 * n * sizeof *placement->box);
-    for (size_t f = 0; f < n; f++) placement->translate[f].shape = model->layer->feature[f].shape;
+    for (uint32_t f = 0; f < n; f++)
+        placement->translate[f] = sunder_i_is_barrier(model, f)
+                                      ? (sunder_i_translate){.shape = model->layer->feature[f].shape}
+                                      : sunder_i_at_home(model, f);
     return sunder_i_rtree_build(placement->box, model->present, n, &placement->tree, err);
 }
 
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
 {
     for (size_t f = 0; placement->rounded && f < model->features; f++) sunder_shape_free(placement->rounded[f]);
+    for (size_t f = 0; placement->seamless && f < model->features; f++) sunder_i_seamless_free(&placement->seamless[f]);
     sunder_i_free(placement->rounded);
+    sunder_i_free(placement->seamless);
     sunder_i_free(placement->was_rounded);
     sunder_i_free(placement->translate);
     sunder_i_free(placement->box);
@@ -44,8 +52,9 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     const sunder_shape *shape = model->layer->feature[f].shape;
     sunder_i_translate *stand = &placement->translate[f];
     sunder_shape_free(placement->rounded[f]);
+    sunder_i_seamless_free(&placement->seamless[f]);
     placement->rounded[f] = NULL;
-    stand->shape = shape;
+    *stand = sunder_i_at_home(model, (uint32_t)f);
     stand->t[0] = t[0];
     stand->t[1] = t[1];
     if (model->inexact[f]) {
@@ -54,10 +63,12 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
         placement->was_rounded[f] = true;
         const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
         if (status) return status;
-        stand->shape = placement->rounded[f];
-        stand->t[0] = stand->t[1] = 0;
+        *stand = (sunder_i_translate){.shape = placement->rounded[f]};
         sunder_shape_box(stand->shape, placement->box + 4 * f);
-        return SUNDER_OK;
+        if (!model->seamless) return SUNDER_OK;
+        const sunder_status made = sunder_i_seamless_make(stand->shape, &placement->seamless[f], err);
+        stand->seamless = placement->seamless[f].shape;
+        return made;
     }
     for (int c = 0; c < 4; c++) {
         const double v = model->box[4 * f + (size_t)c] + t[c & 1];
@@ -78,7 +89,7 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
     }
     if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
     sunder_i_rtree_free(&placement->tree);
-    return sunder_i_rtree_build(placement->box, model->present, model->features, &placement->tree, err);
+    return sunder_i_rtree_build(placement->box, model->present, model->things, &placement->tree, err);
 }
 
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
@@ -129,6 +140,14 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     return SUNDER_OK;
 }
 
+static sunder_status relate(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
+                            sunder_error *err)
+{
+    const sunder_i_translate *a = &placement->translate[r->a], *b = &placement->translate[r->b];
+    return sunder_i_is_barrier(model, r->b) ? sunder_i_barrier_relate(model, a, r->b, r, err)
+                                            : sunder_i_relate(&model->rules, a, b, r, err);
+}
+
 typedef struct classification {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
@@ -155,8 +174,7 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
             if (old) *r = *old;
             continue;
         }
-        const sunder_status status =
-            sunder_i_relate(&c->model->rules, &c->placement->translate[r->a], &c->placement->translate[r->b], r, err);
+        const sunder_status status = relate(c->model, c->placement, r, err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -182,7 +200,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
             const uint32_t g = near->item[k];
             sunder_i_relation r = {.a = f < g ? f : g, .b = f < g ? g : f};
             if (model->body_of[g] == body) continue;
-            status = sunder_i_relate(&model->rules, &placement->translate[r.a], &placement->translate[r.b], &r, err);
+            status = relate(model, placement, &r, err);
             if (!status && (r.near || r.touch || r.kept)) status = visit(context, &r, &on, err);
         }
     }

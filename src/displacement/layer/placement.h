@@ -6,10 +6,11 @@
 
 /* How the features stand at one moment. */
 typedef struct sunder_i_placement {
-    sunder_i_translate *translate; /* [features] */
-    sunder_shape **rounded;        /* [features] owned shapes of those whose translate was rounded; else NULL */
-    bool *was_rounded;             /* [features] at any time */
-    double *box;                   /* [4 * features] */
+    sunder_i_translate *translate; /* [things] */
+    sunder_shape **rounded;        /* [things] owned shapes of those whose translate was rounded; else NULL */
+    sunder_i_seamless *seamless;   /* [things] of these, where there are barriers without area */
+    bool *was_rounded;             /* [things] at any time */
+    double *box;                   /* [4 * things] */
     sunder_i_rtree tree;
 } sunder_i_placement;
 

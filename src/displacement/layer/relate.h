@@ -9,10 +9,11 @@
 typedef struct sunder_i_translate {
     const sunder_shape *shape;
     double t[2];
+    const sunder_shape *seamless; /* the same set, as what has no area asks for it (seamless.h); NULL: shape will do */
 } sunder_i_translate;
 
 typedef struct sunder_i_relation {
-    uint32_t a, b;  /* features, a < b */
+    uint32_t a, b;  /* things, a < b; a is a feature */
     bool near;      /* not the gap apart */
     bool overlap;   /* interiors meet */
     bool contained; /* one lies in the other, up to the tolerance */

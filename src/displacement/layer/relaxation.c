@@ -12,6 +12,7 @@
  * At the start every relaxation holds, so to leave everything where it was is always a way. (The second demands more
  * than need be: another translation of the same length might part them. The exact check, uphold.c, demands just what
  * is needed.) */
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
 
@@ -192,11 +193,26 @@ bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relat
 
 /* ---- What is demanded -------------------------------------------------------------------------------------------- */
 
+/* A feature and a part of a barrier: what is demanded is of the whole barrier, as it is what may not stand worse. */
+static sunder_status relaxation_of_barrier(const sunder_i_model *model, sunder_i_relaxation *out, sunder_error *err)
+{
+    const sunder_i_translate home = sunder_i_at_home(model, out->a);
+    sunder_i_barrier_stance stance;
+    const sunder_status status = sunder_i_barrier_stand(model, &home, out->b, &stance, err);
+    if (status) return status;
+    out->gap = stance.overlap ? 0 : stance.distance;
+    if (!stance.overlap) return SUNDER_OK;
+    out->shift[0] = -stance.least.dx;
+    out->shift[1] = -stance.least.dy;
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,
                                      sunder_error *err)
 {
     const double none[2] = {0, 0};
     *out = (sunder_i_relaxation){.a = f < g ? f : g, .b = f < g ? g : f};
+    if (sunder_i_is_barrier(model, out->b)) return relaxation_of_barrier(model, out, err);
     const sunder_shape *a = model->layer->feature[out->a].shape, *b = model->layer->feature[out->b].shape;
     const sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, f, g);
     out->inside = inclusion && !inclusion->enters;
@@ -235,7 +251,8 @@ sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i,
             if (!model->present[g] || !sunder_i_box_meet(box, model->box + 4 * (size_t)g)) continue;
             if (sunder_i_is_included(model, f, g)) continue;
             status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
-            if (!status && relaxation.gap < reach && !sunder_i_relaxations_add(out, &relaxation))
+            if (!status && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap) &&
+                !sunder_i_relaxations_add(out, &relaxation))
                 status = sunder_i_no_memory(err);
         }
     }

@@ -10,8 +10,8 @@ typedef enum sunder_i_verdict {
     SUNDER_I_FEASIBLE    /* the solution does, up to a hair; what it did not meet is not heeded */
 } sunder_i_verdict;
 
-/* Two features, a < b, that need not be parted, and what they are held to: a clearance as of ways.h; -INFINITY: to
- * nothing. */
+/* Two things, a < b, that need not be parted (of a barrier the first part stands for all), and what they are held to: a
+ * clearance as of ways.h; -INFINITY: to nothing. */
 typedef struct sunder_i_requirement {
     uint32_t a, b;
     double clearance;
@@ -24,10 +24,10 @@ typedef struct sunder_i_subproblem {
     const uint32_t *reserve; /* ascending: bodies that join those in reach of them when nothing else is met */
     size_t reserves;
     double farthest; /* their longest limit that is finite */
-    uint32_t a, b;   /* features, a < b, that owe the gap, whatever is listed; or SUNDER_I_NOBODY */
+    uint32_t a, b;   /* things likewise that owe each other all, whatever is listed; or SUNDER_I_NOBODY */
     const sunder_i_requirement *required; /* sorted */
     size_t required_n;
-    const uint32_t *feature; /* NULL, or the only features to be heeded, ascending */
+    const uint32_t *feature; /* NULL, or the only things to be heeded, likewise, ascending */
     size_t features;
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */

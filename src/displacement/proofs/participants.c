@@ -94,13 +94,16 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
     const sunder_i_body *p = &model->body[model->body_of[f]], *r = &model->body[model->body_of[g]];
     const double reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
     if (p == r || !(reach > 0) || !isfinite(reach)) return false;
-    if (q->feature && (!sunder_i_set_has(q->feature, q->features, f) || !sunder_i_set_has(q->feature, q->features, g)))
+    const uint32_t whole[2] = {sunder_i_whole_of(model, f), sunder_i_whole_of(model, g)};
+    if (q->feature &&
+        (!sunder_i_set_has(q->feature, q->features, whole[0]) || !sunder_i_set_has(q->feature, q->features, whole[1])))
         return false;
-    if (sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
+    if (!sunder_i_is_barrier(model, f > g ? f : g) &&
+        sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
                                 nextafter(reach, INFINITY)))
         return false;
-    *clearance = model->rules.gap;
-    const sunder_i_requirement key = {f < g ? f : g, f < g ? g : f, 0};
+    *clearance = sunder_i_owed_below(model, f, g);
+    const sunder_i_requirement key = {whole[f > g], whole[f < g], 0};
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =
         is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);

@@ -21,14 +21,15 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     if (!sunder_i_rtree_query(&placement->tree, box, near)) return sunder_i_no_memory(err);
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t g = near->item[k], other = model->body_of[g];
-        if (other == model->body_of[c->a] || other == model->body_of[c->b] || sunder_i_is_included(model, f, g))
+        if (other == model->body_of[c->a] || sunder_i_whole_of(model, g) == c->b || other == model->body_of[c->b] ||
+            sunder_i_is_included(model, f, g))
             continue;
+        const sunder_i_translate *p = &placement->translate[g], *q = &placement->translate[f];
+        const double off = reach + (sunder_i_owed_above(model, f, g) - model->rules.gap);
         bool apart;
-        const sunder_status status =
-            sunder_i_apart(placement->translate[f].shape, placement->translate[f].t, placement->translate[g].shape,
-                           placement->translate[g].t, reach, &apart, err);
+        const sunder_status status = sunder_i_apart(p->shape, p->t, q->shape, q->t, fmax(off, 0), &apart, err);
         if (status) return status;
-        if (!apart && !sunder_i_list_push(blockers, g)) return sunder_i_no_memory(err);
+        if (!apart && !sunder_i_list_push(blockers, sunder_i_whole_of(model, g))) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;
 }
@@ -38,7 +39,7 @@ static sunder_status find_blockers(const sunder_i_solver *s, const sunder_confli
 {
     const sunder_i_model *model = &s->model;
     const size_t pair[2] = {c->a, c->b};
-    for (int e = 0; e < 2; e++) {
+    for (int e = 0; e < 2 && !sunder_i_is_barrier(model, (uint32_t)pair[e]); e++) {
         const sunder_i_body *body = &model->body[model->body_of[pair[e]]];
         for (uint32_t m = 0; m < body->members; m++) {
             const uint32_t f = model->member[body->member + m];
@@ -50,13 +51,16 @@ static sunder_status find_blockers(const sunder_i_solver *s, const sunder_confli
     return SUNDER_OK;
 }
 
-static bool take_from_proof(const sunder_conflict *c, const sunder_proof *proof, sunder_i_list *blockers)
+static bool take_from_proof(const sunder_i_model *model, const sunder_conflict *c, const sunder_proof *proof,
+                            sunder_i_list *blockers)
 {
     for (size_t k = 0; k < proof->nodes; k++) {
         const sunder_proof_node *node = &proof->node[k];
         const size_t pair[2] = {node->a, node->b};
-        for (int e = 0; e < 2 && node->ways; e++)
-            if (pair[e] != c->a && pair[e] != c->b && !sunder_i_list_push(blockers, (uint32_t)pair[e])) return false;
+        for (int e = 0; e < 2 && node->ways; e++) {
+            const uint32_t thing = sunder_i_whole_of(model, (uint32_t)pair[e]);
+            if (thing != c->a && thing != c->b && !sunder_i_list_push(blockers, thing)) return false;
+        }
     }
     return true;
 }
@@ -71,7 +75,7 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
         if (!report->proof[k])
             status = find_blockers(s, c, &near, &blockers, err);
-        else if (!take_from_proof(c, report->proof[k], &blockers))
+        else if (!take_from_proof(&s->model, c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
         if (blockers.n == first) continue; /* nobody to name, and perhaps no list yet */
         c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);

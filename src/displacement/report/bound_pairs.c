@@ -1,5 +1,5 @@
 /* Which pairs the lower bound stands on, and how far apart each has to go. */
-#include "displacement/layer/resolution.h"
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/report/report.h"
 
 #include "base/parallel.h"
@@ -18,8 +18,7 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
     for (size_t k = begin; k < end; k++) {
         sunder_i_resolution resolution;
         const sunder_status status =
-            sunder_i_resolve(&m->model->rules, m->model->layer->feature[m->pair[k].a].shape,
-                             m->model->layer->feature[m->pair[k].b].shape, INFINITY, &resolution, err);
+            sunder_i_resolve_things(m->model, m->pair[k].a, m->pair[k].b, INFINITY, &resolution, err);
         if (status) return status;
         m->pair[k].least = resolution.least;
     }
@@ -44,11 +43,14 @@ static uint64_t bodies_of(const sunder_i_model *model, size_t a, size_t b)
     return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
 }
 
-/* Is it still in conflict? */
+/* Is it still in conflict, with whatever part of a barrier? */
 static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    const sunder_i_relation *now = sunder_i_relations_find(&s->now, r->a, r->b);
-    return now && sunder_i_is_conflict(now);
+    const sunder_i_relation key = {.a = r->a, .b = sunder_i_whole_of(&s->model, r->b)};
+    size_t k = sunder_i_lower_bound(&key, s->now.pair, s->now.n, sizeof key, sunder_i_by_id_pair);
+    for (; k < s->now.n && s->now.pair[k].a == key.a && sunder_i_whole_of(&s->model, s->now.pair[k].b) == key.b; k++)
+        if (sunder_i_is_conflict(&s->now.pair[k])) return true;
+    return false;
 }
 
 /* Of each pair of blocks the pair of members that is hardest to resolve; of those that were. */
@@ -62,9 +64,11 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
     if (!status) {
         for (size_t k = 0; k < s->start.n; k++) {
             const sunder_i_relation *r = &s->start.pair[k];
+            const uint32_t b = sunder_i_whole_of(model, r->b);
             if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(s, r)) continue;
+            if (n && report->bound_pair[n - 1].a == r->a && report->bound_pair[n - 1].b == b) continue;
             report->bound_pair[n].a = r->a;
-            report->bound_pair[n++].b = r->b;
+            report->bound_pair[n++].b = b;
         }
         measuring m = {model, report->bound_pair};
         status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, measure_pairs, &m, err);

@@ -1,5 +1,5 @@
 /* Conflicts as they are reported: what kind, how bad, and why they remain. */
-#include "displacement/layer/resolution.h"
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/report/report.h"
 
 #include "base/parallel.h"
@@ -18,12 +18,30 @@ static bool is_inside(const sunder_i_model *model, const sunder_i_relation *r)
 
 static sunder_conflict_kind kind_of(const sunder_i_model *model, const sunder_i_relation *r)
 {
+    if (sunder_i_is_barrier(model, r->b)) return r->overlap ? SUNDER_CONFLICT_BARRIER : SUNDER_CONFLICT_BARRIER_NEAR;
     if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
     /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
     if (is_inside(model, r)) return SUNDER_CONFLICT_OVERLAP;
     return r->duplicate   ? SUNDER_CONFLICT_DUPLICATE
            : r->contained ? SUNDER_CONFLICT_CONTAINED
                           : SUNDER_CONFLICT_OVERLAP;
+}
+
+/* Relation k, and with it those of the same feature to other parts of one barrier, as one to the first of its parts.
+ * Returns which comes next. */
+static size_t take_pair(const sunder_i_model *model, const sunder_i_relations *relations, size_t k,
+                        sunder_i_relation *out)
+{
+    *out = relations->pair[k++];
+    if (!sunder_i_is_barrier(model, out->b)) return k;
+    out->b = sunder_i_whole_of(model, out->b);
+    for (; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        if (r->a != out->a || sunder_i_whole_of(model, r->b) != out->b) break;
+        out->near = out->near || r->near;
+        out->overlap = out->overlap || r->overlap;
+    }
+    return k;
 }
 
 /* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
@@ -36,10 +54,11 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
                               sunder_conflict_counts *counts)
 {
     memset(counts, 0, sizeof *counts);
-    for (size_t k = 0; k < relations->n; k++) {
-        const sunder_i_relation *r = &relations->pair[k];
-        if (!sunder_i_is_conflict(r)) continue;
-        const sunder_conflict c = {.kind = kind_of(model, r), .inside_block = is_inside(model, r)};
+    for (size_t k = 0; k < relations->n;) {
+        sunder_i_relation r;
+        k = take_pair(model, relations, k, &r);
+        if (!sunder_i_is_conflict(&r)) continue;
+        const sunder_conflict c = {.kind = kind_of(model, &r), .inside_block = is_inside(model, &r)};
         sunder_i_count(counts, &c);
     }
 }
@@ -185,8 +204,7 @@ static sunder_status reason_of(const sunder_i_model *model, const sunder_conflic
     /* Too far for the two limits together? The pair by itself, as it stood, tells. */
     sunder_i_resolution resolution;
     const sunder_status status =
-        sunder_i_resolve(&model->rules, model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
-                         nextafter(la + lb, INFINITY), &resolution, err);
+        sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
     if (!status && resolution.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
     return status;
 }
@@ -201,12 +219,48 @@ typedef struct describing {
     bool reasons;
 } describing;
 
+/* A feature and a barrier: as the feature stands, and as it stood. The link runs from the feature; where that overlaps
+ * the barrier, the least translation is drawn as if the barrier moved, as for two features. */
+static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_error *err)
+{
+    const sunder_i_model *model = d->model;
+    sunder_i_barrier_stance now, home;
+    sunder_status status = sunder_i_barrier_stand(model, &d->placement->translate[c->a], (uint32_t)c->b, &now, err);
+    if (status) return status;
+    c->distance = c->before = now.distance;
+    c->depth = now.least.distance;
+    for (int k = 0; k < 2; k++) {
+        c->from[k] = now.on[0][k];
+        c->to[k] = now.on[1][k];
+    }
+    if (now.overlap) {
+        sunder_shape_anchor(d->placement->translate[c->a].shape, c->from);
+        const double t[2] = {now.least.dx, now.least.dy};
+        for (int k = 0; k < 2; k++) {
+            c->from[k] += d->placement->translate[c->a].t[k];
+            c->to[k] = c->from[k] - t[k];
+        }
+    }
+    if (!d->reasons) return SUNDER_OK;
+    status = reason_of(model, c, &c->reason, err);
+    if (status) return status;
+    const sunder_i_translate was = sunder_i_at_home(model, (uint32_t)c->a);
+    status = sunder_i_barrier_stand(model, &was, (uint32_t)c->b, &home, err);
+    c->before = home.distance;
+    return status;
+}
+
 static sunder_status describe(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const describing *d = context;
     const sunder_i_model *model = d->model;
     for (size_t k = begin; k < end; k++) {
         sunder_conflict *c = &d->conflict[k];
+        if (sunder_i_is_barrier(model, (uint32_t)c->b)) {
+            const sunder_status status = describe_barrier(d, c, err);
+            if (status) return status;
+            continue;
+        }
         sunder_shape *a = NULL, *b = NULL;
         sunder_status status = placed_shape(&d->placement->translate[c->a], &a, err);
         if (!status) status = placed_shape(&d->placement->translate[c->b], &b, err);
@@ -237,24 +291,25 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
                                         bool reasons, sunder_error *err)
 {
     size_t n = 0, k = 0;
-    for (size_t i = 0; i < relations->n; i++) n += is_listed(model, &relations->pair[i]);
+    sunder_i_relation r;
+    for (size_t i = 0; i < relations->n; n += is_listed(model, &r)) i = take_pair(model, relations, i, &r);
     report->conflict = sunder_i_calloc(n, sizeof *report->conflict);
     bool *overlap = sunder_i_alloc(n, sizeof *overlap);
     if (!report->conflict || !overlap) {
         sunder_i_free(overlap);
         return sunder_i_no_memory(err);
     }
-    for (size_t i = 0; i < relations->n; i++) {
-        const sunder_i_relation *r = &relations->pair[i];
-        if (!is_listed(model, r)) continue;
-        overlap[k] = r->overlap;
-        report->conflict[k].a = r->a;
-        report->conflict[k].b = r->b;
-        report->conflict[k].kind = kind_of(model, r);
-        report->conflict[k].required = model->rules.gap;
+    for (size_t i = 0; i < relations->n;) {
+        i = take_pair(model, relations, i, &r);
+        if (!is_listed(model, &r)) continue;
+        overlap[k] = r.overlap;
+        report->conflict[k].a = r.a;
+        report->conflict[k].b = r.b;
+        report->conflict[k].kind = kind_of(model, &r);
+        report->conflict[k].required = sunder_i_owed_above(model, r.a, r.b);
         report->conflict[k].need_shift = report->conflict[k].need_gap = NAN;
         report->conflict[k].need_gone = SIZE_MAX;
-        report->conflict[k++].inside_block = is_inside(model, r);
+        report->conflict[k++].inside_block = is_inside(model, &r);
     }
     report->conflicts = n;
     describing d = {model, placement, report->conflict, overlap, reasons};

@@ -21,6 +21,7 @@
 /* A small layer about one conflict. The first `moving` features move, the others stand. */
 typedef struct surroundings {
     sunder_i_list feature; /* in the numbers of the whole layer */
+    sunder_i_list part;    /* of barriers, likewise */
     size_t moving;
     sunder_feature *as;      /* [feature.n] how each takes part */
     sunder_shape **standing; /* [feature.n] owned shapes, of those that moved; else NULL */
@@ -51,6 +52,7 @@ static void clear(surroundings *a)
     sunder_i_free(a->standing);
     sunder_i_free(a->as);
     sunder_i_free(a->feature.item);
+    sunder_i_free(a->part.item);
 }
 
 /* What the conflict lacks: how far its features have to part. */
@@ -144,7 +146,7 @@ static sunder_status surround(const sunder_i_solver *s, const sunder_conflict *c
     near.n = sunder_i_set_make(near.item, near.n);
     for (size_t k = 0; k < near.n && ok; k++)
         if (!sunder_i_set_has(moving.item, moving.n, model->body_of[near.item[k]]))
-            ok = sunder_i_list_push(&a->feature, near.item[k]);
+            ok = sunder_i_list_push(sunder_i_is_barrier(model, near.item[k]) ? &a->part : &a->feature, near.item[k]);
     sunder_i_free(moving.item);
     sunder_i_free(near.item);
     a->as = sunder_i_alloc(a->feature.n, sizeof *a->as);
@@ -162,6 +164,7 @@ static bool is_solved(surroundings *a, const sunder_i_solver *x, double gap, dou
     const sunder_i_model *model = &x->model;
     *longest = 0;
     a->left = false;
+    gap = fmax(gap, x->barriers.farthest);
     for (size_t k = 0; k < model->features; k++) {
         const double *t = model->move + 2 * (size_t)model->body_of[k], *box = x->placement.box + 4 * k;
         if (x->number[k] >= a->moving || !model->present[k]) continue;
@@ -224,6 +227,24 @@ static sunder_status find_jump(const needing *g, const surroundings *a, const su
     return status;
 }
 
+/* Parts of barriers as barriers of their own. */
+static sunder_status set_barriers(const sunder_i_solver *s, const surroundings *a, uint32_t gone, sunder_layer *layer,
+                                  sunder_error *err)
+{
+    sunder_barrier *barrier = sunder_i_alloc(a->part.n, sizeof *barrier);
+    size_t n = 0;
+    if (!barrier) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < a->part.n; k++) {
+        const uint32_t part = a->part.item[k];
+        if (sunder_i_whole_of(&s->model, part) == gone) continue;
+        barrier[n] = s->layer.barrier[sunder_i_barrier_of(&s->model, part)];
+        barrier[n++].geometry = (sunder_obstacle){.shape = s->model.layer->feature[part].shape};
+    }
+    const sunder_status status = sunder_layer_set_barriers(layer, barrier, n, err);
+    sunder_i_free(barrier);
+    return status;
+}
+
 static sunder_status ask(const needing *g, surroundings *a, const supposition *what, bool *yes, double *longest,
                          sunder_error *err)
 {
@@ -232,7 +253,11 @@ static sunder_status ask(const needing *g, surroundings *a, const supposition *w
     sunder_layer *layer = NULL;
     sunder_status status = sunder_layer_new(a->as, a->feature.n, &layer, err);
     *yes = false;
-    if (status) return status;
+    if (!status) status = set_barriers(g->solver, a, what->gone, layer, err);
+    if (status) {
+        sunder_layer_free(layer);
+        return status;
+    }
     for (size_t k = 0; k < a->feature.n; k++) {
         sunder_feature *f = &layer->feature[k];
         if (k < a->moving) f->max_shift = fmax(f->max_shift, what->limit);

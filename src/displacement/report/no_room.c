@@ -4,6 +4,7 @@
  * being held no worse than it stood. Each is asked about by itself (proofs/feasibility.c). A proof is then made
  * irreducible: without one feature after another, what cannot be proved any more needs it, and so does every part of
  * it; as far as the effort goes. */
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -44,6 +45,35 @@ static sunder_status below_distance(const sunder_feature *a, const sunder_featur
     return SUNDER_OK;
 }
 
+/* What is demanded of a feature and a barrier; see below. */
+static sunder_status find_barrier_requirement(const sunder_i_model *model, const sunder_conflict *c, double *clearance,
+                                              sunder_error *err)
+{
+    const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
+    sunder_i_barrier_stance stance;
+    bool inside;
+    *clearance = -INFINITY;
+    sunder_status status = sunder_i_barrier_holds(model, &home, (uint32_t)c->b, &inside, err);
+    if (status || inside) return status;
+    status = sunder_i_barrier_stand(model, &home, (uint32_t)c->b, &stance, err);
+    if (status) return status;
+    if (stance.overlap) {
+        *clearance = -nextafter(stance.least.distance, INFINITY);
+        return SUNDER_OK;
+    }
+    *clearance = 0;
+    for (int bits = FIRST_BITS; stance.distance > 0 && bits > LAST_BITS; bits -= BITS_A_STEP) {
+        bool apart;
+        const double length = stance.distance * (1 - ldexp(1, -bits));
+        status = sunder_i_barrier_apart(model, &home, (uint32_t)c->b, length, &apart, err);
+        if (status) return status;
+        if (!apart) continue;
+        *clearance = fmin(length, sunder_i_owed_below(model, (uint32_t)c->a, (uint32_t)c->b));
+        break;
+    }
+    return SUNDER_OK;
+}
+
 /* Disjoint, it may come no nearer than it was; meeting, its depth may not grow: the double nearest to that length is
  * taken one step up. What lies in another may stay there. */
 static sunder_status find_requirement(const sunder_i_solver *s, const sunder_conflict *c, double *clearance,
@@ -54,6 +84,7 @@ static sunder_status find_requirement(const sunder_i_solver *s, const sunder_con
     *clearance = -INFINITY;
     if (start && start->contained) return SUNDER_OK;
     const sunder_feature *feature = model->layer->feature;
+    if (sunder_i_is_barrier(model, (uint32_t)c->b)) return find_barrier_requirement(model, c, clearance, err);
     if (!start || !start->overlap) {
         const sunder_status status = below_distance(&feature[c->a], &feature[c->b], c->before, clearance, err);
         *clearance = fmin(model->rules.gap, *clearance);
@@ -84,14 +115,15 @@ static sunder_status find_some_requirements(void *context, size_t begin, size_t 
 
 /* ---- A proof that needs all it says ------------------------------------------------------------------------------ */
 
-/* The features of a proof, ascending: into set, which has room for two a node. */
-static size_t features_of(const sunder_proof *proof, uint32_t *set)
+/* The features of a proof, and its barriers by their first parts, ascending: into set, which has room for two a
+ * node. */
+static size_t features_of(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set)
 {
     size_t n = 0;
     for (size_t k = 0; k < proof->nodes; k++)
         if (proof->node[k].ways) {
-            set[n++] = (uint32_t)proof->node[k].a;
-            set[n++] = (uint32_t)proof->node[k].b;
+            set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].a);
+            set[n++] = sunder_i_whole_of(model, (uint32_t)proof->node[k].b);
         }
     return sunder_i_set_make(set, n);
 }
@@ -104,7 +136,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
     uint32_t *all = sunder_i_alloc(room, sizeof *all), *set = sunder_i_alloc(room, sizeof *set);
     uint32_t *body = sunder_i_alloc(room, sizeof *body);
     sunder_status status = all && set && body ? SUNDER_OK : sunder_i_no_memory(err);
-    const size_t n = status ? 0 : features_of(*proof, all);
+    const size_t n = status ? 0 : features_of(q.model, *proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
     q.effort = subproblem->effort < LITTLE_EFFORT ? LITTLE_EFFORT : subproblem->effort;
@@ -115,9 +147,11 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
         size_t out = 0;
         for (size_t i = 0; i < left; i++)
             if (set[i] != all[k]) set[out++] = set[i];
-        for (size_t i = 0; i < out; i++) body[i] = q.model->body_of[set[i]];
+        size_t bodies = 0;
+        for (size_t i = 0; i < out; i++)
+            if (!sunder_i_is_barrier(q.model, set[i])) body[bodies++] = q.model->body_of[set[i]];
         q.body = body;
-        q.bodies = sunder_i_set_make(body, out);
+        q.bodies = sunder_i_set_make(body, bodies);
         q.feature = set;
         q.features = out;
         sunder_i_decision decision;
@@ -176,7 +210,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     sunder_conflict *c = &report->conflict[m->conflict];
     const uint32_t body[2] = {g->solver->model.body_of[c->a], g->solver->model.body_of[c->b]};
     q->body = body;
-    q->bodies = 2;
+    q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2; /* it is met where it is near */
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
     sunder_i_decision decision;

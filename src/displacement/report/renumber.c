@@ -1,4 +1,5 @@
-/* The report on a layer in the order of work, told in the numbers that the caller gave its features. */
+/* The report on a layer in the order of work, told in the numbers that the caller gave its features; parts of barriers
+ * become the barriers that they are of. */
 #include "displacement/report/report.h"
 
 #include "base/invariant.h"
@@ -57,7 +58,7 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
     for (size_t k = 0; k < n; k++) {
         list[k] = (listed){report->conflict[k], report->proof ? report->proof[k] : NULL};
         sunder_conflict *c = &list[k].conflict;
-        size_t *blocker = report->blocker + (c->n_blocked_by ? c->blocked_by - report->blocker : 0);
+        size_t *blocker = c->n_blocked_by ? report->blocker + (c->blocked_by - report->blocker) : NULL;
         c->a = number[c->a];
         c->b = number[c->b];
         if (c->a > c->b) turn(c);

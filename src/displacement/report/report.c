@@ -20,6 +20,7 @@ sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **o
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
         const int64_t number = body->members > 1 ? (int64_t)model->member[body->member] : -1;
+        if (sunder_i_is_barrier(model, model->member[body->member])) break; /* and all that follow */
         for (uint32_t k = 0; k < body->members; k++) r->block[model->member[body->member + k]] = number;
         r->summary.blocks += body->members > 1;
     }

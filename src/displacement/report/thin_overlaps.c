@@ -16,7 +16,9 @@ static sunder_status look_at(void *context, size_t begin, size_t end, sunder_err
     const thin_search *s = context;
     for (size_t k = begin; k < end; k++) {
         const sunder_i_relation *r = &s->relations->pair[k];
-        if (!r->overlap || r->contained || s->model->body_of[r->a] == s->model->body_of[r->b]) continue;
+        if (!r->overlap || r->contained || sunder_i_is_barrier(s->model, r->b) ||
+            s->model->body_of[r->a] == s->model->body_of[r->b])
+            continue;
         const sunder_status status = sunder_i_overlap_is_thin(
             &s->placement->translate[r->a], &s->placement->translate[r->b], s->model->rules.thin, &s->thin[k], err);
         if (status) return status;

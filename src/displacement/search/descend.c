@@ -81,7 +81,7 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
     if (!edge) return;
     sunder_i_support h = sunder_i_search_support(part, edge, n, at->near);
-    if (h.distance > (part->shadow ? gap : s->gap) + at->reach) return;
+    if (h.distance > (part->shadow ? gap : fmax(s->gap, gap)) + at->reach) return;
     if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;

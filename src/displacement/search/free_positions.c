@@ -122,8 +122,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 return;
             }
             s->steps += OBSTACLE_WORK;
-            const double gap =
-                relaxation ? fmin(s->gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n)) : s->gap;
+            double gap = sunder_i_search_owed(s, a, b);
+            if (relaxation) gap = fmin(gap, sunder_i_search_shift(relaxation, b->feature, s->scratch.xy, n));
             /* A little more room than is asked, so that no rounding makes a clash of it. */
             sunder_i_obstacles_add(o, s->scratch.xy, n, gap + 2 * s->tolerance);
         }
@@ -204,14 +204,15 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     const bool relaxed = sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, SHALLOW * fmin(extent(p->box), extent(q->box)));
-    if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs &&
+    if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
         free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, i, j, places[0]))
         return 1;
     const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));; reach *= PAIR_GROWTH) {
         sunder_i_obstacles o;
         memset(&o, 0, sizeof o);
-        add_obstacles(s, &o, p, many, q, many, offset, target, reach);
+        add_obstacles(s, &o, p, many && !sunder_i_is_barrier_body(model, p), q,
+                      many && !sunder_i_is_barrier_body(model, q), offset, target, reach);
         const bool shaded = add_shadows(s, &o, p, none, q, target, reach);
         size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
         if (n == 0 && reach > all && !shaded && outside_all(&o, target, INFINITY, places[0])) n = 1;
@@ -279,7 +280,8 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
         const double *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
-        add_obstacles(s, o, q, coarse && q->pieces > q->members, p, coarse, offset, at, reach);
+        add_obstacles(s, o, q, coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p, coarse,
+                      offset, at, reach);
         add_shadows(s, o, q, t, p, at, reach);
     }
 }

@@ -6,6 +6,11 @@
 
 #include <math.h>
 
+double sunder_i_search_owed(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    return s->gap + (sunder_i_owed_above(s->model, a->feature, b->feature) - s->model->rules.gap);
+}
+
 /* Is it one of the model's relaxations that still counts here? */
 static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *relaxation)
 {
@@ -134,7 +139,7 @@ static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, co
 {
     const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
     if (part->shadow) return fmin(margin, sunder_i_shadow_support_at(edge, n, home).distance);
-    if (part->inclusion == SUNDER_I_LAPSED) return s->gap;
+    if (part->inclusion == SUNDER_I_LAPSED) return sunder_i_search_owed(s, part->a, part->b);
     if (part->inclusion == SUNDER_I_STRICT) return margin;
     return fmin(margin, sunder_i_support_at(edge, n, home).distance);
 }
@@ -175,7 +180,8 @@ const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *s, const su
     if (!edge) {
         *n = make_obstacle(s, part);
         if (*n && part->relaxation) {
-            *gap = fmin(s->gap, sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
+            *gap = fmin(sunder_i_search_owed(s, part->a, part->b),
+                        sunder_i_search_shift(part->relaxation, part->b->feature, s->scratch.xy, *n));
             edge = take_edges(s, n);
         } else if (*n) {
             edge = sunder_i_obstacle_cache_add(&s->cache, part->key, s->scratch.xy, n);

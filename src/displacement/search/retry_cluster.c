@@ -34,7 +34,8 @@ bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxa
 {
     const sunder_i_body *p = &model->body[model->body_of[t->a]], *q = &model->body[model->body_of[t->b]];
     const double depth = hypot(t->shift[0], t->shift[1]);
-    return depth > 0 && model->rules.gap > 0 && depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
+    return depth > 0 && sunder_i_owed_above(model, t->a, t->b) > 0 &&
+           depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */

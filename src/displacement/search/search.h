@@ -82,6 +82,8 @@ void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_
 
 /* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
 
+/* What two pieces without a relaxation are to keep: the gap, or what a feature owes the barrier; and the margin. */
+double sunder_i_search_owed(const sunder_i_search *search, const sunder_i_body_piece *a, const sunder_i_body_piece *b);
 /* Is there a relaxation between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where
  * not. */
 bool sunder_i_search_is_relaxed(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);

@@ -59,7 +59,7 @@ void sunder_i_search_body_shadows(sunder_i_search *s, const sunder_i_body *p, co
 {
     sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, .shadow = true};
     double way[4];
-    if (s->model->rules.jumps) return;
+    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q)) return;
     box_of_way(u, reach, way);
     part.inclusion = SUNDER_I_LAPSED;
     if (differ_into(p->anchors, q->box, part.offset, way)) visit_from(s, p, q, way, &part, false, visit, context);
@@ -101,7 +101,8 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     double way[4];
-    if (s->model->rules.jumps) return false;
+    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q))
+        return false;
     box_of_way(u, reach - s->model->rules.gap, way);
     return differ_into(p->anchors, q->box, offset, way) || differ_into(p->box, q->anchors, offset, way);
 }

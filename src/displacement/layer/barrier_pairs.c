@@ -1,0 +1,202 @@
+/* A feature and a barrier, exactly.
+ *
+ * Near and overlap are asked of a part; all else is of the whole barrier, for a feature that one part lets go may be in
+ * another. The whole is asked within a reach: of the pieces that come so near to the feature's box. If the distance is
+ * no more than the reach, or the least translation (and the gap, beside it) no longer, then what was left out would not
+ * have changed it: it can be met by no translation so short. Else the reach grows. */
+#include "displacement/layer/barrier_pairs.h"
+
+#include "separation/separation.h"
+#include "shape/shape.h"
+
+#include <math.h>
+
+/* From one reach to the next. */
+#define GROWTH 4
+/* More than a length as doubles give it, by what they may be off. */
+#define ABOVE (1 + 0x1p-20)
+
+/* ---- The feature, and what of the barrier is near ---------------------------------------------------------------- */
+
+static void box_of(const sunder_i_translate *feature, double box[4])
+{
+    for (int c = 0; c < 4; c++) box[c] = feature->shape->box[c] + feature->t[c & 1];
+    sunder_i_box_grow(box, 0, box);
+}
+
+static double extent_of(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
+
+/* The feature as what is asked: what has no area asks for pieces that cover its interior. */
+static const sunder_shape *facing(const sunder_i_translate *feature, const sunder_shape *other)
+{
+    return other->flat && feature->seamless ? feature->seamless : feature->shape;
+}
+
+static sunder_status find_near(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                               double reach, bool areas, sunder_shape **out, sunder_error *err)
+{
+    double box[4];
+    box_of(feature, box);
+    return sunder_i_barrier_near(model->barriers, &model->tree, (uint32_t)model->features,
+                                 sunder_i_barrier_of(model, part), box, reach, areas, out, err);
+}
+
+/* ---- One part ---------------------------------------------------------------------------------------------------- */
+
+sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                      sunder_i_relation *r, sunder_error *err)
+{
+    const sunder_shape *shape = model->layer->feature[part].shape, *own = facing(feature, shape);
+    const double *required = model->barriers->required[sunder_i_barrier_of(model, part)];
+    bool apart = false;
+    r->near = r->overlap = r->contained = r->a_in_b = r->duplicate = r->touch = r->kept = false;
+    sunder_status status = sunder_i_overlap(shape, NULL, own, feature->t, &r->overlap, err);
+    if (!status && !r->overlap && required[0] > 0)
+        status = sunder_i_apart_by(shape, NULL, own, feature->t, required, &apart, err);
+    else
+        apart = !r->overlap;
+    r->near = !apart;
+    return status;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+sunder_status sunder_i_barrier_least(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                     double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err)
+{
+    double box[4], reach;
+    box_of(feature, box);
+    reach = fmax(gap, extent_of(box) / 2);
+    *out = (sunder_separation){.overlap = false};
+    *beyond = false;
+    for (bool last = false; !last; reach *= GROWTH) {
+        sunder_shape *near = NULL;
+        last = !(reach < upper);
+        if (last) reach = upper;
+        sunder_status status = find_near(model, feature, part, reach * ABOVE + gap, false, &near, err);
+        if (status) return status;
+        bool far = false;
+        if (near) status = sunder_i_separate(near, NULL, facing(feature, near), feature->t, gap, reach, out, &far, err);
+        sunder_shape_free(near);
+        if (status) return status;
+        if (!far) return SUNDER_OK;
+        sunder_separation_clear(out);
+    }
+    out->lower_bound = upper;
+    *beyond = true;
+    return SUNDER_OK;
+}
+
+static sunder_status find_distance(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                   sunder_i_barrier_stance *out, sunder_error *err)
+{
+    double box[4];
+    box_of(feature, box);
+    double reach = fmax(sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part)), extent_of(box));
+    for (bool found = false; !found; reach = found ? reach : reach * GROWTH) {
+        sunder_shape *near = NULL;
+        sunder_status status = find_near(model, feature, part, reach, false, &near, err);
+        if (!status && near)
+            status =
+                sunder_i_distance(feature->shape, feature->t, near, NULL, &out->distance, out->on[0], out->on[1], err);
+        found = near && out->distance <= reach;
+        /* What was found so far shows how far to look. */
+        if (near && !found) reach = fmax(reach, out->distance * ABOVE / GROWTH);
+        sunder_shape_free(near);
+        if (status) return status;
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_barrier_stand(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                     sunder_i_barrier_stance *out, sunder_error *err)
+{
+    *out = (sunder_i_barrier_stance){.overlap = false};
+    sunder_shape *near = NULL;
+    sunder_status status = find_near(model, feature, part, 0, false, &near, err);
+    if (!status && near) status = sunder_i_overlap(near, NULL, facing(feature, near), feature->t, &out->overlap, err);
+    sunder_shape_free(near);
+    bool beyond;
+    if (status) return status;
+    return out->overlap ? sunder_i_barrier_least(model, feature, part, 0, INFINITY, &out->least, &beyond, err)
+                        : find_distance(model, feature, part, out, err);
+}
+
+/* ---- Worse ------------------------------------------------------------------------------------------------------- */
+
+sunder_status sunder_i_barrier_holds(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                     bool *holds, sunder_error *err)
+{
+    sunder_shape *near = NULL;
+    *holds = false;
+    sunder_status status = find_near(model, feature, part, 0, true, &near, err);
+    if (!status && near) status = sunder_i_contained(feature->shape, feature->t, near, NULL, holds, err);
+    sunder_shape_free(near);
+    return status;
+}
+
+sunder_status sunder_i_barrier_apart(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
+                                     double length, bool *apart, sunder_error *err)
+{
+    sunder_shape *near = NULL;
+    *apart = true;
+    sunder_status status = find_near(model, feature, part, length, false, &near, err);
+    if (!status && near) status = sunder_i_apart(near, NULL, facing(feature, near), feature->t, length, apart, err);
+    sunder_shape_free(near);
+    return status;
+}
+
+static sunder_status compare(const sunder_i_model *model, const sunder_i_translate *was, const sunder_i_translate *is,
+                             uint32_t part, double reach, bool *worse, sunder_error *err)
+{
+    sunder_shape *then = NULL, *now = NULL;
+    sunder_status status = find_near(model, was, part, reach, false, &then, err);
+    if (!status) status = find_near(model, is, part, reach, false, &now, err);
+    if (!status && then && now) {
+        const sunder_i_pair before = {then, facing(was, then), NULL, was->t},
+                            after = {now, facing(is, now), NULL, is->t};
+        status = sunder_i_pair_worsened(&before, &after, worse, err);
+    }
+    sunder_shape_free(then);
+    sunder_shape_free(now);
+    return status;
+}
+
+sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunder_i_translate *was,
+                                        const sunder_i_translate *is, uint32_t part, bool *worse, sunder_error *err)
+{
+    sunder_i_barrier_stance then, now;
+    bool in[2] = {false, false};
+    sunder_status status = sunder_i_barrier_holds(model, was, part, &in[0], err);
+    if (!status && in[0]) status = sunder_i_barrier_holds(model, is, part, &in[1], err);
+    *worse = false;
+    if (status || (in[0] && in[1])) return status;
+    status = sunder_i_barrier_stand(model, was, part, &then, err);
+    if (!status) status = sunder_i_barrier_stand(model, is, part, &now, err);
+    if (status) return status;
+    *worse = now.overlap;
+    if (then.overlap != now.overlap) return SUNDER_OK;
+    const double reach =
+        then.overlap ? fmax(then.least.distance, now.least.distance) : fmax(then.distance, now.distance);
+    return compare(model, was, is, part, reach * ABOVE, worse, err);
+}
+
+/* ---- Any two things ---------------------------------------------------------------------------------------------- */
+
+sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,
+                                      sunder_i_resolution *out, sunder_error *err)
+{
+    const sunder_feature *feature = model->layer->feature;
+    if (!sunder_i_is_barrier(model, (uint32_t)b))
+        return sunder_i_resolve(&model->rules, feature[a].shape, feature[b].shape, upper, out, err);
+    const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)a);
+    const double gap = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, (uint32_t)b));
+    sunder_separation least;
+    *out = (sunder_i_resolution){0};
+    const sunder_status status =
+        sunder_i_barrier_least(model, &home, (uint32_t)b, gap, upper, &least, &out->beyond, err);
+    if (status) return status;
+    out->least = fmax(0, least.lower_bound);
+    out->apart_beyond = out->beyond = out->beyond || out->least > upper;
+    return SUNDER_OK;
+}

@@ -1,0 +1,113 @@
+/* A set whose pieces leave nothing out.
+ *
+ * The interiors of the convex pieces of a shape leave out the diagonals between them, and walls that members share.
+ * Where the other set has area that is made up for beside them; a segment or a point has nothing beside it, and would
+ * lie along a diagonal as if it met nobody (motion/diagonals.h, which tells where they are, and where the lattice can
+ * be made finer). Here members are united first, and each diagonal uv gets a convex quadrilateral u - q - v - p, of
+ * doubles: p is a corner w of the piece on its right, or a double near the middle m of uv on the way to w, and q
+ * likewise on its left. That p and q lie in the triangles that the diagonal makes with these corners, and that the
+ * quadrilateral is strictly convex, is decided exactly; so its interior lies in the set's, and holds the diagonal but
+ * for its ends.
+ *
+ * Where no doubles do, in triangles thinner than the unit in the last place, and at corners that are no doubles (of
+ * sets that crossed themselves), a diagonal stays as it is: it hides a segment that lies wholly along it. */
+#include "displacement/layer/seamless.h"
+
+#include "base/error.h"
+#include "morphology/morphology.h"
+#include "motion/diagonals.h"
+#include "shape/of_pieces.h"
+
+#include <math.h>
+#include <string.h>
+
+/* From a corner half way to the middle, and again half, so often: then it is the middle itself, but for rounding. */
+#define HALVINGS 60
+
+void sunder_i_seamless_free(sunder_i_seamless *seamless)
+{
+    sunder_shape_free(seamless->shape);
+    sunder_shape_free(seamless->whole);
+    sunder_i_free(seamless->corner);
+    memset(seamless, 0, sizeof *seamless);
+}
+
+static sunder_point point_of(const double *xy, uint32_t v)
+{
+    return (sunder_point){xy[2 * (size_t)v], xy[2 * (size_t)v + 1]};
+}
+
+/* Near the middle of uv on the way to w, the nearer the greater j is; for j = 0 it is w. */
+static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int j)
+{
+    if (j == 0) return w;
+    const sunder_point m = {u.x + (v.x - u.x) / 2, u.y + (v.y - u.y) / 2};
+    const double part = ldexp(1, -j);
+    return (sunder_point){m.x + (w.x - m.x) * part, m.y + (w.y - m.y) * part};
+}
+
+/* Does p lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
+static bool is_within(sunder_point u, sunder_point v, sunder_point w, sunder_point p)
+{
+    return sunder_orient(&u, &v, &p) > 0 && sunder_orient(&v, &w, &p) >= 0 && sunder_orient(&w, &u, &p) >= 0;
+}
+
+/* The quadrilateral u - q - v - p about the diagonal, counter-clockwise; false if no doubles make one. corner: as of
+ * sunder_i_diagonals, u, a corner on the right of uv, v, one on its left. */
+static bool find_quadrilateral(const double *xy, const uint32_t corner[4], double out[8])
+{
+    const sunder_point u = point_of(xy, corner[0]), v = point_of(xy, corner[2]);
+    const sunder_point right = point_of(xy, corner[1]), left = point_of(xy, corner[3]);
+    for (int sum = 0; sum <= 2 * HALVINGS; sum++)
+        for (int j = sum > HALVINGS ? sum - HALVINGS : 0; j <= sum && j <= HALVINGS; j++) {
+            if (sum > 4 && j != sum / 2 && j != 0 && j != sum) continue; /* both alike, or one a corner */
+            const sunder_point q = towards(u, v, right, j), p = towards(u, v, left, sum - j);
+            if (!is_within(v, u, right, q) || !is_within(u, v, left, p)) continue;
+            if (sunder_orient(&p, &u, &q) <= 0 || sunder_orient(&q, &v, &p) <= 0) continue;
+            const double quadrilateral[8] = {u.x, u.y, q.x, q.y, v.x, v.y, p.x, p.y};
+            memcpy(out, quadrilateral, sizeof quadrilateral);
+            return true;
+        }
+    return false;
+}
+
+static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
+{
+    for (int k = 0; k < 4; k++)
+        if (shape->rational && shape->exact[corner[k]].den.size) return false;
+    return true;
+}
+
+/* The pieces of the shape, and the quadrilaterals. */
+static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonals *diagonals, sunder_i_seamless *out,
+                              sunder_error *err)
+{
+    sunder_i_piece_of *piece = sunder_i_alloc(shape->pieces + diagonals->n, sizeof *piece);
+    out->corner = sunder_i_alloc(8 * diagonals->n, sizeof *out->corner);
+    sunder_status status = piece && out->corner ? SUNDER_OK : sunder_i_no_memory(err);
+    size_t n = 0;
+    for (uint32_t i = 0; i < shape->pieces && !status; i++)
+        piece[n++] = (sunder_i_piece_of){.shape = shape, .piece = i};
+    for (size_t i = 0; i < diagonals->n && !status; i++) {
+        double *corner = out->corner + 8 * i;
+        if (all_doubles(shape, diagonals->corner[i]) && find_quadrilateral(shape->xy, diagonals->corner[i], corner))
+            piece[n++] = (sunder_i_piece_of){.n = 4, .xy = corner};
+    }
+    if (!status) status = sunder_i_shape_of_pieces(piece, n, &out->shape, err);
+    sunder_i_free(piece);
+    return status;
+}
+
+sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    if (shape->pieces < 2) return SUNDER_OK;
+    sunder_status status = sunder_i_without_seams(shape, &out->whole, err);
+    if (status) return status;
+    const sunder_shape *whole = out->whole ? out->whole : shape;
+    sunder_i_diagonals diagonals;
+    if (!sunder_i_diagonals_find(whole, &diagonals)) return sunder_i_no_memory(err);
+    if (diagonals.n || out->whole) status = assemble(whole, &diagonals, out, err);
+    sunder_i_diagonals_free(&diagonals);
+    return status;
+}

@@ -1,0 +1,17 @@
+/* Convex pieces whose interiors cover the interior of a set, as what has no area asks for; see seamless.c. */
+#ifndef SUNDER_I_SEAMLESS_H
+#define SUNDER_I_SEAMLESS_H
+
+#include "shape/shape.h"
+
+typedef struct sunder_i_seamless {
+    sunder_shape *shape; /* NULL: the set's own pieces do */
+    sunder_shape *whole; /* what some of its pieces are borrowed from, or NULL */
+    double *corner;      /* ... and others */
+} sunder_i_seamless;
+
+/* Of a shape, which is borrowed. Failure leaves what sunder_i_seamless_free() takes. */
+sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err);
+void sunder_i_seamless_free(sunder_i_seamless *seamless);
+
+#endif
