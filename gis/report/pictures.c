@@ -3,6 +3,7 @@
 #include "report/pictures.h"
 
 #include "base/interrupt.h"
+#include "report/words.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -105,6 +106,19 @@ static bool add_moves(picture_writer *writer, gis_error *error)
     return true;
 }
 
+/* A link of hardly any length would not be seen: a disc stands for it, or a ring if nothing is proved of it. */
+static void add_link(picture_writer *writer, const sunder_conflict *conflict)
+{
+    enum { SHORT = 120, RADIUS = 50 };
+    double at[2];
+    double length = hypot(conflict->to[0] - conflict->from[0], conflict->to[1] - conflict->from[1]);
+    add_line(writer, "link", conflict->from, conflict->to);
+    if (gis_picture_length(&writer->picture, length) >= SHORT) return;
+    gis_picture_place(&writer->picture, conflict->from[0], conflict->from[1], at);
+    gis_text_print(writer->to, "<circle class=\"%s\" cx=\"%.0f\" cy=\"%.0f\" r=\"%d\"/>\n",
+                   gis_page_is_proved(conflict->reason) ? "spot" : "spot open", at[0], at[1], RADIUS);
+}
+
 static void add_links(picture_writer *writer)
 {
     const gis_page_model *model = writer->model;
@@ -112,7 +126,7 @@ static void add_links(picture_writer *writer)
         const sunder_conflict *each = model->conflict[k];
         const double box[4] = {fmin(each->from[0], each->to[0]), fmin(each->from[1], each->to[1]),
                                fmax(each->from[0], each->to[0]), fmax(each->from[1], each->to[1])};
-        if (gis_box_meets(box, writer->picture.window)) add_line(writer, "link", each->from, each->to);
+        if (gis_box_meets(box, writer->picture.window)) add_link(writer, each);
     }
 }
 

@@ -33,10 +33,10 @@ class Reader(html.parser.HTMLParser):
         if tag == "style" or tag == "script":
             self.into = parts["json" if given.get("type") == "application/json" else tag]
             self.into.append("")
-        if tag not in ("meta", "input", "br", "path", "rect"): self.open_tags.append(tag)
+        if tag not in ("meta", "input", "br", "path", "rect", "circle"): self.open_tags.append(tag)
     def handle_startendtag(self, tag, attributes):
         self.handle_starttag(tag, attributes)
-        if tag not in ("meta", "input", "br", "path", "rect"): self.open_tags.pop()
+        if tag not in ("meta", "input", "br", "path", "rect", "circle"): self.open_tags.pop()
     def handle_endtag(self, tag):
         self.into = None
         if not self.open_tags or self.open_tags.pop() != tag: wrong.append(f"{tag} is closed out of turn")
