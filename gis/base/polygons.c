@@ -117,3 +117,25 @@ double gis_polygons_area(const gis_polygons *set)
         }
     return (double)(area / 2);
 }
+
+static void reverse(double *xy, size_t n)
+{
+    /* A closed ring has its first vertex at the end, too; of an open one it stays where it is. */
+    bool closed = n > 1 && xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1];
+    for (size_t i = closed ? 0 : 1, j = n - 1; i < j; i++, j--)
+        for (size_t c = 0; c < 2; c++) {
+            double kept = xy[2 * i + c];
+            xy[2 * i + c] = xy[2 * j + c];
+            xy[2 * j + c] = kept;
+        }
+}
+
+void gis_polygons_wind(gis_polygons *set)
+{
+    for (size_t p = 0, r = 0; p < set->polygons; p++)
+        for (bool outer = true; r < set->poly_end[p]; r++, outer = false) {
+            size_t first = r ? set->ring_end[r - 1] : 0;
+            double *xy = set->xy + 2 * first;
+            if ((ring_area(xy, set->ring_end[r] - first) > 0) != outer) reverse(xy, set->ring_end[r] - first);
+        }
+}

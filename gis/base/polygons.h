@@ -26,6 +26,9 @@ bool gis_polygons_append_all(gis_polygons *set, const gis_polygons *from, gis_er
 /* The polygons of a shape, each coordinate plus (dx, dy), rounded to the nearest double. */
 bool gis_polygons_append_shape(gis_polygons *set, const sunder_shape *shape, double dx, double dy, gis_error *error);
 
+/* Turns rings so that outer ones run counter-clockwise and holes clockwise; each starts where it did. */
+void gis_polygons_wind(gis_polygons *set);
+
 /* Outer rings less holes, whichever way they run; for polygons that do not overlap the area that they cover. */
 double gis_polygons_area(const gis_polygons *set);
 

@@ -3,7 +3,7 @@
 #include "buffer/buffer.h"
 
 #include "base/message.h"
-#include "layer/fields.h"
+#include "read/fields.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
  * order of their first features, and features within them in their own. */
 #include "buffer/buffer.h"
 
-#include "layer/fields.h"
+#include "read/fields.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,8 @@
 #include "commands/progress_shares.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
-#include "layer/output.h"
+#include "layer/moves.h"
+#include "read/source_files.h"
 
 #include <cpl_conv.h>
 #include <stdio.h>
@@ -21,6 +22,7 @@ typedef struct check_run {
     gis_sink *sink; /* NULL: no OUTPUT */
     sunder_report *report;
     sunder_layer_summary summary;
+    gis_moves moves; /* of --before */
     gis_progress progress;
 } check_run;
 
@@ -37,18 +39,40 @@ static bool open_sink(check_run *run, gis_error *error)
     return gis_sink_open(&request, run->input.source, &run->sink, error);
 }
 
+/* What broke a rule since --before, if that is given. */
+static bool check_moves(check_run *run, gis_error *error)
+{
+    gis_layer_input_request original;
+    double box[4];
+    if (!run->options->given[OPT_BEFORE]) return true;
+    gis_layer_box(&run->input, box);
+    gis_resolve_original(run->options, &run->request, gis_source_name(run->input.source), &original);
+    original.also = box;
+    if (!gis_moves_check(&original, &run->input, &run->progress, &run->moves, error)) return false;
+    const gis_source *before = run->moves.original.source;
+    return gis_destinations_spare(&run->to, before, error) &&
+           (!run->to.output || gis_source_spare(before, run->to.output, run->options->given[OPT_UPDATE], error));
+}
+
+static bool write_layer(check_run *run, gis_error *error)
+{
+    gis_sink_result result;
+    gis_sink_layer *layer;
+    if (!run->sink) return true;
+    return gis_conflicts_begin(run->sink, &run->input, "", &layer, error) &&
+           gis_write_report_conflicts(layer, &run->input, run->report, error) &&
+           gis_write_moves(layer, &run->moves, error) && gis_sink_finish(run->sink, &result, error);
+}
+
 /* All but the last step, which is gis_deliver()'s. */
 static bool check_and_write(check_run *run, gis_error *error)
 {
-    gis_sink_result result;
     if (!open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
         return false;
     gis_progress_stage(&run->progress, GIS_CHECK_CHECKED, 1);
-    if (run->sink && (!gis_write_conflicts(run->sink, &run->input, run->report, "", error) ||
-                      !gis_sink_finish(run->sink, &result, error)))
-        return false;
+    if (!check_moves(run, error) || !write_layer(run, error)) return false;
     gis_progress_done(&run->progress);
     return true;
 }
@@ -73,6 +97,15 @@ static void print_value(const gis_value *value)
     }
 }
 
+static void print_row(const gis_value values[N_CONFLICT_COLUMNS])
+{
+    for (int column = 0; column < N_CONFLICT_COLUMNS; column++) {
+        if (column) putchar('\t');
+        print_value(&values[column]);
+    }
+    putchar('\n');
+}
+
 static bool print_lines(const check_run *run, gis_error *error)
 {
     size_t n;
@@ -82,14 +115,24 @@ static bool print_lines(const check_run *run, gis_error *error)
     for (size_t k = 0; ok && k < n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_go_on(error) && gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
-        for (int column = 0; ok && column < N_CONFLICT_COLUMNS; column++) {
-            if (column) putchar('\t');
-            print_value(&values[column]);
-        }
-        if (ok) putchar('\n');
+        if (ok) print_row(values);
+    }
+    for (size_t k = 0; ok && k < gis_moves_rows(&run->moves); k++) {
+        gis_value values[N_CONFLICT_COLUMNS];
+        double from[2], to[2];
+        ok = gis_go_on(error) && gis_moves_row(&run->moves, k, &scratch, values, from, to, error);
+        if (ok) print_row(values);
     }
     gis_conflict_texts_clear(&scratch);
     return ok;
+}
+
+static void print_moves(const gis_moves *moves)
+{
+    printf("since %s: %zu matched", gis_source_path(moves->original.source), moves->n);
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; *sunder_conflict_kind_string(kind); kind++)
+        printf(", %s %zu", sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
+    printf(", %s %zu\n", GIS_MOVES_LOST, moves->n_lost);
 }
 
 static bool print(const void *checked, gis_error *error)
@@ -103,7 +146,20 @@ static bool print(const void *checked, gis_error *error)
                gis_source_name(run->input.source), run->input.n, run->summary.pairs_tested, counts->overlap,
                counts->too_close, counts->barrier, counts->barrier_near, counts->contained, counts->duplicate,
                counts->inside_blocks);
+    if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
     return true;
+}
+
+/* What --before found, by kind; a key that only who asks for it sees. */
+static void json_moves(gis_json *out, const gis_moves *moves)
+{
+    gis_json_key(out, "moves");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "matched", moves->n);
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; *sunder_conflict_kind_string(kind); kind++)
+        gis_json_put_size(out, sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
+    gis_json_put_size(out, GIS_MOVES_LOST, moves->n_lost);
+    gis_json_close(out, '}');
 }
 
 static void json_check(gis_json *out, const check_run *run)
@@ -114,6 +170,7 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_put_size(out, "pairs_tested", run->summary.pairs_tested);
     gis_json_key(out, "conflicts");
     gis_json_conflict_counts(out, &run->summary.before);
+    if (run->options->given[OPT_BEFORE]) json_moves(out, &run->moves);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }
@@ -139,10 +196,13 @@ int gis_command_check(const gis_options *options)
          gis_layer_input_read(&run.request, &run.input, &error) &&
          gis_destinations_spare(&run.to, run.input.source, &error) && check_and_write(&run, &error) &&
          deliver(&run, taken, &error);
-    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before)) : gis_say_failure(&error);
+    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before) || gis_moves_rows(&run.moves))
+                    : gis_say_failure(&error);
     gis_sink_free(run.sink);
     free(run.layer);
     sunder_report_free(run.report);
+    gis_moves_clear(&run.moves);
     gis_layer_input_clear(&run.input);
+    gis_layer_input_request_clear(&run.request);
     return status;
 }

@@ -3,7 +3,10 @@
  * commands' affair: it is the order in which errors are told. */
 #include "commands/resolve.h"
 
+#include "read/source_files.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -118,21 +121,85 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     return resolve_contained(options, &out->contained, error);
 }
 
+/* The files that go with the output may not be those of a barrier; the output itself is looked after where that is
+ * read. */
+static bool spare_barrier(const gis_options *options, const char *dataset, gis_error *error)
+{
+    static const gis_option_id files[] = {OPT_STATS, OPT_REPORT};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        const char *path = options->text[files[i]];
+        if (path && gis_path_lies_in(dataset, path))
+            return gis_fail_usage(error, "%s %s: that is an input; give another file", gis_option_table[files[i]].names,
+                                  path);
+    }
+    return true;
+}
+
+static bool resolve_barriers(const gis_options *options, gis_layer_input_request *out, gis_error *error)
+{
+    const char *const *list = options->list[OPT_BARRIER];
+    size_t n = 0;
+    while (list && list[n]) n++;
+    if (n == 0) return true;
+    out->barrier = calloc(n, sizeof *out->barrier);
+    if (!out->barrier) return gis_no_memory(error);
+    for (; out->barriers < n; out->barriers++)
+        if (!gis_barrier_parse(list[out->barriers], &out->barrier[out->barriers], error)) return false;
+    for (size_t k = 0; k < n; k++)
+        if (!spare_barrier(options, out->barrier[k].dataset, error)) return false;
+    return true;
+}
+
+void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
+                          gis_layer_input_request *out)
+{
+    *out = *now;
+    out->source = (gis_source_request){.path = options->text[OPT_BEFORE],
+                                       .where = now->source.where,
+                                       .input_crs = now->source.input_crs,
+                                       .layer_like = name};
+    out->output = NULL;
+    out->rules.block_field = NULL;
+}
+
+/* What a check has no use for but for what was done to the layer; and what may select others from the original. */
+static bool check_before(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS},
+                               of_results[] = {OPT_SQL, OPT_BBOX};
+    bool before = options->given[OPT_BEFORE];
+    if (options->command->bit != GIS_CHECK) return true;
+    for (size_t i = 0; !before && i < sizeof of_moves / sizeof *of_moves; i++)
+        if (options->given[of_moves[i]])
+            return gis_fail_usage(error, "%s is about moves, of which a check knows by --before ORIGINAL",
+                                  gis_option_table[of_moves[i]].names);
+    for (size_t i = 0; before && i < sizeof of_results / sizeof *of_results; i++)
+        if (options->given[of_results[i]])
+            return gis_fail_usage(error, "--before: with %.*s nobody knows what was selected before",
+                                  (int)strcspn(gis_option_table[of_results[i]].names, " "),
+                                  gis_option_table[of_results[i]].names);
+    return true;
+}
+
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error)
 {
     *out = (gis_layer_input_request){
         .source = resolve_source(options),
         .output = output_of(options),
+        .update = options->given[OPT_UPDATE],
         .scale = options->number[OPT_SCALE],
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],
         .symbol_size_field = options->text[OPT_SYMBOL_SIZE_FIELD],
+        .wound = options->given[OPT_BEFORE],
+        .moves = options->command->bit == GIS_SEPARATE,
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
     if (out->symbol_size_field && !out->symbol && !out->symbol_field)
         return gis_fail_usage(error, "--symbol-size-field: there is no symbol; give --symbol or --symbol-field");
-    return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error);
+    return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error) &&
+           check_before(options, error) && resolve_barriers(options, out, error);
 }
 
 /* What selects from a data source selects from nothing where both operands are texts. */

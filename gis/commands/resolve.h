@@ -13,8 +13,13 @@
 
 gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id id);
 
-/* Separate, check, buffer: the layer, and its rules, which buffer does not ask for. */
+/* Separate, check, buffer: the layer, and its rules, which buffer does not ask for; to be cleared with
+ * gis_layer_input_request_clear() in any case. */
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error);
+/* Check --before: the layer as it was, of the same name if it has one; the request of the layer that is checked tells
+ * the rest. Barriers and strings are that one's. */
+void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
+                          gis_layer_input_request *out);
 /* Sum, pair: P and Q. That options select from a data source where there is none is wrong usage. */
 bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);
 /* Sum: the road to it. A planar map is refused where nobody would see it, or nothing makes it. */

@@ -40,7 +40,7 @@ static bool write_layers(const separate_run *run, gis_error *error)
     const gis_layer_input *input = &run->input;
     if ((chosen & LAYER_MAIN) && !gis_write_main(sink, input, run->report, error)) return false;
     if ((chosen & LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error)) return false;
-    if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, "conflicts", error)) return false;
+    if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, error)) return false;
     return !(chosen & LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
 }
 
@@ -295,5 +295,6 @@ int gis_command_separate(const gis_options *options)
     gis_sink_free(run.sink);
     sunder_report_free(run.report);
     gis_layer_input_clear(&run.input);
+    gis_layer_input_request_clear(&run.request);
     return status;
 }

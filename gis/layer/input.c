@@ -4,8 +4,8 @@
 
 #include "base/core.h"
 #include "base/message.h"
-#include "layer/fields.h"
 #include "read/crs_units.h"
+#include "read/fields.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -58,18 +58,26 @@ static bool open_source(gis_layer_input *input, gis_error *error)
     return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
 }
 
-void gis_layer_warn_of_crs(const gis_layer_input *input)
+void gis_layer_box(const gis_layer_input *input, double box[4])
 {
-    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
+    box[0] = box[1] = INFINITY;
+    box[2] = box[3] = -INFINITY;
     for (size_t i = 0; i < input->n; i++) {
         double one[4];
         if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) continue;
+        if (input->feature && input->feature[i].ignored) continue;
         sunder_shape_box(input->shape[i], one);
         for (int k = 0; k < 2; k++) {
             box[k] = fmin(box[k], one[k]);
             box[k + 2] = fmax(box[k + 2], one[k + 2]);
         }
     }
+}
+
+void gis_layer_warn_of_crs(const gis_layer_input *input)
+{
+    double box[4];
+    gis_layer_box(input, box);
     gis_crs_units_warn(gis_source_crs(input->source), gis_source_name(input->source), box[0] <= box[2] ? box : NULL);
 }
 
@@ -79,7 +87,37 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
     if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
         return gis_core_failed(error, gis_source_name(input->source), &why);
+    if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
+        return gis_core_failed(error, "--barrier", &why);
     return true;
+}
+
+/* The longest way that any feature may go. */
+static double longest_limit(const gis_layer_input *input)
+{
+    double longest = 0;
+    for (size_t i = 0; input->request->moves && i < input->n; i++)
+        if (!input->feature[i].ignored && !input->feature[i].fixed)
+            longest = fmax(longest, input->feature[i].max_shift);
+    return longest;
+}
+
+static bool read_barriers(gis_layer_input *input, gis_error *error)
+{
+    const gis_layer_input_request *request = input->request;
+    gis_barrier_surroundings around = {
+        .crs = gis_source_crs(input->source),
+        .units = &input->units,
+        .reach = longest_limit(input),
+        .gap = input->gap,
+        .invalid = request->invalid,
+        .output = request->output,
+        .update = request->update,
+    };
+    gis_layer_box(input, around.box);
+    for (int k = 0; k < 4 && request->also; k++)
+        around.box[k] = k < 2 ? fmin(around.box[k], request->also[k]) : fmax(around.box[k], request->also[k]);
+    return gis_barriers_read(request->barrier, request->barriers, &around, &input->barriers, error);
 }
 
 static bool start_reading(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
@@ -123,7 +161,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_crs(out);
     warn_of_others(out);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
-           gis_layer_limits(out, error) && make_layer(out, error);
+           gis_layer_limits(out, error) && read_barriers(out, error) && make_layer(out, error);
 }
 
 void gis_layer_input_clear(gis_layer_input *input)
@@ -132,6 +170,15 @@ void gis_layer_input_clear(gis_layer_input *input)
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
     free(input->shape);
     free(input->feature);
+    gis_barriers_clear(&input->barriers);
     gis_source_close(input->source);
     *input = (gis_layer_input){0};
+}
+
+void gis_layer_input_request_clear(gis_layer_input_request *request)
+{
+    for (size_t k = 0; k < request->barriers; k++) gis_barrier_request_clear(&request->barrier[k]);
+    free(request->barrier);
+    request->barrier = NULL;
+    request->barriers = 0;
 }

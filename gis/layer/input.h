@@ -2,6 +2,7 @@
 #ifndef GIS_LAYER_INPUT_H
 #define GIS_LAYER_INPUT_H
 
+#include "barrier/barrier.h"
 #include "base/progress.h"
 #include "layer/rules.h"
 #include "read/shape.h"
@@ -10,15 +11,23 @@
  * given". */
 typedef struct gis_layer_input_request {
     gis_source_request source; /* what it takes is filled in */
-    const char *output;        /* for who gives OUTPUT INPUT, and is told so */
+    const char *output;        /* for who gives OUTPUT INPUT, and is told so; and no input may be replaced by it */
+    bool update;               /* ... which adding to it does not */
     gis_invalid_policy invalid;
     double scale; /* N of 1:N */
     const char *id_field;
     const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */
     const char *symbol_size_field;     /* a factor for each of them */
     bool may_have_symbols;             /* the command knows --symbol: who gives points without one is told of it */
+    gis_barrier_request *barrier;      /* [barriers] owned */
+    size_t barriers;
+    const double *also; /* a box that barriers can be in the way of, besides that of the features; NULL: none */
+    bool wound;         /* rings are to run one way in all formats: places of vertices are to be compared */
+    bool moves;         /* features are to be moved: what is within reach of their limits counts */
     gis_layer_rules rules;
 } gis_layer_input_request;
+
+void gis_layer_input_request_clear(gis_layer_input_request *request);
 
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
@@ -31,6 +40,7 @@ typedef struct gis_layer_input {
     double tolerance;        /* negative: the default */
     sunder_shape **shape;    /* [n] NULL: nothing that could conflict */
     sunder_feature *feature; /* [n] */
+    gis_barriers barriers;
     sunder_layer *layer;
     int id_field;         /* -1: none */
     size_t invalid, null; /* features whose geometry is invalid; that have none, or an empty one */
@@ -41,6 +51,9 @@ typedef struct gis_layer_input {
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The source and the shapes alone, arcs as chords: for a command that asks for no conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
+/* Around all shapes; around those that conflict with something, once features are made. box[0] > box[2]: there is
+ * none. */
+void gis_layer_box(const gis_layer_input *input, double box[4]);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);
 void gis_layer_input_clear(gis_layer_input *input);
@@ -70,5 +83,8 @@ typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_lay
 /* Has the core do one of the two, by the rules (run.c); a number that it refuses is wrong usage. */
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
                    sunder_layer_summary *summary, gis_error *error);
+/* The same for what broke a rule between two layers, by the rules of `input`. */
+bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
+                         gis_progress *progress, sunder_report **report, gis_error *error);
 
 #endif

@@ -10,9 +10,15 @@ bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_r
 /* LAYER_displacement: a line for each feature that moved. */
 bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report,
                             gis_error *error);
-/* LAYER_conflicts. The layer is called MAIN_suffix, or MAIN if suffix is "". */
-bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, const char *suffix,
+/* LAYER_conflicts. */
+bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+/* The parts of that: the layer is called MAIN_suffix, or MAIN if suffix is "". */
+bool gis_conflicts_begin(gis_sink *sink, const gis_layer_input *input, const char *suffix, gis_sink_layer **layer,
                          gis_error *error);
+bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
+                                gis_error *error);
+bool gis_write_conflict_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
+                            gis_error *error);
 /* LAYER_symbols: the symbols of points where they stand now. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
@@ -39,12 +45,15 @@ enum {
     COLUMN_DEPTH,
     COLUMN_REQUIRED,
     COLUMN_BLOCKED_BY,
+    COLUMN_NEED_SHIFT,
+    COLUMN_NEED_GAP,
+    COLUMN_NEED_GONE,
     N_CONFLICT_COLUMNS
 };
 
 typedef struct gis_conflict_texts {
     char *id[2]; /* OGR lends a text only until the next one is asked for: these are copies */
-    char *blocked_by;
+    char *blocked_by, *need_gone;
 } gis_conflict_texts;
 
 bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *conflict, gis_conflict_texts *scratch,

@@ -2,8 +2,8 @@
  * wrong with the data names the feature; what is wrong with a rule names the option. */
 #include "layer/rules.h"
 
-#include "layer/fields.h"
 #include "layer/input.h"
+#include "read/fields.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

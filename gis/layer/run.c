@@ -29,16 +29,35 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     return core;
 }
 
+static sunder_layer_options watched_options(const gis_layer_input *input, gis_progress *progress)
+{
+    sunder_layer_options how = core_options(input);
+    how.progress = gis_progress_call;
+    how.progress_user = progress;
+    return how;
+}
+
+static bool ended(const gis_layer_input *input, sunder_status status, const sunder_error *why, gis_error *error)
+{
+    if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why->message);
+    if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why->message);
+    return true;
+}
+
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
                    sunder_layer_summary *summary, gis_error *error)
 {
-    sunder_layer_options how = core_options(input);
+    sunder_layer_options how = watched_options(input, progress);
     sunder_error why;
-    how.progress = gis_progress_call;
-    how.progress_user = progress;
-    sunder_status status = work(input->layer, &how, report, &why);
-    if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why.message);
-    if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why.message);
+    if (!ended(input, work(input->layer, &how, report, &why), &why, error)) return false;
     sunder_report_summary(*report, summary);
     return true;
+}
+
+bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
+                         gis_progress *progress, sunder_report **report, gis_error *error)
+{
+    sunder_layer_options how = watched_options(input, progress);
+    sunder_error why;
+    return ended(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
 }

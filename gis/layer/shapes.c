@@ -6,7 +6,7 @@
 #include "base/core.h"
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "layer/fields.h"
+#include "read/fields.h"
 #include "round/round.h"
 
 #include <cpl_conv.h>
@@ -55,6 +55,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
     bool invalid;
     if (!gis_geometry_polygonal_part(gis_source_geometry(input->source, i), part, error)) return false;
     gis_feature_name(input, i, who, sizeof who);
+    if (input->request->wound) gis_polygons_wind(&part->set);
     if (!gis_shape_of_feature(&part->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
         return false;
     input->invalid += invalid;

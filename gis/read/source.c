@@ -21,6 +21,7 @@ struct gis_source {
     bool is_result; /* the layer is a result set of --sql */
     OGRSpatialReferenceH crs;
     char *path, *name, *where;
+    const char *where_option; /* as messages call it; the request's */
     OGRFeatureH *features;
     unsigned char *contents;
     size_t n, capacity;
@@ -95,6 +96,9 @@ static bool select_features(gis_source *source, const gis_source_request *reques
     if (request->bbox && !request->sql)
         OGR_L_SetSpatialFilterRect(source->layer, request->bbox[0], request->bbox[1], request->bbox[2],
                                    request->bbox[3]);
+    double box[4];
+    if (request->within && request->within(request->within_user, source->crs, box))
+        OGR_L_SetSpatialFilterRect(source->layer, box[0], box[1], box[2], box[3]);
     if (!request->where) return true;
     source->where = CPLStrdup(request->where);
     gis_listener listener = {0};
@@ -102,7 +106,8 @@ static bool select_features(gis_source *source, const gis_source_request *reques
     OGRErr status = OGR_L_SetAttributeFilter(source->layer, request->where);
     gis_listen_end();
     if (status != OGRERR_NONE)
-        gis_fail_usage(error, "--where \"%s\": %s", request->where, gis_listener_reason(&listener, "not understood"));
+        gis_fail_usage(error, "%s \"%s\": %s", source->where_option, request->where,
+                       gis_listener_reason(&listener, "not understood"));
     gis_listener_clear(&listener);
     return status == OGRERR_NONE;
 }
@@ -171,7 +176,7 @@ static bool read_all(gis_source *source, gis_error *error)
     bool done = read_features(source, error);
     gis_listen_end();
     if (done && listener.failures && source->where && source->n == 0)
-        done = gis_fail_usage(error, "--where \"%s\": %s", source->where,
+        done = gis_fail_usage(error, "%s \"%s\": %s", source->where_option, source->where,
                               gis_listener_reason(&listener, "not understood"));
     else if (done && listener.failures)
         done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name,
@@ -209,18 +214,18 @@ static bool look_at_fids(gis_source *source, gis_error *error)
 static bool fill(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     source->path = CPLStrdup(request->path);
+    source->where_option = request->where_option ? request->where_option : "--where";
     if (!open_dataset(source, request, error)) return false;
     if (request->sql) {
         source->name = CPLStrdup(CPLGetBasename(request->path));
         if (!execute(source, request, error)) return false;
     } else {
-        source->layer = gis_choose_layer(source->dataset, request->path, request->layer, request->takes, error);
+        source->layer = gis_choose_layer(source->dataset, request, error);
         if (!source->layer) return false;
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
-    return gis_layer_fits(source->layer, source->name, request->takes, error) &&
-           select_features(source, request, error) && choose_crs(source, request, error) && read_all(source, error) &&
-           look_at_fids(source, error);
+    return gis_layer_fits(source->layer, source->name, request->takes, error) && choose_crs(source, request, error) &&
+           select_features(source, request, error) && read_all(source, error) && look_at_fids(source, error);
 }
 
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)

@@ -27,6 +27,13 @@ typedef struct gis_source_request {
     const double *bbox;              /* --bbox: xmin, ymin, xmax, ymax */
     const char *input_crs;           /* --input-crs: replaces the layer's */
     unsigned takes;                  /* GIS_TAKES_...: no option's, whoever opens the source fills it in */
+    const char *layer_option;        /* how messages call what chooses the layer, and the features; NULL: as above */
+    const char *where_option;
+    const char *layer_like; /* where no layer is named: one of this name, if there is one */
+    /* NULL, or tells, once the layer's CRS is known, which box features have to meet; false: any will do. Not together
+     * with bbox or sql. */
+    bool (*within)(const void *user, OGRSpatialReferenceH crs, double box[4]);
+    const void *within_user;
 } gis_source_request;
 
 typedef struct gis_source gis_source;

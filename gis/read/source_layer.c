@@ -61,8 +61,10 @@ bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error
                     words_for(takes));
 }
 
-OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *name, unsigned takes, gis_error *error)
+OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *request, gis_error *error)
 {
+    const char *path = request->path, *name = request->layer;
+    unsigned takes = request->takes;
     char listed[700];
     if (name) {
         gis_listener listener = {0};
@@ -76,6 +78,8 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *n
         }
         return layer;
     }
+    OGRLayerH like = request->layer_like ? GDALDatasetGetLayerByName(dataset, request->layer_like) : NULL;
+    if (like) return like;
     OGRLayerH only = NULL, fitting = NULL;
     int visible = 0, fit = 0;
     for (int i = 0; i < GDALDatasetGetLayerCount(dataset); i++) {
@@ -92,7 +96,8 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *n
     if (visible == 1) return only; /* gis_layer_fits() will say what is wrong with it */
     list_layers(dataset, fit ? takes : 0, listed, sizeof listed);
     if (fit)
-        gis_fail(error, "%s has several layers that may be meant; choose one with --input-layer: %s", path, listed);
+        gis_fail(error, "%s has several layers that may be meant; choose one with %s: %s", path,
+                 request->layer_option ? request->layer_option : "--input-layer", listed);
     else
         gis_fail(error, "%s has no layer of %s; its layers: %s", path, words_for(takes), listed);
     return NULL;

@@ -6,10 +6,11 @@
 #include <ogr_api.h>
 
 #include "base/error.h"
+#include "read/source.h"
 
-/* The layer called `name`, or, with name NULL, the only one of a kind in `takes` (GIS_TAKES_...); else NULL and a
+/* The layer that the request names, or, where it names none, the only one of a kind that it takes; else NULL and a
  * sentence that lists what there is. Borrowed from the dataset. */
-OGRLayerH gis_choose_layer(GDALDatasetH dataset, const char *path, const char *name, unsigned takes, gis_error *error);
+OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *request, gis_error *error);
 
 /* May a layer of this declared type hold what is needed? Else the sentence says what it is and what is needed. */
 bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error *error);

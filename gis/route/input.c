@@ -2,7 +2,6 @@
  * has: polygons as a shape, lines and points as chains. */
 #include "route/input.h"
 
-#include "base/array.h"
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "read/crs_units.h"
@@ -22,41 +21,6 @@ void gis_route_obstacle_name(const gis_route_input *input, size_t i, char *text,
     else
         snprintf(text, size, "layer %s, FID " CPL_FRMT_GIB, gis_source_name(input->source),
                  gis_source_fid(input->source, i));
-}
-
-/* ---- Lines and points -------------------------------------------------------------------------------------------- */
-
-static bool append_line(OGRGeometryH line, gis_lines *out, gis_error *error)
-{
-    int n = OGR_G_GetPointCount(line);
-    if (n <= 0) return true;
-    if (!gis_array_reserve(&out->xy, &out->xy_capacity, 2 * (out->points + (size_t)n), sizeof *out->xy) ||
-        !gis_array_reserve(&out->end, &out->end_capacity, out->lines + 1, sizeof *out->end))
-        return gis_no_memory(error);
-    double *to = out->xy + 2 * out->points;
-    OGR_G_GetPoints(line, to, 2 * (int)sizeof *to, to + 1, 2 * (int)sizeof *to, NULL, 0);
-    out->points += (size_t)n;
-    out->end[out->lines++] = out->points;
-    return true;
-}
-
-/* Recurses on the depth of collections, which GDAL's readers bound. */
-static bool append_lines(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_error *error)
-{
-    if (OGR_G_IsEmpty(geometry)) return true;
-    OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (flat == wkbPoint || flat == wkbLineString) return append_line(geometry, out, error);
-    if (flat == wkbCircularString || flat == wkbCompoundCurve) {
-        OGRGeometryH linear = OGR_G_GetLinearGeometry(geometry, 0, NULL);
-        *arcs = true;
-        bool ok = linear ? append_line(linear, out, error) : gis_fail(error, "GDAL cannot linearise an arc");
-        OGR_G_DestroyGeometry(linear);
-        return ok;
-    }
-    if (flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle) return true;
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        if (!append_lines(OGR_G_GetGeometryRef(geometry, i), out, arcs, error)) return false;
-    return true;
 }
 
 /* ---- Obstacles --------------------------------------------------------------------------------------------------- */
@@ -79,7 +43,8 @@ static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry
     bool arcs = false, invalid;
     if (!geometry) return true;
     gis_route_obstacle_name(input, i, who, sizeof who);
-    if (!gis_geometry_polygonal_part(geometry, part, error) || !append_lines(geometry, &input->lines[i], &arcs, error))
+    if (!gis_geometry_polygonal_part(geometry, part, error) ||
+        !gis_lines_append(geometry, &input->lines[i], &arcs, error))
         return false;
     if (part->linearised > 0)
         gis_say_warning("%s: its arcs are taken as polylines that differ from them by up to %g", who, part->linearised);
@@ -207,8 +172,7 @@ void gis_route_input_clear(gis_route_input *input)
 {
     for (size_t i = 0; i < input->n; i++) {
         sunder_shape_free(input->shape[i]);
-        free(input->lines[i].xy);
-        free(input->lines[i].end);
+        gis_lines_clear(&input->lines[i]);
     }
     free(input->shape);
     free(input->lines);

@@ -2,6 +2,7 @@
 #ifndef GIS_ROUTE_INPUT_H
 #define GIS_ROUTE_INPUT_H
 
+#include "read/lines.h"
 #include "read/shape.h"
 #include "route/coordinate.h"
 
@@ -18,13 +19,6 @@ typedef struct gis_route_request {
 } gis_route_request;
 
 void gis_route_request_clear(gis_route_request *request);
-
-/* The lines and points of one feature. */
-typedef struct gis_lines {
-    double *xy;
-    size_t *end;
-    size_t points, lines, xy_capacity, end_capacity;
-} gis_lines;
 
 typedef struct gis_route_input {
     const gis_route_request *request;

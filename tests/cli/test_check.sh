@@ -15,7 +15,7 @@ h,"POLYGON((200 0,210 0,210 10,200 10,200 0))"
 X
 expect 3 check in.gpkg --id-field id
 same "$(cut -f1-7 out | head -1)" "$(printf '1\ta\t2\tb\t\t\toverlap')"
-same "$(head -1 out | tr '\t' '\n' | grep -c '')" 13 columns
+same "$(head -1 out | tr '\t' '\n' | grep -c '')" 16 columns
 same "$(head -1 out | cut -f9-12)" "$(printf '0\t0\t2\t0')"
 same "$(tail -1 out | tr '\t' '#')" 'houses: 8 features, 4 pairs tested; overlap 1, too close 0, barrier 0, barrier near 0, contained 0, duplicate 0, inside blocks 2'
 expect 3 check in.gpkg --contained separate --no-blocks --stats s.json --gap 3

@@ -23,7 +23,7 @@ says out 'verified on the coordinates as written'
 same "$(moves o.gpkg houses)" '-1 0 1 0 0 0 -1 0 1 0 0 0 '
 same "$(fields o.gpkg houses)" 'id:String w:Integer grp:Integer sunder_dx:Real sunder_dy:Real sunder_len:Real sunder_st:String sunder_blk:Integer64 '
 same "$(fields o.gpkg houses_displacement)" 'fid:Integer64 id:String dx:Real dy:Real len:Real block:Integer64 '
-same "$(fields o.gpkg houses_conflicts)" 'fid_a:Integer64 id_a:String fid_b:Integer64 id_b:String barrier:String barr_fid:Integer64 kind:String reason:String distance:Real before:Real depth:Real required:Real blocked_by:String '
+same "$(fields o.gpkg houses_conflicts)" 'fid_a:Integer64 id_a:String fid_b:Integer64 id_b:String barrier:String barr_fid:Integer64 kind:String reason:String distance:Real before:Real depth:Real required:Real blocked_by:String need_shift:Real need_gap:Real need_gone:String '
 same "$(count o.gpkg houses) $(count o.gpkg houses_displacement) $(count o.gpkg houses_conflicts)" '6 4 0'
 same "$(value o.gpkg houses 1 sunder_st) $(value o.gpkg houses 6 sunder_st) $(value o.gpkg houses 1 sunder_blk)" 'moved unmoved (null)'
 

@@ -21,7 +21,7 @@ for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '
 done
 rm commands
 # What comes later is neither there nor known.
-for option in --barrier --effort --seed --max-memory; do
+for option in --effort --seed --max-memory; do
     if grep -qF -- "$option" out; then fail "$option is in --help"; fi
     refused 2 "unknown option $option" separate a b $option 1
 done
@@ -38,7 +38,7 @@ refused 2 'did you mean --gap?' separate a b -gap 3
 refused 2 'did you mean --gap?' separate a b --gpa=3
 refused 2 'did you mean --touch-tolerance?' separate a b --tolerance 3
 refused 2 'did you mean --exact?' sum square:1 square:1 --EXACT
-refused 2 'belongs to other commands' check a --max-shift 3
+refused 2 'belongs to other commands' check a --weight area
 refused 2 'unknown option --zzz; `sunder' check a --zzz
 
 layer in.gpkg houses POLYGON <<'X'

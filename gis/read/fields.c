@@ -1,6 +1,6 @@
 /* fields.c: see fields.h. Formats tell values apart in ways of their own (a text where a number was meant, blanks where
  * a null was): what is read here is the same, whichever one holds it. */
-#include "layer/fields.h"
+#include "read/fields.h"
 
 #include "base/length.h"
 #include "base/spelling.h"

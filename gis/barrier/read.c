@@ -1,0 +1,279 @@
+/* read.c: the features of barrier layers, one by one: polygons as shapes or as the rings around them, lines and points
+ * as they are, arcs as their chords, each with its width.
+ *
+ * Only what is within reach is read: what is farther from all features than any may move and the barrier's distance
+ * besides stands in the way of nothing. The source is asked for what meets that box, which is its index's affair; what
+ * comes all the same and does not meet it is let go. Where widths come from a field the box is each feature's own, so
+ * that all are looked at. Where some feature may move any distance everything is within reach. */
+#include "barrier/barrier.h"
+
+#include "base/array.h"
+#include "base/core.h"
+#include "base/interrupt.h"
+#include "base/message.h"
+#include "read/fields.h"
+#include "read/source_files.h"
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reading {
+    const gis_barrier_request *request;
+    const gis_barrier_surroundings *around;
+    gis_source *source;
+    OGRCoordinateTransformationH to_layer; /* NULL: coordinates stay as they are */
+    double width, distance;                /* of all, unless there is a field: the width, and from its edge */
+    int width_field;
+    gis_polygonal_part part;
+    gis_barriers *out;
+} reading;
+
+static void name_feature(const reading *r, size_t i, char *who, size_t size)
+{
+    GIntBig fid = gis_source_fid(r->source, i);
+    if (fid == OGRNullFID)
+        snprintf(who, size, "barrier %s, layer %s, feature %zu", r->request->dataset, gis_source_name(r->source),
+                 i + 1);
+    else
+        snprintf(who, size, "barrier %s, layer %s, FID " CPL_FRMT_GIB, r->request->dataset, gis_source_name(r->source),
+                 fid);
+}
+
+/* ---- Reach ------------------------------------------------------------------------------------------------------- */
+
+/* What a barrier that keeps so far off can be in the way of. False: everything. */
+static bool reach_box(const gis_barrier_surroundings *around, double distance, double box[4])
+{
+    double grow = around->reach + distance;
+    for (int k = 0; k < 4; k++) {
+        double v = around->box[k] + (k < 2 ? -grow : grow);
+        box[k] = nextafter(v, k < 2 ? -INFINITY : INFINITY); /* the sums are off by less */
+        box[k] = nextafter(box[k], k < 2 ? -INFINITY : INFINITY);
+    }
+    return isfinite(grow);
+}
+
+static bool is_within_reach(const reading *r, OGRGeometryH geometry, double width)
+{
+    double box[4];
+    OGREnvelope e;
+    if (r->around->box[0] > r->around->box[2]) return false;
+    if (!reach_box(r->around, width / 2 + r->distance, box)) return true;
+    OGR_G_GetEnvelope(geometry, &e);
+    return e.MinX <= box[2] && e.MaxX >= box[0] && e.MinY <= box[3] && e.MaxY >= box[1];
+}
+
+/* ---- One feature ------------------------------------------------------------------------------------------------- */
+
+/* Null or not positive is no width. */
+static bool read_width(const reading *r, size_t i, const char *who, double *width, gis_error *error)
+{
+    OGRFeatureH feature = gis_source_feature(r->source, i);
+    *width = r->width;
+    if (r->width_field < 0 || gis_field_is_blank(feature, r->width_field)) return true;
+    char held[GIS_FIELD_TEXT_SIZE];
+    gis_length length = {gis_field_number(feature, r->width_field), GIS_LAYER_UNIT};
+    bool is_text = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, r->width_field)) == OFTString;
+    gis_field_text(feature, r->width_field, held);
+    if (isinf(length.value) || (is_text && isnan(length.value)))
+        return gis_fail(error, "%s: the width in %s is %s; it must be a finite number", who, r->request->width_field,
+                        held);
+    return !(length.value > 0) || gis_length_in_layer_units(&length, r->around->units, who, width, error);
+}
+
+/* The geometry in the layer's CRS, arcs as chords; a copy, or the source's own. */
+static bool in_layer_crs(const reading *r, OGRGeometryH geometry, const char *who, OGRGeometryH *out, gis_error *error)
+{
+    *out = geometry;
+    if (!r->to_layer) return true;
+    bool curved = OGR_G_HasCurveGeometry(geometry, TRUE);
+    if (curved) gis_say_warning("%s: its arcs are taken as polylines", who);
+    OGRGeometryH copy = curved ? OGR_G_GetLinearGeometry(geometry, 0, NULL) : OGR_G_Clone(geometry);
+    if (!copy) return gis_no_memory(error);
+    OGR_G_FlattenTo2D(copy);
+    gis_listener listener = {0};
+    gis_listen_begin(&listener);
+    bool ok = OGR_G_Transform(copy, r->to_layer) == OGRERR_NONE && gis_geometry_is_finite(copy);
+    gis_listen_end();
+    if (ok)
+        *out = copy;
+    else {
+        OGR_G_DestroyGeometry(copy);
+        gis_fail(error, "%s: cannot be transformed to the layer's CRS: %s", who,
+                 gis_listener_reason(&listener, "a coordinate is not finite there"));
+    }
+    gis_listener_clear(&listener);
+    return ok;
+}
+
+/* Polygons as a shape, or as rings; lines and points. */
+static bool take_geometry(reading *r, OGRGeometryH geometry, const char *who, gis_barrier_feature *out,
+                          gis_error *error)
+{
+    bool arcs = false, invalid;
+    if (!gis_lines_append(geometry, &out->lines, &arcs, error)) return false;
+    if (r->request->as_boundary) {
+        if (!gis_lines_append_rings(geometry, &out->lines, &arcs, error)) return false;
+    } else {
+        if (!gis_geometry_polygonal_part(geometry, &r->part, error)) return false;
+        arcs = arcs || r->part.linearised > 0;
+        if (r->part.set.polygons &&
+            !gis_shape_of_feature(&r->part.set, r->around->invalid, who, "invalid: ", &out->shape, &invalid, error))
+            return false;
+    }
+    if (arcs) gis_say_warning("%s: its arcs are taken as polylines", who);
+    return true;
+}
+
+static void clear_feature(gis_barrier_feature *feature)
+{
+    sunder_shape_free(feature->shape);
+    gis_lines_clear(&feature->lines);
+}
+
+static bool take_feature(reading *r, size_t i, gis_error *error)
+{
+    char who[GIS_WHO_SIZE];
+    OGRGeometryH own = gis_source_geometry(r->source, i), geometry;
+    gis_barriers *out = r->out;
+    gis_barrier_feature feature = {.request = out->requests, .fid = gis_source_fid(r->source, i)};
+    if (gis_source_content(r->source, i) == GIS_NOTHING) return true;
+    name_feature(r, i, who, sizeof who);
+    if (!read_width(r, i, who, &feature.width, error) || !in_layer_crs(r, own, who, &geometry, error)) return false;
+    const bool near = is_within_reach(r, geometry, feature.width);
+    bool ok = !near || take_geometry(r, geometry, who, &feature, error);
+    if (geometry != own) OGR_G_DestroyGeometry(geometry);
+    ok = ok && (gis_array_reserve(&out->feature, &out->capacity, out->n + 1, sizeof feature) || gis_no_memory(error));
+    if (ok && (feature.shape || feature.lines.lines))
+        out->feature[out->n++] = feature;
+    else
+        clear_feature(&feature);
+    return ok;
+}
+
+/* ---- One layer --------------------------------------------------------------------------------------------------- */
+
+/* The box that is asked of the source, in its CRS. */
+static bool within(const void *user, OGRSpatialReferenceH crs, double box[4])
+{
+    const reading *r = user;
+    double here[4];
+    if (r->request->width_field || !reach_box(r->around, r->width / 2 + r->distance, box)) return false;
+    if (gis_crs_may_be_same(crs, r->around->crs)) return true;
+    if (!gis_barrier_box(box, r->around->crs, crs, here)) return false;
+    memcpy(box, here, sizeof here);
+    return true;
+}
+
+static bool open_source(reading *r, gis_error *error)
+{
+    const gis_barrier_request *request = r->request;
+    const gis_source_request source = {
+        .path = request->dataset,
+        .layer = request->layer,
+        .where = request->where,
+        .takes = GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS,
+        .layer_option = "layer=",
+        .where_option = "where=",
+        .within = within,
+        .within_user = r,
+    };
+    gis_error why;
+    if (!gis_source_open(&source, &r->source, &why)) {
+        size_t n = strlen(request->dataset);
+        bool named = strncmp(why.message, request->dataset, n) == 0;
+        *error = why;
+        snprintf(error->message, sizeof error->message, "--barrier %s%.*s", named ? "" : request->dataset,
+                 (int)(sizeof error->message - n - 16), named ? why.message : CPLSPrintf(": %s", why.message));
+        return false;
+    }
+    gis_say_warnings(gis_source_warnings(r->source));
+    return true;
+}
+
+static bool read_lengths(reading *r, gis_error *error)
+{
+    const gis_barrier_surroundings *around = r->around;
+    char who[GIS_WHO_SIZE];
+    snprintf(who, sizeof who, "--barrier %s", r->request->dataset);
+    r->distance = around->gap;
+    return gis_optional_length_in_layer_units(&r->request->width, around->units, who, &r->width, error) &&
+           gis_optional_length_in_layer_units(&r->request->gap, around->units, who, &r->distance, error);
+}
+
+static bool read_features(reading *r, gis_error *error)
+{
+    char who[GIS_WHO_SIZE], field[GIS_WHO_SIZE];
+    bool ok = true;
+    snprintf(who, sizeof who, "barrier %s, layer %s", r->request->dataset, gis_source_name(r->source));
+    snprintf(field, sizeof field, "--barrier %s: width-field=", r->request->dataset);
+    if (r->around->output && !gis_source_spare(r->source, r->around->output, r->around->update, error)) return false;
+    if (!gis_field_find_numbers(r->source, field, r->request->width_field, &r->width_field, error) ||
+        !gis_barrier_transformation(gis_source_crs(r->source), r->around->crs, who, &r->to_layer, error))
+        return false;
+    for (size_t i = 0; ok && i < gis_source_count(r->source); i++) ok = gis_go_on(error) && take_feature(r, i, error);
+    return ok;
+}
+
+static bool read_layer(reading *r, gis_error *error)
+{
+    bool ok = read_lengths(r, error) && open_source(r, error) && read_features(r, error);
+    if (ok) {
+        r->out->layer[r->out->requests] = CPLStrdup(gis_source_name(r->source));
+        r->out->requests++;
+    }
+    if (r->to_layer) OCTDestroyCoordinateTransformation(r->to_layer);
+    gis_polygonal_part_clear(&r->part);
+    gis_source_close(r->source);
+    return ok;
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+/* What was not given to a barrier is the layer's, which the core knows. */
+static bool make_barriers(const gis_barrier_request *requests, const double *distance, gis_barriers *out,
+                          gis_error *error)
+{
+    out->barrier = calloc(out->n + 1, sizeof *out->barrier);
+    if (!out->barrier) return gis_no_memory(error);
+    for (size_t k = 0; k < out->n; k++) {
+        const gis_barrier_feature *f = &out->feature[k];
+        out->barrier[k] = (sunder_barrier){
+            .geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
+            .width = f->width,
+            .gap = requests[f->request].gap.text ? distance[f->request] : -1,
+            .side = requests[f->request].side,
+        };
+    }
+    return true;
+}
+
+bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                       gis_barriers *out, gis_error *error)
+{
+    double *distance = calloc(n + 1, sizeof *distance);
+    *out = (gis_barriers){.layer = calloc(n + 1, sizeof *out->layer)};
+    bool ok = (distance && out->layer) || gis_no_memory(error);
+    for (size_t k = 0; ok && k < n; k++) {
+        reading r = {.request = &requests[k], .around = around, .width_field = -1, .out = out};
+        ok = read_layer(&r, error);
+        distance[k] = r.distance;
+    }
+    ok = ok && make_barriers(requests, distance, out, error);
+    free(distance);
+    return ok;
+}
+
+void gis_barriers_clear(gis_barriers *barriers)
+{
+    for (size_t k = 0; k < barriers->n; k++) clear_feature(&barriers->feature[k]);
+    for (size_t k = 0; barriers->layer && k < barriers->requests; k++) CPLFree(barriers->layer[k]);
+    free(barriers->layer);
+    free(barriers->feature);
+    free(barriers->barrier);
+    *barriers = (gis_barriers){0};
+}

@@ -1,0 +1,229 @@
+/* moves.c: see moves.h. Blocks are the result's, limits and all else the original's: where a block field is of the
+ * result alone (sunder_blk), the original has it from there. */
+#include "layer/moves.h"
+
+#include "base/core.h"
+#include "base/message.h"
+#include "read/fields.h"
+
+#include <cpl_conv.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A feature, by what it is known by. */
+typedef struct known {
+    char *key; /* owned */
+    size_t feature;
+} known;
+
+static int by_key(const void *a, const void *b)
+{
+    const known *p = a, *q = b;
+    return strcmp(p->key, q->key);
+}
+
+static void free_keys(known *list, size_t n)
+{
+    for (size_t i = 0; list && i < n; i++) free(list[i].key);
+    free(list);
+}
+
+/* A FID of a format that keeps none stands in a field. */
+static char *key_of(const gis_layer_input *input, size_t i, int fid_field)
+{
+    OGRFeatureH feature = gis_source_feature(input->source, i);
+    int field = input->id_field >= 0 ? input->id_field : fid_field;
+    if (field >= 0) return gis_field_key(feature, field);
+    char text[32];
+    snprintf(text, sizeof text, CPL_FRMT_GIB, gis_source_fid(input->source, i));
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+/* All features by their keys, sorted; two of one key are an error. */
+static bool list_keys(const gis_layer_input *input, int fid_field, known **out, gis_error *error)
+{
+    known *list = calloc(input->n + 1, sizeof *list);
+    bool ok = list != NULL || gis_no_memory(error);
+    for (size_t i = 0; ok && i < input->n; i++) {
+        list[i] = (known){key_of(input, i, fid_field), i};
+        ok = list[i].key || gis_no_memory(error);
+    }
+    if (ok) qsort(list, input->n, sizeof *list, by_key);
+    for (size_t i = 1; ok && i < input->n; i++)
+        if (strcmp(list[i - 1].key, list[i].key) == 0) {
+            char who[GIS_WHO_SIZE];
+            gis_feature_name(input, list[i].feature, who, sizeof who);
+            ok = gis_fail(error,
+                          "--before: %s: another feature of %s has the key %s too; give an --id-field that tells "
+                          "features apart",
+                          who, gis_source_path(input->source), list[i].key);
+        }
+    if (ok)
+        *out = list;
+    else
+        free_keys(list, input->n);
+    return ok;
+}
+
+/* ---- Matching ---------------------------------------------------------------------------------------------------- */
+
+typedef struct pairing {
+    sunder_feature *before, *after; /* [n] */
+    gis_moves *moves;
+    const gis_layer_input *now;
+} pairing;
+
+static void take_pair(pairing *p, size_t was, size_t is)
+{
+    gis_moves *m = p->moves;
+    p->before[m->n] = m->original.feature[was];
+    p->after[m->n] = p->now->feature[is];
+    p->before[m->n].block = p->now->feature[is].block;
+    m->matched[m->n++] = was;
+}
+
+/* Features of both, in the order of the original. */
+static bool match(pairing *p, gis_error *error)
+{
+    gis_moves *m = p->moves;
+    const gis_layer_input *now = p->now;
+    known *keys = NULL, *own = NULL;
+    int fid_field = now->id_field >= 0 ? -1 : gis_source_field(now->source, "sunder_fid");
+    bool ok = list_keys(now, fid_field, &keys, error) && list_keys(&m->original, -1, &own, error);
+    size_t found = 0;
+    for (size_t i = 0; ok && i < m->original.n; i++) {
+        known key = {key_of(&m->original, i, -1), i};
+        ok = key.key || gis_no_memory(error);
+        const known *other = ok ? bsearch(&key, keys, now->n, sizeof *keys, by_key) : NULL;
+        free(key.key);
+        if (other)
+            found++, take_pair(p, i, other->feature);
+        else if (ok)
+            m->lost[m->n_lost++] = i;
+    }
+    if (ok && found < now->n)
+        gis_say_warning("--before: %zu features of %s are not in %s; they are passed by", now->n - found,
+                        gis_source_name(now->source), gis_source_path(m->original.source));
+    free_keys(keys, now->n);
+    free_keys(own, m->original.n);
+    return ok;
+}
+
+static bool make_layers(pairing *p, gis_error *error)
+{
+    gis_moves *m = p->moves;
+    const gis_barriers *barriers = &m->original.barriers;
+    sunder_error why;
+    if (sunder_layer_new(p->before, m->n, &m->before, &why) != SUNDER_OK ||
+        sunder_layer_new(p->after, m->n, &m->after, &why) != SUNDER_OK ||
+        sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
+        sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
+        return gis_core_failed(error, "--before", &why);
+    return true;
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+bool gis_moves_check(const gis_layer_input_request *request, const gis_layer_input *now, gis_progress *progress,
+                     gis_moves *out, gis_error *error)
+{
+    pairing p = {.moves = out, .now = now};
+    *out = (gis_moves){0};
+    if (!gis_layer_input_read(request, &out->original, error)) return false;
+    size_t room = out->original.n + 1;
+    out->matched = calloc(room, sizeof *out->matched);
+    out->lost = calloc(room, sizeof *out->lost);
+    p.before = calloc(room, sizeof *p.before);
+    p.after = calloc(room, sizeof *p.after);
+    bool ok = (out->matched && out->lost && p.before && p.after) || gis_no_memory(error);
+    ok = ok && match(&p, error) && make_layers(&p, error) &&
+         gis_layer_run_moves(&out->original, out->before, out->after, progress, &out->report, error);
+    free(p.before);
+    free(p.after);
+    return ok;
+}
+
+void gis_moves_clear(gis_moves *moves)
+{
+    sunder_report_free(moves->report);
+    sunder_layer_free(moves->before);
+    sunder_layer_free(moves->after);
+    free(moves->matched);
+    free(moves->lost);
+    gis_layer_input_clear(&moves->original);
+    *moves = (gis_moves){0};
+}
+
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+size_t gis_moves_rows(const gis_moves *moves)
+{
+    size_t n = 0;
+    if (moves->report) sunder_report_conflicts(moves->report, &n);
+    return n + moves->n_lost;
+}
+
+size_t gis_moves_count(const gis_moves *moves, sunder_conflict_kind kind)
+{
+    size_t n, found = 0;
+    const sunder_conflict *conflicts = sunder_report_conflicts(moves->report, &n);
+    for (size_t k = 0; k < n; k++) found += conflicts[k].kind == kind;
+    return found;
+}
+
+/* A thing of the matched layers as one of the original. */
+static size_t thing_of(const gis_moves *moves, size_t thing)
+{
+    if (thing == SIZE_MAX) return thing;
+    return thing < moves->n ? moves->matched[thing] : moves->original.n + (thing - moves->n);
+}
+
+static void anchor_of(const gis_moves *moves, size_t feature, double at[2])
+{
+    const sunder_shape *shape = moves->original.shape[feature];
+    at[0] = at[1] = 0;
+    if (shape && !sunder_shape_is_empty(shape)) sunder_shape_anchor(shape, at);
+}
+
+bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch, gis_value values[N_CONFLICT_COLUMNS],
+                   double from[2], double to[2], gis_error *error)
+{
+    size_t n;
+    const sunder_conflict *conflicts = sunder_report_conflicts(moves->report, &n);
+    sunder_conflict row = {.b = SIZE_MAX, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX};
+    const bool lost = k >= n;
+    if (lost)
+        row.a = moves->lost[k - n];
+    else {
+        row = conflicts[k];
+        row.a = thing_of(moves, row.a);
+        row.b = thing_of(moves, row.b);
+    }
+    if (!gis_conflict_values(&moves->original, &row, scratch, values, error)) return false;
+    memcpy(from, row.from, sizeof row.from);
+    memcpy(to, row.to, sizeof row.to);
+    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE) return true;
+    /* There is no way, and no distance, to tell of. */
+    anchor_of(moves, row.a, from);
+    memcpy(to, from, sizeof row.to);
+    for (int column = COLUMN_DISTANCE; column <= COLUMN_REQUIRED; column++)
+        values[column] = (gis_value){.kind = GIS_NULL};
+    if (lost) values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = GIS_MOVES_LOST}};
+    return true;
+}
+
+bool gis_write_moves(gis_sink_layer *layer, const gis_moves *moves, gis_error *error)
+{
+    gis_conflict_texts scratch = {0};
+    bool ok = true;
+    for (size_t k = 0; ok && k < gis_moves_rows(moves); k++) {
+        gis_value values[N_CONFLICT_COLUMNS];
+        double from[2], to[2];
+        ok = gis_moves_row(moves, k, &scratch, values, from, to, error) &&
+             gis_write_conflict_row(layer, values, from, to, error);
+    }
+    gis_conflict_texts_clear(&scratch);
+    return ok;
+}

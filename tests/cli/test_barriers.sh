@@ -1,0 +1,154 @@
+# shellcheck shell=bash disable=SC1091
+# --barrier: how it is said, what is read of it, and what is kept off. Distances are chosen so that each can be told from
+# the others by the conflicts alone.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+# Two houses, 3 and 20 above a road along the x axis.
+layer in.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 3,10 3,10 13,0 13,0 3))"
+2,"POLYGON((40 20,50 20,50 30,40 30,40 20))"
+X
+layer roads.gpkg roads LINESTRING <<'X'
+id,w,t,kind,WKT
+7,4,4m,"a,b","LINESTRING(-100 0,100 0)"
+8,-1,,c,"LINESTRING(-100 500,100 500)"
+9,,wide,c,"LINESTRING(-100 900,100 900)"
+X
+found() { # WANTED ARGS: kinds, layers, FIDs and required distances of what check lists
+    local wanted=$1
+    shift
+    run check in.gpkg -l houses "$@"
+    [ "$status" -le 3 ] && [ "$status" -ne 1 ] && [ "$status" -ne 2 ] || fail "status $status: check $*"
+    same "$(awk -F'\t' 'NF > 5 { print $1, $5 ":" $6, $7, $12 }' out | tr '\n' ';')" "$wanted" "check $*:"
+}
+
+# ---- Width and gap ----
+found '' --barrier roads.gpkg
+found '' --barrier roads.gpkg,width=6
+found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width=6.5
+found '1 roads:1 barrier_near 4;' --barrier roads.gpkg --gap 4
+found '1 roads:1 barrier_near 5;' --barrier roads.gpkg,width=2 --gap 4
+found '' --barrier roads.gpkg,width=6,gap=0 --gap 4
+found '1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,gap=3.5
+found '1 roads:1 barrier_near 3.048;' --barrier roads.gpkg,gap=10ft
+found '1 roads:1 barrier_near 3.125;' --barrier roads.gpkg,width=0.25mm --scale 25000
+found '' --barrier roads.gpkg,width-field=w,gap=1
+found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width-field=w,gap=1.25
+found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width=6.5,side=no
+found '1 roads:1 barrier_near 3.25;1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,width=6.5 --barrier roads.gpkg,gap=3.5
+says out 'barrier near 2'
+
+# ---- What is selected ----
+found '' --barrier "roads.gpkg,width=9,where=kind = 'c'"
+found '1 roads:1 barrier_near 4.5;' --barrier "roads.gpkg,width=9,where=kind in ('a,b', 'width=3')"
+cp roads.gpkg 'r,1.gpkg'
+found '1 roads:1 barrier_near 4.5;' --barrier 'r\,1.gpkg,layer=roads,width=9'
+ogr2ogr -update roads.gpkg roads.gpkg roads -nln 'main, old' 2>/dev/null
+found '1 main, old:1 barrier_near 4.5;' --barrier 'roads.gpkg,layer=main\, old,width=9'
+refused 1 'choose one with layer=: roads' check in.gpkg --barrier roads.gpkg
+ogr2ogr -update in.gpkg roads.gpkg roads 2>/dev/null # the input's own dataset
+found '1 roads:1 barrier_near 4.5;' --barrier 'in.gpkg,layer=roads,width=9'
+
+# ---- Kinds of geometry ----
+kinds() { # WKT OPTIONS WANTED
+    rm -f k.gpkg
+    printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
+    found "$3" --barrier "k.gpkg$2"
+}
+kinds 'POINT(5 0)' ,width=7 '1 k:1 barrier_near 3.5;'
+kinds 'POINT(12 0)' ,width=7 ''                         # the corner is farther than 3.5
+kinds 'MULTIPOINT Z((5 0 1),(45 19 2))' ,width=7 '1 k:1 barrier_near 3.5;2 k:1 barrier_near 3.5;'
+kinds 'MULTILINESTRING M((0 0 1,9 0 1),(40 18 1,45 18 1))' ,gap=3.5 '1 k:1 barrier_near 3.5;2 k:1 barrier_near 3.5;'
+kinds 'POLYGON((0 -9,9 -9,9 0,0 0,0 -9))' ,width=7 '1 k:1 barrier_near 3.5;'
+kinds 'POLYGON((0 -9,9 -9,9 4,0 4,0 -9))' '' '1 k:1 barrier 0;'
+kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' '' '1 k:1 barrier 0;2 k:1 barrier 0;'
+kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' ,as=boundary ''
+kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' ,as=area '1 k:1 barrier 0;2 k:1 barrier 0;'
+kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9),(-1 2,11 2,11 14,-1 14,-1 2))' ,as=boundary,gap=1.5 '1 k:1 barrier_near 1.5;'
+kinds 'LINESTRING(5 0,5 5)' '' '1 k:1 barrier 0;'
+kinds 'LINESTRING(-5 3,15 3)' '' '' # along the wall
+kinds 'GEOMETRYCOLLECTION(POINT(45 19),LINESTRING(0 1,9 1),POLYGON((60 60,61 60,61 61,60 60)))' ,gap=2.5 \
+    '1 k:1 barrier_near 2.5;2 k:1 barrier_near 2.5;'
+kinds 'CIRCULARSTRING(0 0,5 2,10 0)' ,gap=2 '1 k:1 barrier_near 2;'
+says err 'arcs'
+kinds 'CURVEPOLYGON(CIRCULARSTRING(0 0,5 2,10 0,5 -9,0 0))' ,gap=2 '1 k:1 barrier_near 2;'
+kinds 'POINT EMPTY' ,width=99 ''
+kinds 'POLYGON((0 -9,9 4,9 -9,0 4,0 -9))' ,gap=0 '1 k:1 barrier 0;' # a bow tie
+says err 'barrier k.gpkg, layer k, FID 1: invalid'
+run check in.gpkg -l houses --barrier k.gpkg --invalid skip
+same "$status" 0 "skipped:"
+refused 1 'barrier k.gpkg, layer k, FID 1' check in.gpkg -l houses --barrier k.gpkg --invalid fail
+
+# ---- Another CRS ----
+ogr2ogr -t_srs EPSG:4326 -f GeoJSON far.geojson roads.gpkg roads
+ogr2ogr -a_srs EPSG:25832 here.gpkg roads.gpkg roads
+ogr2ogr -t_srs EPSG:3035 laea.gpkg here.gpkg
+found '1 roads:1 barrier_near 4.5;' --barrier laea.gpkg,width=9
+found '1 roads:7 barrier_near 4.5;' --barrier far.geojson,width=9 # whose FIDs are its ids
+run check in.gpkg -l houses --barrier laea.gpkg,width=9
+awk -F'\t' 'NF > 5 && ($9 - 3 > 1e-3 || 3 - $9 > 1e-3) { exit 1 }' out || fail "transformed by more than a millimetre"
+layer none.gpkg none LINESTRING none <<'X'
+id,WKT
+1,"LINESTRING(-100 0,100 0)"
+X
+found '1 none:1 barrier_near 4.5;' --barrier none.gpkg,width=9
+says err 'it has no CRS'
+
+# ---- Reach: what is out of it is not read. A bow tie that --invalid fail would not pass tells ----
+rm -f tie.gpkg
+printf 'id,WKT\n1,"POLYGON((0 100,9 113,9 100,0 113,0 100))"\n' | layer tie.gpkg tie POLYGON
+expect 0 check in.gpkg -l houses --barrier tie.gpkg,width=8,gap=1 --invalid fail
+refused 1 'layer tie, FID 1' check in.gpkg -l houses --barrier tie.gpkg,gap=71 --invalid fail
+expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 60 --invalid fail
+refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 70 --invalid fail
+refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg --invalid fail
+
+# ---- Separate ----
+expect 0 separate in.gpkg o.gpkg -l houses -q --overwrite --barrier roads.gpkg,layer=roads,width=4,gap=2 --stats s.json
+same "$(jq -c '[.conflicts.before.barrier_near,.conflicts.after.barrier_near,.moved,.verified]' s.json)" '[1,0,1,true]'
+value o.gpkg houses 1 sunder_dy | awk '{ exit !($1 >= 1 && $1 < 1.0001) }' || fail "moved by $(value o.gpkg houses 1 sunder_dy)"
+expect 0 check o.gpkg -l houses --barrier roads.gpkg,layer=roads,width=4,gap=2
+expect 3 separate in.gpkg o.gpkg -l houses -q --overwrite --max-shift 0.5 --barrier roads.gpkg,layer=roads,width=4,gap=2
+same "$(value o.gpkg houses_conflicts 1 barrier) $(value o.gpkg houses_conflicts 1 barr_fid)" 'roads 1'
+same "$(value o.gpkg houses_conflicts 1 kind) $(value o.gpkg houses_conflicts 1 reason)" 'barrier_near max_shift'
+same "$(value o.gpkg houses_conflicts 1 fid_b)" '(null)'
+# Between a road and a fixed house there is no room; who blocks is told.
+layer squeeze.gpkg s POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 1,10 1,10 9,0 9,0 1))"
+2,"POLYGON((-50 9.5,60 9.5,60 20,-50 20,-50 9.5))"
+X
+expect 3 separate squeeze.gpkg o.gpkg -q --overwrite --fixed-where 'id = 2' --max-shift 2 --gap 1 \
+    --barrier roads.gpkg,layer=roads,width=1
+same "$(value o.gpkg s 1 sunder_st)" blocked
+grep -q 'roads:1' <<<"$(value o.gpkg s_conflicts 1 blocked_by) $(value o.gpkg s_conflicts 2 blocked_by)" ||
+    fail "blocked_by names no barrier"
+
+# ---- What is wrong ----
+wrong() { refused 2 "$1" check in.gpkg -l houses --barrier "$2"; }
+wrong 'roads is none of layer=' roads.gpkg,roads
+wrong 'did you mean width=?' roads.gpkg,wdth=3
+wrong 'given twice' roads.gpkg,width=3,width=4
+wrong 'give one of them' roads.gpkg,width=3,width-field=w
+wrong 'name of the dataset is missing' ,width=3
+wrong 'must be yes or no' roads.gpkg,side=maybe
+wrong 'must be area or boundary' roads.gpkg,as=line
+wrong 'negative' roads.gpkg,gap=-1
+wrong 'negative' roads.gpkg,width=-1
+wrong 'unknown unit' roads.gpkg,width=3parsec
+wrong 'where= is empty' roads.gpkg,where=
+wrong 'layer= is empty' roads.gpkg,layer=,width=3
+wrong 'where= "nonsense = 3"' 'roads.gpkg,layer=roads,where=nonsense = 3'
+refused 1 'nofile.gpkg: no such file' check in.gpkg -l houses --barrier nofile.gpkg
+refused 1 'has no layer paths; its layers: roads' check in.gpkg -l houses --barrier roads.gpkg,layer=paths
+refused 1 'width-field=: layer roads has no field ww' check in.gpkg -l houses \
+    --barrier roads.gpkg,layer=roads,width-field=ww
+refused 1 'barrier roads.gpkg, layer roads, FID 1: the width in t is 4m' check in.gpkg -l houses \
+    --barrier roads.gpkg,layer=roads,width-field=t
+refused 2 'roads.gpkg: that is an input' check in.gpkg -l houses --barrier roads.gpkg,layer=roads --stats roads.gpkg
+refused 1 'roads.gpkg is an input' separate in.gpkg roads.gpkg -l houses --overwrite --barrier roads.gpkg,layer=roads
+expect 1 check in.gpkg -l houses --input-crs EPSG:4326 --barrier roads.gpkg,layer=roads,width=3
+says err 'reproject'
+expect 0 check in.gpkg -l houses --barrier roads.gpkg,layer=roads -q # and with none of all that
+finish

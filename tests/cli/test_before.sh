@@ -1,0 +1,92 @@
+# shellcheck shell=bash disable=SC1091
+# check --before: what broke a rule on the way from an original, whoever moved it.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+
+layer in.gpkg houses POLYGON <<'X'
+id,far,WKT
+10,,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
+20,,"POLYGON((8 0,18 0,18 10,8 10,8 0))"
+30,2,"POLYGON((30 0,40 0,40 10,30 10,30 0))"
+40,,"POLYGON((60 0,70 0,70 10,60 10,60 0))"
+50,0,"POLYGON((90 0,100 0,100 10,90 10,90 0))"
+X
+found() { # WANTED FILE ARGS: kinds and FIDs of what --before lists, besides conflicts
+    local wanted=$1 file=$2
+    shift 2
+    run check "$file" --before in.gpkg "$@"
+    [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "status $status: check $file --before in.gpkg $*"
+    same "$(awk -F'\t' 'NF > 5 && $7 ~ /^(worse|limit|side|jump|not_a_translate|lost)$/ { print $7, $1, $3 }' out |
+        sed 's/ $//' | LC_ALL=C sort | tr '\n' ';')" "$wanted" "$file $*:"
+}
+# What separate wrote breaks none.
+for options in '--gap 1' '--gap 1 --max-shift 0.2' '--gap 3 --max-shift-field far'; do
+    # shellcheck disable=SC2086
+    run separate in.gpkg o.gpkg -q --overwrite $options
+    # shellcheck disable=SC2086
+    found '' o.gpkg -l houses --no-blocks --block-field sunder_blk $options
+    # shellcheck disable=SC2086
+    expect 0 check in.gpkg --before in.gpkg $options --allow-conflicts
+done
+
+# Each rule broken once.
+layer moved.gpkg houses POLYGON <<'X'
+id,far,WKT
+10,,"POLYGON((1 0,11 0,11 10,1 10,1 0))"
+20,,"POLYGON((8 0,18 0,18 10,8 10,8 0))"
+30,2,"POLYGON((33 0,43 0,43 10,33 10,33 0))"
+40,,"POLYGON((60 0,70 0,70.5 10,60 10,60 0))"
+50,0,"POLYGON((90.25 0,100.25 0,100.25 10,90.25 10,90.25 0))"
+X
+found 'limit 3;limit 5;not_a_translate 4;worse 1 2;' moved.gpkg --max-shift-field far
+same "$status" 3
+found 'limit 1;limit 3;limit 5;not_a_translate 4;worse 1 2;' moved.gpkg --max-shift 0.125
+found 'limit 3;not_a_translate 4;worse 1 2;' moved.gpkg --fixed-where 'id = 30'
+found 'not_a_translate 4;worse 1 2;' moved.gpkg
+found 'not_a_translate 4;' moved.gpkg --ignore-where 'id < 25'
+expect 0 check moved.gpkg --before in.gpkg --allow-conflicts
+# Rows, columns, layer and counts.
+expect 3 check moved.gpkg rows.gpkg --before in.gpkg --max-shift-field far --id-field id --stats s.json
+same "$(awk -F'\t' '$7 == "limit" { printf "%s %s %.6g %s\n", $1, $2, $9, $12 }' out | tr '\n' ';')" '3 30 3 2;5 50 0.25 0;'
+same "$(count rows.gpkg houses_conflicts)" 5
+same "$(jq -c '.moves' s.json | sed 's/"side":0,//')" \
+    '{"matched":5,"worse":1,"limit":2,"jump":0,"not_a_translate":1,"lost":0}'
+says out 'since in.gpkg: 5 matched, worse 1'
+expect 3 check moved.gpkg --stats s.json
+same "$(jq -c 'has("moves")' s.json)" false
+
+# A jump: the last house goes over its neighbour.
+layer over.gpkg houses POLYGON <<'X'
+id,far,WKT
+10,,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
+20,,"POLYGON((8 0,18 0,18 10,8 10,8 0))"
+30,2,"POLYGON((75 0,85 0,85 10,75 10,75 0))"
+40,,"POLYGON((60 0,70 0,70 10,60 10,60 0))"
+50,0,"POLYGON((90 0,100 0,100 10,90 10,90 0))"
+X
+found 'jump 3 4;jump 4 3;' over.gpkg
+found '' over.gpkg --allow-jumps
+
+# Lost, and matched by a key where FIDs mean nothing.
+ogr2ogr -where 'id <> 40' -sql 'SELECT * FROM houses WHERE id <> 40 ORDER BY id DESC' fewer.gpkg in.gpkg -nln houses 2>/dev/null
+found 'lost 4;' fewer.gpkg --id-field id
+expect 3 check fewer.gpkg --before in.gpkg --id-field id
+ogr2ogr twice.gpkg in.gpkg -nln houses && ogr2ogr -append twice.gpkg in.gpkg -nln houses
+refused 1 'the key 10 too' check twice.gpkg --before in.gpkg --id-field id
+run check in.gpkg --before fewer.gpkg --id-field id
+says err '1 features of houses are not in fewer.gpkg'
+# A Shapefile starts at 0, and carries the FIDs that it cannot keep in a field.
+expect 3 separate in.gpkg o.shp -q --gap 1 --max-shift 0.2 --layers main
+found '' o.shp --gap 1 --max-shift 0.2
+# Of several layers the one of the same name.
+ogr2ogr -update in.gpkg over.gpkg houses -nln others
+found 'jump 3 4;jump 4 3;' over.gpkg
+
+refused 2 'belongs to other commands' separate in.gpkg o.gpkg --before in.gpkg
+refused 2 '--max-shift is about moves' check over.gpkg --max-shift 3
+refused 2 '--allow-jumps is about moves' check over.gpkg --allow-jumps
+refused 2 'nobody knows what was selected before' check over.gpkg --before in.gpkg --bbox 0,0,9,9
+refused 1 'nofile.gpkg: no such file' check over.gpkg --before nofile.gpkg
+refused 1 'has no layer of polygons' check in.gpkg -l houses --before rows.gpkg
+refused 1 'in.gpkg is an input' check over.gpkg in.gpkg --overwrite --before in.gpkg
+refused 2 'a part of the input' check over.gpkg --before in.gpkg --stats in.gpkg
+finish
