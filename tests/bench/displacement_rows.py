@@ -61,7 +61,7 @@ def separate(source, layer, words):
                                    "--output-layer", "l", "--stats", "s.json", "--threads", "1", *words])
     if status not in (0, 3):
         last = done.stderr.strip().splitlines()[-1:] or ["no message"]
-        raise Failed("over the limit" if status < 0 else last[0])
+        raise Failed(f"no result in {LIMIT} s" if status < 0 else last[0])
     with open("s.json", encoding="utf-8") as f:
         stats = json.load(f)
     stats["cpu"] = seconds
@@ -223,7 +223,7 @@ def neato(boxes, overlap):
                      f'height={POINTS * (b[3] - b[1]) / 72:.6f}];')
     status, seconds, done = timed(["neato", "-n", "-Tsvg"], input="\n".join(lines) + "}\n")
     if status:
-        raise Failed("over the limit" if status < 0 else done.stderr.strip().splitlines()[-1])
+        raise Failed(f"no result in {LIMIT} s" if status < 0 else done.stderr.strip().splitlines()[-1])
     moves, title = {}, None
     for line in done.stdout.splitlines():
         if line.startswith("<title>") and line[7:-8].isdigit():

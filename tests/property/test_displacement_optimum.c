@@ -132,10 +132,22 @@ static void test_four_and_five(void **state)
     ask(10, 4, 5, HAMLET_PLAIN, 1);
 }
 
+static void test_barriers(void **state)
+{
+    (void)state;
+    ask(60, 1, 3, HAMLET_BARRIERS_TOO, 2);
+}
+
 static void test_jumps(void **state)
 {
     (void)state;
     ask(60, 2, 3, HAMLET_NO_JUMPS, 3);
+}
+
+static void test_jumps_and_barriers(void **state)
+{
+    (void)state;
+    ask(60, 1, 4, HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 4);
 }
 
 /* ---- The oracle itself */
@@ -209,7 +221,9 @@ int main(void)
         cmocka_unit_test(test_oracle_of_shadows),
         cmocka_unit_test(test_up_to_three),
         cmocka_unit_test(test_four_and_five),
+        cmocka_unit_test(test_barriers),
         cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_jumps_and_barriers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

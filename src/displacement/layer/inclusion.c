@@ -183,7 +183,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
         sunder_i_body *body = &model->body[b];
         body->wall = (uint32_t)model->walls;
         for (uint32_t m = 0; m < body->members; m++)
-            if (holds[model->member[body->member + m]])
+            if (model->member[body->member + m] < model->features && holds[model->member[body->member + m]])
                 add_walls(model, body, model->member[body->member + m], model->corner, &model->corners);
     }
     sunder_i_free(holds);
