@@ -50,6 +50,13 @@ static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out,
 /* More threads than any machine has processors would be a slip of the pen. */
 static const double most_threads = 4096;
 
+static const double usual_effort = 1;
+
+static uint64_t seed_of(const gis_options *options)
+{
+    return options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
+}
+
 /* 0: as many as there are processors. */
 static unsigned thread_count(const gis_options *options)
 {
@@ -114,6 +121,8 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .no_blocks = options->given[OPT_NO_BLOCKS],
         .list_inside = options->given[OPT_LIST_INSIDE],
         .allow_jumps = options->given[OPT_ALLOW_JUMPS],
+        .effort = options->given[OPT_EFFORT] ? options->number[OPT_EFFORT] : usual_effort,
+        .seed = seed_of(options),
         .threads = thread_count(options),
     };
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
@@ -239,7 +248,7 @@ bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_e
         .algorithm = (sunder_algorithm)algorithm,
         .decomposition = (sunder_decomposition)decomposition,
         .order = (sunder_order)order,
-        .seed = options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0,
+        .seed = seed_of(options),
         .keep_map = options->given[OPT_PLANAR_MAP],
     };
     const char *output = output_of(options);

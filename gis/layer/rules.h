@@ -19,6 +19,8 @@ typedef struct gis_layer_rules {
     sunder_containment contained;
     bool no_blocks, list_inside, allow_jumps;
     bool count_thin;  /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
+    double effort;    /* how hard to look for better sides, and for proofs */
+    uint64_t seed;    /* of what that draws at random */
     unsigned threads; /* 0: as many as there are processors */
 } gis_layer_rules;
 

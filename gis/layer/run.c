@@ -24,6 +24,8 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.thin = gis_layer_thin(input);
     core.list_inside = rules->list_inside;
     core.contained = rules->contained;
+    core.effort = rules->effort;
+    core.seed = rules->seed;
     core.threads = rules->threads;
     core.allow_jumps = input->points || rules->allow_jumps;
     return core;

@@ -116,6 +116,15 @@ static bool read_count(const gis_option *option, const char *value, double *numb
     return true;
 }
 
+static bool read_number(const gis_option *option, const char *value, double *number, gis_error *error)
+{
+    double read;
+    if (!gis_length_parse_number(value, strlen(value), &read) || read < 0)
+        return gis_fail_usage(error, "%s %s: not a number of 0 or more", option->names, value);
+    *number = read;
+    return true;
+}
+
 static bool read_scale(const char *value, double *number, gis_error *error)
 {
     const char *text = strncmp(value, "1:", 2) == 0 ? value + 2 : value;
@@ -143,6 +152,7 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
         return push(out, id, value, error);
     case GIS_TYPE_BOX: return read_box(in, value, out->box, error);
     case GIS_TYPE_COUNT: return read_count(option, value, &out->number[id], error);
+    case GIS_TYPE_NUMBER: return read_number(option, value, &out->number[id], error);
     case GIS_TYPE_SCALE: return read_scale(value, &out->number[id], error);
     case GIS_TYPE_LENGTH: {
         const char *why;

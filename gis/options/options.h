@@ -23,9 +23,9 @@ enum {
 typedef enum gis_option_id {
     OPT_GAP, OPT_BARRIER, OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_WEIGHT, OPT_WEIGHT_FIELD, OPT_FIXED_WHERE,
     OPT_IGNORE_WHERE, OPT_TOUCH_TOLERANCE, OPT_BLOCK_FIELD, OPT_NO_BLOCKS, OPT_CONTAINED, OPT_ALLOW_JUMPS, OPT_SYMBOL,
-    OPT_SYMBOL_FIELD, OPT_SYMBOL_SIZE_FIELD, OPT_ID_FIELD, OPT_LIST_INSIDE, OPT_BEFORE, OPT_SCALE, OPT_REFLECT,
-    OPT_EXACT, OPT_ALGORITHM, OPT_DECOMPOSITION, OPT_ORDER, OPT_SEED, OPT_PLANAR_MAP, OPT_ROBOT, OPT_FROM, OPT_TO,
-    OPT_FREE_SPACE,
+    OPT_SYMBOL_FIELD, OPT_SYMBOL_SIZE_FIELD, OPT_ID_FIELD, OPT_LIST_INSIDE, OPT_BEFORE, OPT_EFFORT, OPT_SCALE,
+    OPT_REFLECT, OPT_EXACT, OPT_ALGORITHM, OPT_DECOMPOSITION, OPT_ORDER, OPT_SEED, OPT_PLANAR_MAP, OPT_ROBOT,
+    OPT_FROM, OPT_TO, OPT_FREE_SPACE,
     OPT_ALLOW_CONFLICTS,
     OPT_SHAPE, OPT_OPERATION, OPT_DISSOLVE, OPT_DISSOLVE_FIELD, OPT_ALIGN, OPT_DEGENERATE,
     OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX, OPT_IF, OPT_OO, OPT_CONFIG, OPT_INPUT_CRS,
@@ -45,6 +45,7 @@ typedef enum gis_option_type {
     GIS_TYPE_CHOICE,  /* one of metavar's words, parted by | */
     GIS_TYPE_LENGTH,  /* gis_length, >= 0 */
     GIS_TYPE_COUNT,   /* an integer >= 0 */
+    GIS_TYPE_NUMBER,  /* a decimal >= 0 */
     GIS_TYPE_SCALE,   /* N or 1:N, > 0 */
     GIS_TYPE_BOX,     /* four numbers with commas, or, as -spat has them, four arguments */
     GIS_TYPE_OPTIONAL /* alone, or with =metavar */
@@ -96,7 +97,7 @@ struct gis_options {
     const char *text[OPT_N]; /* of TEXT, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, else NULL */
     const char **list[OPT_N]; /* of LIST and PAIRS: NULL-terminated, or NULL */
     gis_length length[OPT_N];
-    double number[OPT_N]; /* of COUNT, SCALE */
+    double number[OPT_N]; /* of COUNT, NUMBER, SCALE */
     double box[4];
     const char *operand[3]; /* NULL where not given */
     size_t n_operands;

@@ -58,6 +58,9 @@ X
     expect 0 separate weights.gpkg n.gpkg --weight-field w --ignore-where "id = 'b'" -q --overwrite # null is 1
 done
 refused 1 'no field nothing' separate in.gpkg never.gpkg --weight-field nothing
+for effort in x -1 inf nan ''; do refused 2 'not a number of 0 or more' separate in.gpkg never.gpkg --effort "$effort"; done
+expect 0 separate in.gpkg e0.gpkg -q --effort 0 --seed 7 --stats 0.json
+expect 0 separate in.gpkg e1.gpkg -q --effort 2.5 --stats 1.json # trying harder costs no more
 
 # Blocks by a field move as one; features that touch do, too, unless --no-blocks.
 expect 0 separate in.gpkg b.gpkg --block-field grp -q

@@ -21,7 +21,7 @@ for words in '--gap LENGTH' '[gap / 10]' '[repair]' '[0]' 'units of the layer' '
 done
 rm commands
 # What comes later is neither there nor known.
-for option in --effort --seed --max-memory; do
+for option in --max-memory; do
     if grep -qF -- "$option" out; then fail "$option is in --help"; fi
     refused 2 "unknown option $option" separate a b $option 1
 done
