@@ -9,16 +9,22 @@ export PYTHONDONTWRITEBYTECODE=1
 
 /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/rules_cases.py" >broken 2>&1 || { cat broken; fail "rules.py does not see what it should"; }
 
-# asked NAME SOURCE LAYER GAP LIMIT
+# asked NAME SOURCE LAYER GAP LIMIT [BARRIER]
 asked() {
-    "$SUNDER" separate "$2" o.gpkg --overwrite -q --input-layer "$3" --gap "$4" --max-shift "$5" --output-layer l 2>err
+    local -a barrier=() told=()
+    [ -z "${6:-}" ] || { barrier=(--barrier "$6") && told=("barrier=$6"); }
+    "$SUNDER" separate "$2" o.gpkg --overwrite -q --input-layer "$3" --gap "$4" --max-shift "$5" --output-layer l \
+        "${barrier[@]}" 2>err
     case $? in 0 | 3) ;; *) fail "$1: status $?" ;; esac
     /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/rules.py" "$2|$3" "o.gpkg|l" "$4" "max-shift=$5" "anchors=$anchors" \
-        >broken 2>counts || { head -5 broken counts; fail "$1, gap $4, limit $5"; }
-    echo "$1, gap $4, limit $5: $(cat counts)"
+        "${told[@]}" >broken 2>counts || { head -5 broken counts; fail "$1, gap $4, limit $5, barrier ${6:-none}"; }
+    echo "$1, gap $4, limit $5${6:+, roads}: $(cat counts)"
 }
 
-for limit in 0.5 2 10; do asked town "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" buildings 3 $limit; done
+town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
+asked town "$town" buildings 3 10 "$town,layer=roads,width=5,side=no"
+asked town "$town" buildings 3 3 "$town,layer=roads,width-field=width,gap=0,side=no"
+for limit in 0.5 2 10; do asked town "$town" buildings 3 $limit; done
 if [ "${SUNDER_LAWS:-}" = all ]; then
     for seed in 1 2 3 4; do
         "$SUNDER_BUILD/sunder-town" --buildings 250 --seed $seed --trouble 0.6 "town$seed.gpkg" >/dev/null || fail "sunder-town"
@@ -34,6 +40,9 @@ else
         asked saint-jean "$data/saint_jean_la_poterie.gpkg" buildings 3 $limit
     done
     if [ "${SUNDER_LAWS:-}" = all ]; then
+        for name in krems_2013 saint_jean_la_poterie; do
+            asked $name "$data/$name.gpkg" buildings 3 10 "$data/$name.gpkg,layer=roads,width=5,side=no"
+        done
         for limit in 1 10; do
             asked neuss "$data/neuss_2026.gpkg" buildings 3 $limit
             asked liechtenstein "$data/liechtenstein_2015.gpkg" buildings 3 $limit
