@@ -359,6 +359,19 @@ static void draw(scene *s, rng *r)
         fail_msg("%s", err.message);
 }
 
+/* The same layer, where the feature may go no farther than that. */
+static sunder_layer *limit_to(scene *s, double limit)
+{
+    sunder_layer *layer = NULL;
+    sunder_error err;
+    sunder_layer_free(s->layer);
+    s->feature.max_shift = limit;
+    if (sunder_layer_new(&s->feature, 1, &layer, &err) ||
+        sunder_layer_set_barriers(layer, s->barrier, s->barriers, &err))
+        fail_msg("%s", err.message);
+    return layer;
+}
+
 static void erase(scene *s)
 {
     sunder_layer_free(s->layer);
@@ -472,10 +485,48 @@ static void check_as_they_stand(void **state)
     for (int k = 0; k < MOST; k++) figure_clear(&s.made[k].area);
 }
 
+/* Where it is taken apart: what is listed is what there is, as written; and without a limit nothing is, for nothing
+ * keeps the feature from going round whatever holds it in. */
+static void check_separated(void **state)
+{
+    (void)state;
+    const uint64_t seed = test_seed();
+    scene s;
+    figure_init(&s.figure);
+    for (int k = 0; k < MOST; k++) figure_init(&s.made[k].area);
+    for (uint64_t i = 0; i < test_count(200); i++) {
+        rng r = rng_start(seed, i ^ UINT64_C(1) << 40);
+        sunder_report *report = NULL;
+        sunder_layer_summary summary;
+        sunder_error err;
+        double t[2];
+        size_t left;
+        current = i;
+        draw(&s, &r);
+        const bool limited = rng_once_in(&r, 2);
+        if (limited) s.layer = limit_to(&s, s.unit * (double)rng_int(&r, 1, 8));
+        s.options.effort = 0;
+        if (sunder_layer_separate(s.layer, &s.options, &report, &err))
+            fail_msg("case %llu: %s", (unsigned long long)i, err.message);
+        sunder_report_summary(report, &summary);
+        sunder_report_move(report, 0, &t[0], &t[1]);
+        sunder_report_conflicts(report, &left);
+        if (!summary.verified || summary.rounded) fail_msg("case %llu: not verified", (unsigned long long)i);
+        if (!limited && left) fail_msg("case %llu: %zu conflicts left without a limit", (unsigned long long)i, left);
+        place(&s.figure, s.xy, t);
+        compare(&s, report);
+        assert_true(left || summary.lower_bound <= summary.cost);
+        sunder_report_free(report);
+        erase(&s);
+    }
+    figure_clear(&s.figure);
+    for (int k = 0; k < MOST; k++) figure_clear(&s.made[k].area);
+}
+
 int main(void)
 {
     make_scratch();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_as_they_stand)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_as_they_stand), cmocka_unit_test(check_separated)};
     const int failed = cmocka_run_group_tests(tests, NULL, NULL);
     free_scratch();
     return failed;

@@ -19,6 +19,7 @@ typedef struct street {
     sunder_shape *shape[HOUSES];
     bool check;
     double limit; /* of all: 1.1 is enough for each pair, and for all together not */
+    bool barriers;
     sunder_layer_options options;
 } street;
 
@@ -35,6 +36,16 @@ static bool make(street *s)
     return true;
 }
 
+/* A road through one of them, a pole beside another, and the one far off as an area. */
+static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_error *err)
+{
+    static const double xy[] = {-5, 3, 5, 4, 15, -3, 40, 5};
+    static const size_t line_end[] = {3, 4};
+    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 2}, 1, 0.5, false},
+                                       {{.shape = s->shape[5]}, 0, -1, false}};
+    return s->barriers ? sunder_layer_set_barriers(layer, barrier, 2, err) : SUNDER_OK;
+}
+
 static bool attempt(void *context)
 {
     street *s = context;
@@ -48,6 +59,7 @@ static bool attempt(void *context)
         feature[k] = (sunder_feature){
             .shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : s->limit, .block = -1, .fixed = k == 3};
     if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
+    if (!status) status = set_barriers(s, layer, &err);
     if (!status)
         status = s->check ? sunder_layer_check(layer, &s->options, &report, &err)
                           : sunder_layer_separate(layer, &s->options, &report, &err);
@@ -67,9 +79,9 @@ static bool attempt(void *context)
     return status == SUNDER_OK;
 }
 
-static void run(bool check, double gap, double limit)
+static void run_beside(bool check, double gap, double limit, bool barriers)
 {
-    street s = {.check = check, .limit = limit};
+    street s = {.check = check, .limit = limit, .barriers = barriers};
     sunder_layer_options_init(&s.options);
     s.options.gap = gap;
     failing_begin();
@@ -78,10 +90,13 @@ static void run(bool check, double gap, double limit)
     assert_true(sound);
 }
 
+static void run(bool check, double gap, double limit) { run_beside(check, gap, limit, false); }
+
 static void check_check(void **state) { run(true, 1, INFINITY); }
 static void check_separate(void **state) { run(false, 0, INFINITY); }
 static void check_separate_with_gap(void **state) { run(false, 1, INFINITY); }
 static void check_separate_without_room(void **state) { run(false, 0, 1.1); }
+static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
 int main(void)
 {
@@ -90,6 +105,7 @@ int main(void)
         cmocka_unit_test(check_separate),
         cmocka_unit_test(check_separate_with_gap),
         cmocka_unit_test(check_separate_without_room),
+        cmocka_unit_test(check_beside_barriers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

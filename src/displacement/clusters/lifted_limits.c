@@ -6,7 +6,10 @@
  * limits.
  *
  * Pairs that no moves within the limits can part would be parted in vain: what hangs together with one at the start
- * is set aside meanwhile. If others run into it, they go back too. */
+ * is set aside meanwhile. If others run into it, they go back too.
+ *
+ * With barriers limits are kept from the start: in a net of roads the free place beyond a limit is mostly several
+ * blocks away, and to find it takes long (by measurement; what it would gain is taken back for the limit anyway). */
 #include "displacement/clusters/stages.h"
 
 #include "base/union_find.h"
@@ -46,6 +49,7 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *s, bool *lifted, sund
     *lifted = false;
     for (size_t b = 0; b < model->bodies; b++)
         *lifted = *lifted || (!model->body[b].fixed && model->body[b].limit < INFINITY);
+    *lifted = *lifted && s->barriers.parts == 0;
     if (!*lifted) return SUNDER_OK;
     s->limit = sunder_i_alloc(model->bodies, sizeof *s->limit);
     s->aside = sunder_i_calloc(model->bodies, sizeof *s->aside);
