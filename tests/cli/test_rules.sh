@@ -12,7 +12,7 @@ export PYTHONDONTWRITEBYTECODE=1
 # asked NAME SOURCE LAYER GAP LIMIT [BARRIER]
 asked() {
     local -a barrier=() told=()
-    [ -z "${6:-}" ] || { barrier=(--barrier "$6") && told=("barrier=$6"); }
+    [ -z "${6:-}" ] || { barrier=(--barrier "$6") && told=("barrier=$6,side=no"); }
     "$SUNDER" separate "$2" o.gpkg --overwrite -q --input-layer "$3" --gap "$4" --max-shift "$5" --output-layer l \
         "${barrier[@]}" 2>err
     case $? in 0 | 3) ;; *) fail "$1: status $?" ;; esac
@@ -22,8 +22,8 @@ asked() {
 }
 
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
-asked town "$town" buildings 3 10 "$town,layer=roads,width=5,side=no"
-asked town "$town" buildings 3 3 "$town,layer=roads,width-field=width,gap=0,side=no"
+asked town "$town" buildings 3 10 "$town,layer=roads,width=5"
+asked town "$town" buildings 3 3 "$town,layer=roads,width-field=width,gap=0"
 for limit in 0.5 2 10; do asked town "$town" buildings 3 $limit; done
 if [ "${SUNDER_LAWS:-}" = all ]; then
     for seed in 1 2 3 4; do
@@ -41,7 +41,7 @@ else
     done
     if [ "${SUNDER_LAWS:-}" = all ]; then
         for name in krems_2013 saint_jean_la_poterie; do
-            asked $name "$data/$name.gpkg" buildings 3 10 "$data/$name.gpkg,layer=roads,width=5,side=no"
+            asked $name "$data/$name.gpkg" buildings 3 10 "$data/$name.gpkg,layer=roads,width=5"
         done
         for limit in 1 10; do
             asked neuss "$data/neuss_2026.gpkg" buildings 3 $limit
