@@ -505,7 +505,7 @@ typedef enum sunder_reason {
     SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
     SUNDER_REASON_FIXED,      /* neither may move */
     SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone crosses no side of a barrier; not found yet */
-    SUNDER_REASON_JUMP,       /* proved: ... without a jump; not found yet */
+    SUNDER_REASON_JUMP,       /* proved: no solution of the pair alone within its limits is without a jump */
     SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
@@ -616,6 +616,10 @@ SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_repor
  * that parts it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u < d
  * for those before.
  *
+ * Where `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
+ * hold; the other part is one of that feature. Any u at which the straight way of the anchor, as the other part sees
+ * it, does not meet the interior of that part has n.u >= d for at least one of the node's ways: no clearance is asked.
+ *
  * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
  * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
  * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|: no such
@@ -636,6 +640,7 @@ typedef struct sunder_proof_node {
     size_t part_a, part_b; /* the first corners of the parts, of all corners */
     size_t corners_a, corners_b;
     double clearance;
+    bool shadow;      /* one of the parts is an anchor: see above */
     size_t way, ways; /* its first way, and how many; none: a leaf */
     size_t force, forces;
 } sunder_proof_node;

@@ -50,6 +50,19 @@ static const char *check_clearance(const checking *c, const sunder_proof_node *n
 
 /* ---- The tree ---- */
 
+/* Is it about parts of its features, which are owed so much, and do its ways leave nothing out? */
+static const char *check_question(const checking *c, const sunder_proof_node *node)
+{
+    const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;
+    if (proof_same_block(c, node->a, node->b)) return "a node is about one block";
+    if (node->shadow) return proof_check_shadow(c, node);
+    if (!is_convex_part(a, node->corners_a) || !is_convex_part(b, node->corners_b)) return "a part is not convex";
+    if (!is_part_of(a, node->corners_a, &c->feature[node->a]) || !is_part_of(b, node->corners_b, &c->feature[node->b]))
+        return "a part is not of its feature";
+    const char *wrong = check_clearance(c, node);
+    return wrong ? wrong : proof_check_ways(c, node);
+}
+
 static const char *check_node(checking *c, size_t at, size_t depth)
 {
     const sunder_proof *p = c->proof;
@@ -57,13 +70,7 @@ static const char *check_node(checking *c, size_t at, size_t depth)
     c->seen[at] = true;
     const sunder_proof_node *node = &p->node[at];
     if (node->ways == 0) return proof_check_leaf(c, node, depth);
-    const double *a = p->corner + 2 * node->part_a, *b = p->corner + 2 * node->part_b;
-    if (proof_same_block(c, node->a, node->b)) return "a node is about one block";
-    if (!is_convex_part(a, node->corners_a) || !is_convex_part(b, node->corners_b)) return "a part is not convex";
-    if (!is_part_of(a, node->corners_a, &c->feature[node->a]) || !is_part_of(b, node->corners_b, &c->feature[node->b]))
-        return "a part is not of its feature";
-    const char *wrong = check_clearance(c, node);
-    if (!wrong) wrong = proof_check_ways(c, node);
+    const char *wrong = check_question(c, node);
     for (size_t k = 0; k < node->ways && !wrong; k++) {
         c->path_node[depth] = at;
         c->path_way[depth] = node->way + k;

@@ -3,6 +3,7 @@
 #define SUNDER_TESTS_PROOF_CHECKING_H
 
 #include "proof_check.h"
+#include "rational_plane.h"
 
 #include <stdbool.h>
 
@@ -24,6 +25,13 @@ bool is_part_of(const double *part, size_t n, const proof_feature *f);
 
 /* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict. */
 const char *proof_check_ways(const checking *c, const sunder_proof_node *node);
+/* Where two ways' lines cross; false if nowhere. Does v lie behind all ways, or on their lines? */
+bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v);
+bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v);
+
+/* proof_shadow.c: the node is about an anchor and what it may not jump over, and what lies behind all the ways is in
+ * the shadow of that. */
+const char *proof_check_shadow(const checking *c, const sunder_proof_node *node);
 
 /* proof_leaf.c: the forces on the way to the leaf win more than the limits can lose. */
 bool proof_same_block(const checking *c, size_t a, size_t b);

@@ -1,6 +1,5 @@
 /* Do the ways of a node leave nothing out that keeps the clearance? */
 #include "proof_checking.h"
-#include "rational_plane.h"
 
 /* Is there a direction in which none of the ways is ever reached? If so, one along a way's line. */
 static bool is_open(const sunder_proof_way *way, size_t n)
@@ -24,8 +23,7 @@ static bool is_open(const sunder_proof_way *way, size_t n)
     return open;
 }
 
-/* Where two ways' lines cross; false if nowhere. */
-static bool crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v)
+bool proof_crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *v)
 {
     vec m, n;
     mpq_t det, d, e, f;
@@ -50,7 +48,7 @@ static bool crossing(const sunder_proof_way *a, const sunder_proof_way *b, vec *
     return any;
 }
 
-static bool is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
+bool proof_is_behind_all(const sunder_proof_way *way, size_t n, const vec *v)
 {
     vec m;
     mpq_t s, d;
@@ -83,7 +81,7 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node)
     mpq_mul(most, most, most);
     for (size_t i = 0; i < node->ways && !wrong; i++)
         for (size_t j = i + 1; j < node->ways && !wrong; j++) {
-            if (!crossing(&way[i], &way[j], &v) || !is_behind_all(way, node->ways, &v)) continue;
+            if (!proof_crossing(&way[i], &way[j], &v) || !proof_is_behind_all(way, node->ways, &v)) continue;
             if (node->clearance < 0) {
                 if (!hull_holds_disc(&k, &v, node->clearance)) wrong = "a move that is no worse has no way";
                 continue;

@@ -264,6 +264,34 @@ static void check_narrow_yard(void **state)
     end(&s);
 }
 
+/* The same, with moves long enough to leave it: what forbids that is the rule against jumps, by a proof; and a limit
+ * that would let nobody leave is told first. */
+static void check_yard_without_gate(void **state)
+{
+    for (int k = 0; k < 3; k++) {
+        scene s;
+        begin(&s, 3);
+        add(&s, "POLYGON ((0 0, 20 0, 20 20, 0 20, 0 0), (5 5, 5 15, 15 15, 15 5, 5 5))")->max_shift = k ? 20 : 3;
+        add_box(&s, 6.75, 7, 6, 6)->max_shift = k ? 20 : 3;
+        s.options.allow_jumps = k == 2;
+        run(&s, false);
+        size_t n = 0;
+        const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+        assert_int_equal(n, k == 2 ? 0 : 1);
+        if (n) assert_int_equal(c->reason, k ? SUNDER_REASON_JUMP : SUNDER_REASON_MAX_SHIFT);
+        assert_true(s.summary.verified);
+        end(&s);
+    }
+    /* A gate: the way out is free where the anchor sees it, and then the house may leave. */
+    scene s;
+    begin(&s, 3);
+    add(&s, "POLYGON ((0 0, 20 0, 20 20, 0 20, 0 13, 5 13, 5 15, 15 15, 15 5, 5 5, 5 7, 0 7, 0 0))")->max_shift = 0;
+    add_box(&s, 6.75, 7, 6, 6)->max_shift = 20;
+    run(&s, false);
+    assert_int_equal(left(&s.summary), 0);
+    end(&s);
+}
+
 static void check_blocks(void **state)
 {
     scene s;
@@ -716,17 +744,29 @@ static void check_barrier_without_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_nothing),         cmocka_unit_test(check_two_squares),
-        cmocka_unit_test(check_weights),         cmocka_unit_test(check_fixed),
-        cmocka_unit_test(check_limits),          cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_courtyard),       cmocka_unit_test(check_narrow_yard),
-        cmocka_unit_test(check_blocks),          cmocka_unit_test(check_inside_blocks),
-        cmocka_unit_test(check_contained),       cmocka_unit_test(check_kept_inside),
-        cmocka_unit_test(check_way_inside),      cmocka_unit_test(check_nothing_worse),
-        cmocka_unit_test(check_duplicates),      cmocka_unit_test(check_ignored),
-        cmocka_unit_test(check_arguments),       cmocka_unit_test(check_cancel),
-        cmocka_unit_test(check_cancel_anywhere), cmocka_unit_test(check_within),
-        cmocka_unit_test(check_beside_barrier),  cmocka_unit_test(check_barrier_without_room),
+        cmocka_unit_test(check_nothing),
+        cmocka_unit_test(check_two_squares),
+        cmocka_unit_test(check_weights),
+        cmocka_unit_test(check_fixed),
+        cmocka_unit_test(check_limits),
+        cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_courtyard),
+        cmocka_unit_test(check_narrow_yard),
+        cmocka_unit_test(check_yard_without_gate),
+        cmocka_unit_test(check_blocks),
+        cmocka_unit_test(check_inside_blocks),
+        cmocka_unit_test(check_contained),
+        cmocka_unit_test(check_kept_inside),
+        cmocka_unit_test(check_way_inside),
+        cmocka_unit_test(check_nothing_worse),
+        cmocka_unit_test(check_duplicates),
+        cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_arguments),
+        cmocka_unit_test(check_cancel),
+        cmocka_unit_test(check_cancel_anywhere),
+        cmocka_unit_test(check_within),
+        cmocka_unit_test(check_beside_barrier),
+        cmocka_unit_test(check_barrier_without_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,4 +15,21 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
  * n + 3. Returns how many. */
 size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
 
+/* The box of the segment from the origin to u, grown by reach: a shadow within reach of u is cast by what meets it. */
+static inline void sunder_i_shadow_way(const double u[2], double reach, double way[4])
+{
+    for (int c = 0; c < 2; c++) {
+        way[c] = (u[c] < 0 ? u[c] : 0) - reach;
+        way[c + 2] = (u[c] > 0 ? u[c] : 0) + reach;
+    }
+}
+
+/* Does the obstacle of what is in box a and what is in box b, whose origin is at `offset`, meet it? By their boxes. */
+static inline bool sunder_i_shadow_may_reach(const double a[4], const double b[4], const double offset[2],
+                                             const double way[4])
+{
+    return a[0] - b[2] - offset[0] <= way[2] && a[2] - b[0] - offset[0] >= way[0] &&
+           a[1] - b[3] - offset[1] <= way[3] && a[3] - b[1] - offset[1] >= way[1];
+}
+
 #endif

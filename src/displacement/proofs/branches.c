@@ -134,6 +134,7 @@ static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_
     node->part_a = o->a;
     node->part_b = o->b;
     node->clearance = o->clearance;
+    node->shadow = o->shadow;
     node->ways = ways;
     memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
     c->ways += ways;

@@ -87,17 +87,31 @@ bool sunder_i_branching_widen(sunder_i_branching *c)
     return c->bodies > before;
 }
 
-bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
+/* Are the two of bodies that can move, one of them, and heeded? How far they can, at most. */
+static bool takes_part(const sunder_i_branching *c, uint32_t f, uint32_t g, double *reach)
 {
     const sunder_i_model *model = c->model;
     const sunder_i_subproblem *q = c->subproblem;
     const sunder_i_body *p = &model->body[model->body_of[f]], *r = &model->body[model->body_of[g]];
-    const double reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
-    if (p == r || !(reach > 0) || !isfinite(reach)) return false;
+    *reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
+    if (p == r || !(*reach > 0) || !isfinite(*reach)) return false;
+    return !q->feature || (sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(model, f)) &&
+                           sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(model, g)));
+}
+
+bool sunder_i_branching_shades(const sunder_i_branching *c, uint32_t f, uint32_t g)
+{
+    double reach;
+    return takes_part(c, f, g, &reach) && !sunder_i_is_held(c->model, f, g);
+}
+
+bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_subproblem *q = c->subproblem;
     const uint32_t whole[2] = {sunder_i_whole_of(model, f), sunder_i_whole_of(model, g)};
-    if (q->feature &&
-        (!sunder_i_set_has(q->feature, q->features, whole[0]) || !sunder_i_set_has(q->feature, q->features, whole[1])))
-        return false;
+    double reach;
+    if (!takes_part(c, f, g, &reach)) return false;
     if (!sunder_i_is_barrier(model, f > g ? f : g) &&
         sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
                                 nextafter(reach, INFINITY)))

@@ -31,13 +31,17 @@ typedef struct copying {
 
 static size_t copy_part(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
 {
-    const sunder_shape *shape = g->branching->model->layer->feature[feature].shape;
+    const sunder_i_model *model = g->branching->model;
+    const sunder_shape *shape = model->layer->feature[feature].shape;
     const size_t at = g->proof->corners;
+    if (model->anchor && piece == &model->anchor[feature]) {
+        memcpy(g->corner + 2 * g->proof->corners++, model->anchor_at + 2 * (size_t)feature, 2 * sizeof(double));
+        return at;
+    }
     /* Pieces of the model are in the order of the shape's; the model's corners are relative to the body. */
     uint32_t p = 0;
     const sunder_i_body_piece *first = piece;
-    const sunder_i_body *body = &g->branching->model->body[g->branching->model->body_of[feature]];
-    const sunder_i_body_piece *all = g->branching->model->piece + body->piece;
+    const sunder_i_body_piece *all = model->piece + model->body[model->body_of[feature]].piece;
     while (first > all && first[-1].feature == feature) first--, p++;
     const uint32_t from = p ? shape->piece_end[p - 1] : 0;
     for (uint32_t k = from; k < shape->piece_end[p]; k++)
@@ -67,6 +71,7 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->a = from->a;
     to->b = from->b;
     to->clearance = from->clearance;
+    to->shadow = from->shadow;
     to->corners_a = from->part_a->corners;
     to->corners_b = from->part_b->corners;
     to->part_a = copy_part(g, from->part_a, from->a);

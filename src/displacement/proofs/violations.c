@@ -1,4 +1,6 @@
-/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, and the ways out. */
+/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece,
+ * and the ways out. */
+#include "displacement/obstacles/shadow.h"
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -11,7 +13,7 @@ static bool is_rational(const sunder_i_model *model, uint32_t f) { return model-
 
 /* The ways between two pieces: into c->scratch. */
 static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
-                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance)
+                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
 {
     const sunder_i_model *model = c->model;
     sunder_i_parting parting = {.a = model->corner + 2 * (size_t)a->corner,
@@ -31,7 +33,7 @@ static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
         c->failed = true;
         return 0;
     }
-    return sunder_i_ways_between(&parting, c->scratch);
+    return shadow ? sunder_i_ways_past(&parting, c->scratch) : sunder_i_ways_between(&parting, c->scratch);
 }
 
 static double depth_of(const sunder_i_branching *c, size_t ways, const double u[2])
@@ -79,10 +81,49 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             const sunder_i_body_piece *b = &c->model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
-            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance), u);
-            if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth};
+            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false), u);
+            if (depth > worst->depth)
+                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false};
         }
     }
+}
+
+/* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
+static void look_past(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
+                      sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *other = swapped ? p : q;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
+                 offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    c->looked++;
+    if (!sunder_i_shadow_may_reach(swapped ? p->box : p->anchors, swapped ? q->anchors : q->box, offset, way)) return;
+    for (uint32_t m = 0; m < of->members; m++) {
+        const uint32_t f = model->member[of->member + m];
+        const sunder_i_body_piece *anchor = &model->anchor[f];
+        c->looked += 1 + other->pieces / 4;
+        for (uint32_t l = other->piece; l < other->piece + other->pieces && anchor->corners; l++) {
+            const sunder_i_body_piece *piece = &model->piece[l], *a = swapped ? piece : anchor,
+                                      *b = swapped ? anchor : piece;
+            if (!sunder_i_shadow_may_reach(a->box, b->box, offset, way) ||
+                !sunder_i_branching_shades(c, f, piece->feature))
+                continue;
+            const double depth = depth_of(c, fill_ways(c, p, a, q, b, 0, true), u);
+            if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true};
+        }
+    }
+}
+
+static void look_at_all(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
+{
+    look_at(c, s, r, worst);
+    if (c->model->rules.jumps || sunder_i_is_barrier_body(c->model, s->body) ||
+        sunder_i_is_barrier_body(c->model, r->body))
+        return;
+    look_past(c, s, r, false, worst);
+    look_past(c, s, r, true, worst);
 }
 
 /* Bodies that a member of this one may meet, in c->near, ascending. */
@@ -95,6 +136,8 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         double box[4], grown[4];
         if (!model->present[f]) continue;
         for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
+        if (!model->rules.jumps)
+            sunder_i_box_join(box, model->box + 4 * (size_t)f); /* what it passed on its way, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;
         if (!sunder_i_rtree_query(&model->tree, grown, &c->near)) return false;
@@ -121,7 +164,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
         for (uint32_t j = i + 1; j < c->bodies; j++) {
             sunder_i_violation o = {.depth = 2 * c->hair};
             const standing r = stand(c, j);
-            look_at(c, &s, &r, &o);
+            look_at_all(c, &s, &r, &o);
             n = insert(deepest, n, &o);
         }
         /* The others stand where they were. */
@@ -132,7 +175,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
             for (uint32_t j = 0; j < c->bodies && !known; j++) known = c->body[j] == c->near.item[k];
             if (known) continue;
             const standing r = {.number = c->near.item[k], .body = &c->model->body[c->near.item[k]]};
-            look_at(c, &s, &r, &o);
+            look_at_all(c, &s, &r, &o);
             n = insert(deepest, n, &o);
         }
     }
@@ -149,7 +192,7 @@ static int by_nearness(const void *a, const void *b)
 size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
     const standing s = stand(c, sunder_i_branching_place(c, o->p)), r = stand(c, sunder_i_branching_place(c, o->q));
-    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance);
+    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance, o->shadow);
     const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     depth_of(c, n, u);
     if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);

@@ -23,6 +23,11 @@ typedef struct sunder_i_way {
 
 #define SUNDER_I_WAYS_A_CORNER 5
 
+/* Half-planes such that every u outside the shadow of A + (-B) from the origin (obstacles/shadow.h), or on its
+ * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not
+ * matter. Room and answer as below; 0 too where the origin is too near to the obstacle. */
+size_t sunder_i_ways_past(const sunder_i_parting *parting, sunder_i_way *out);
+
 /* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for
  * SUNDER_I_WAYS_A_CORNER (na + nb) of them. Returns how many; 0 where rounding hides the parts' own interior. */
 size_t sunder_i_ways_between(const sunder_i_parting *parting, sunder_i_way *out);

@@ -1,6 +1,8 @@
 /* Conflicts as they are reported: what kind, how bad, and why they remain. */
 #include "displacement/layer/barrier_pairs.h"
+#include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
 #include "base/watch.h"
@@ -191,6 +193,27 @@ static double limit_of(const sunder_i_model *model, size_t f)
     return body->fixed ? 0 : body->limit;
 }
 
+/* Is it the rule against jumps that leaves the pair by itself no solution? Proved, or false. */
+static sunder_status would_jump(const sunder_i_model *model, const sunder_conflict *c, bool *jump, sunder_error *err)
+{
+    const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
+                   body[2] = {model->body_of[c->a], model->body_of[c->b]};
+    const sunder_i_subproblem alone = {.model = model,
+                                       .body = body,
+                                       .bodies = 2,
+                                       .a = feature[0],
+                                       .b = feature[1],
+                                       .feature = feature,
+                                       .features = 2,
+                                       .effort = ALONE_EFFORT,
+                                       .most = 2};
+    sunder_i_decision decision;
+    const sunder_status status = sunder_i_decide(&alone, &decision, err);
+    *jump = decision.verdict == SUNDER_I_INFEASIBLE;
+    sunder_i_decision_clear(&decision);
+    return status;
+}
+
 static sunder_status reason_of(const sunder_i_model *model, const sunder_conflict *c, sunder_reason *reason,
                                sunder_error *err)
 {
@@ -203,9 +226,12 @@ static sunder_status reason_of(const sunder_i_model *model, const sunder_conflic
     if (la + lb == INFINITY) return SUNDER_OK;
     /* Too far for the two limits together? The pair by itself, as it stood, tells. */
     sunder_i_resolution resolution;
-    const sunder_status status =
-        sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
+    sunder_status status = sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
     if (!status && resolution.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
+    if (status || resolution.beyond || model->rules.jumps || c->b >= model->features) return status;
+    bool jump;
+    status = would_jump(model, c, &jump, err);
+    if (!status && jump) *reason = SUNDER_REASON_JUMP;
     return status;
 }
 

@@ -24,6 +24,11 @@
 #define BITS_A_STEP 8
 #define LAST_BITS 10
 
+/* ---- A pair by itself (conflicts.c) ------------------------------------------------------------------------------ */
+
+/* The effort for a proof that it has no solution without a jump: some ten milliseconds. */
+#define ALONE_EFFORT 2000000u
+
 /* ---- The lower bound (bound.c) ----------------------------------------------------------------------------------- */
 
 /* Sweeps of coordinate ascent, and the share of the lengths that a sweep has to move the solution by to go on: the

@@ -265,7 +265,14 @@ static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double 
     return n;
 }
 
-/* Obstacles for body i from all the others, within reach of place `at`. */
+/* How many shadows two bodies may cast. */
+static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
+{
+    return (uint64_t)p->members * q->pieces + (uint64_t)q->members * p->pieces;
+}
+
+/* Obstacles for body i from all the others, within reach of place `at`. Among very many pieces, shadows of large blocks
+ * are left out: whoever is put into one clashes there. */
 static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
                      const sunder_i_list *foreign)
 {
@@ -282,7 +289,7 @@ static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, cons
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
         add_obstacles(s, o, q, coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p, coarse,
                       offset, at, reach);
-        add_shadows(s, o, q, t, p, at, reach);
+        if (!coarse || count_shadows(p, q) <= MANY_SHADOWS) add_shadows(s, o, q, t, p, at, reach);
     }
 }
 
@@ -293,7 +300,7 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
     const sunder_i_rtree *tree = s->model->standing;
     const double now = hypot(s->t[2 * i], s->t[2 * i + 1]);
     double all = BEYOND_ALL * (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(p->box) + s->gap);
-    if (!s->model->rules.jumps) all = fmin(all, now + FARTHEST_LEAP * (extent(p->box) + s->gap));
+    if (!s->model->rules.jumps) all = fmin(all, now + FARTHEST_LEAP * (fmin(extent(p->box), s->extent) + s->gap));
     for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         sunder_i_list foreign = {0};

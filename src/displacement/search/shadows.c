@@ -16,22 +16,6 @@
 
 /* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
 
-/* Where u's part of the segment from the origin is, and what is within reach of it. */
-static void box_of_way(const double u[2], double reach, double box[4])
-{
-    for (int c = 0; c < 2; c++) {
-        box[c] = fmin(u[c], 0) - reach;
-        box[c + 2] = fmax(u[c], 0) + reach;
-    }
-}
-
-/* Does the box a - b - offset meet `way`? */
-static bool differ_into(const double a[4], const double b[4], const double offset[2], const double way[4])
-{
-    return a[0] - b[2] - offset[0] <= way[2] && a[2] - b[0] - offset[0] >= way[0] &&
-           a[1] - b[3] - offset[1] <= way[3] && a[3] - b[1] - offset[1] >= way[1];
-}
-
 /* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
 static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
                        sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
@@ -44,7 +28,9 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
         for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
             const sunder_i_body_piece *piece = &model->piece[l];
             const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
-            if (!differ_into(a->box, b->box, part->offset, way) || sunder_i_is_held(model, f, piece->feature)) continue;
+            if (!sunder_i_shadow_may_reach(a->box, b->box, part->offset, way) ||
+                sunder_i_is_held(model, f, piece->feature))
+                continue;
             part->a = a;
             part->b = b;
             part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | l;
@@ -60,10 +46,12 @@ void sunder_i_search_body_shadows(sunder_i_search *s, const sunder_i_body *p, co
     sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, .shadow = true};
     double way[4];
     if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q)) return;
-    box_of_way(u, reach, way);
+    sunder_i_shadow_way(u, reach, way);
     part.inclusion = SUNDER_I_LAPSED;
-    if (differ_into(p->anchors, q->box, part.offset, way)) visit_from(s, p, q, way, &part, false, visit, context);
-    if (differ_into(p->box, q->anchors, part.offset, way)) visit_from(s, q, p, way, &part, true, visit, context);
+    if (sunder_i_shadow_may_reach(p->anchors, q->box, part.offset, way))
+        visit_from(s, p, q, way, &part, false, visit, context);
+    if (sunder_i_shadow_may_reach(p->box, q->anchors, part.offset, way))
+        visit_from(s, q, p, way, &part, true, visit, context);
 }
 
 void sunder_i_search_shadows(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -103,8 +91,9 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     double way[4];
     if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q))
         return false;
-    box_of_way(u, reach - s->model->rules.gap, way);
-    return differ_into(p->anchors, q->box, offset, way) || differ_into(p->box, q->anchors, offset, way);
+    sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
+    return sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
+           sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
 }
 
 /* The shortest way from an anchor out of its body's own box. Whoever jumped over one and stands clear of it by more

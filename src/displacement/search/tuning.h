@@ -59,6 +59,8 @@
 #define MANY_PAIRS 1500
 /* A body that looks for a place among so many pieces, times its own, does so as its members' outlines. */
 #define MANY_AROUND 5000
+/* ... and heeds of two bodies' shadows only those of fewer than so many. */
+#define MANY_SHADOWS 32
 /* What an obstacle costs, in constraints looked at. */
 #define OBSTACLE_WORK 16
 /* Two shapes that overlap by no more than this part of the smaller one are parted by the exact search, whose cost grows
@@ -74,8 +76,8 @@
 /* Nothing is farther off than so many times the sizes of all there is. */
 #define BEYOND_ALL 4
 /* Where nobody may jump, what is in sight of a body between its neighbours narrows with the distance: a place is looked
- * for no farther off than so many times the body and the gap. */
-#define FARTHEST_LEAP 16
+ * for no farther off than so many times the body, or the mean one of the cluster, and the gap. */
+#define FARTHEST_LEAP 8
 
 /* ---- Away from one another (spread.c) ---------------------------------------------------------------------------- */
 
