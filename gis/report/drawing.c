@@ -120,6 +120,39 @@ bool gis_picture_add_shape(const gis_picture *picture, const sunder_shape *shape
     return true;
 }
 
+/* Is a piece of a line seen, or near what is? Ends that both lie beyond a side of the picture, widened by its size,
+ * tell. */
+static bool may_be_seen(const gis_picture *picture, const double a[2], const double b[2])
+{
+    const double size[2] = {picture->width, picture->height};
+    for (int k = 0; k < 2; k++)
+        if (fmax(a[k], b[k]) < -size[k] || fmin(a[k], b[k]) > 2 * size[k]) return false;
+    return true;
+}
+
+/* So far outside that it only gives a direction. */
+static long whole(double value)
+{
+    const double most = 1e8;
+    return lround(fmax(-most, fmin(most, value)));
+}
+
+void gis_picture_add_line(const gis_picture *picture, const double *xy, size_t n, gis_text *to)
+{
+    double last[2], at[2];
+    bool open = false;
+    for (size_t i = 0; i < n; i++) {
+        gis_picture_place(picture, xy[2 * i], xy[2 * i + 1], at);
+        if (i == 0) memcpy(last, at, sizeof at);
+        bool seen = (i > 0 || n == 1) && may_be_seen(picture, last, at);
+        long dx = whole(at[0]) - whole(last[0]), dy = whole(at[1]) - whole(last[1]);
+        if (seen && !open) gis_text_print(to, "M%ld %ldl", whole(last[0]), whole(last[1]));
+        if (seen && (!open || dx || dy)) gis_text_print(to, "%ld %ld ", dx, dy);
+        open = seen;
+        memcpy(last, at, sizeof at);
+    }
+}
+
 /* ---- Fewer corners ----------------------------------------------------------------------------------------------- */
 
 static double squared_distance(const double *p, const double *a, const double *b)
@@ -166,7 +199,7 @@ static void keep_between(const double *xy, size_t n, size_t first, size_t last, 
     }
 }
 
-/* Marks what is kept: the ends of two lines, then what lies between them. */
+/* Marks what is kept of a ring, or of a line: the ends of the pieces, then what lies between them. */
 static void keep_ring(const double *xy, size_t n, double tolerance, bool *keep, size_t *stack)
 {
     /* From the first corner to the one farthest from it and back: two lines. */
@@ -185,7 +218,13 @@ static void keep_ring(const double *xy, size_t n, double tolerance, bool *keep, 
     keep_between(xy, n, opposite, n, tolerance, keep, stack);
 }
 
-bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
+static void keep_line(const double *xy, size_t n, double tolerance, bool *keep, size_t *stack)
+{
+    keep[0] = keep[n - 1] = true;
+    keep_between(xy, n, 0, n - 1, tolerance, keep, stack);
+}
+
+static bool simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, bool closed, gis_error *error)
 {
     corners->n = 0;
     if (n == 0) return true;
@@ -193,12 +232,22 @@ bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, doub
     size_t *stack = malloc((n + 1) * sizeof *stack);
     bool ok = (keep && stack && reserve(corners, n, error)) || gis_no_memory(error);
     if (ok) {
-        keep_ring(xy, n, tolerance, keep, stack);
+        (closed ? keep_ring : keep_line)(xy, n, tolerance, keep, stack);
         for (size_t i = 0; i < n; i++)
             if (keep[i]) memcpy(corners->xy + 2 * corners->n++, xy + 2 * i, 2 * sizeof *xy);
-        if (corners->n < 3) corners->n = 0;
+        if (closed && corners->n < 3) corners->n = 0;
     }
     free(keep);
     free(stack);
     return ok;
+}
+
+bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
+{
+    return simplify(corners, xy, n, tolerance, true, error);
+}
+
+bool gis_corners_simplify_line(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
+{
+    return simplify(corners, xy, n, tolerance, false, error);
 }

@@ -30,8 +30,13 @@ void gis_corners_clear(gis_corners *corners);
 bool gis_picture_add_shape(const gis_picture *picture, const sunder_shape *shape, const double move[2],
                            gis_corners *scratch, gis_text *to, gis_error *error);
 
+/* A line likewise; a line of one point is a point. Pieces of it that lie well outside are left out. */
+void gis_picture_add_line(const gis_picture *picture, const double *xy, size_t n, gis_text *to);
+
 /* A ring (n corners) without those that are not needed to stay within `tolerance` of it [DP73]; at least three stay,
  * unless all of it is that small: then none. The result is in corners->xy. */
 bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error);
+/* A line likewise: its ends stay. */
+bool gis_corners_simplify_line(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error);
 
 #endif

@@ -12,6 +12,7 @@
  *   anchor         x, y of each whose move is not 0, as the difference from the one before
  *   shape          of each feature its rings: how many corners, then the difference of each from the last one, through
  *                  all features; 0 ends the feature
+ *   barrier        of each: its width; its lines, as shape has rings; its rings likewise
  *   conflict       of each that is listed: is it proved? and the two ends of its link: x, y from the last, dx, dy
  */
 #include "report/map_data.h"
@@ -166,6 +167,58 @@ static bool add_labels(data_writer *writer, gis_error *error)
     return ok;
 }
 
+static bool add_line(data_writer *writer, const double *xy, size_t n, bool closed, gis_corners *scratch,
+                     gis_error *error)
+{
+    double tolerance = writer->thinning->barrier_tolerance;
+    if (tolerance > 0) {
+        if (!(closed ? gis_corners_simplify : gis_corners_simplify_line)(scratch, xy, n, tolerance, error))
+            return false;
+        xy = scratch->xy;
+        n = scratch->n;
+    }
+    if (n > 0) add_integer(writer->to, (long long)n);
+    for (size_t i = 0; i < n; i++) add_corner(writer, xy[2 * i], xy[2 * i + 1]);
+    return true;
+}
+
+static bool add_barrier(data_writer *writer, const gis_page_barrier *barrier, gis_corners *scratch, gis_error *error)
+{
+    const sunder_obstacle *geometry = &barrier->given->geometry;
+    size_t begin = 0;
+    bool ok = true;
+    add_integer(writer->to, length_steps(writer, barrier->given->width));
+    for (size_t line = 0; ok && line < geometry->lines; begin = geometry->line_end[line++])
+        ok = add_line(writer, geometry->xy + 2 * begin, geometry->line_end[line] - begin, false, scratch, error);
+    add_integer(writer->to, 0);
+    for (size_t p = 0; ok && geometry->shape && p < sunder_shape_polygons(geometry->shape); p++)
+        for (size_t r = 0; ok && r < sunder_shape_rings(geometry->shape, p); r++) {
+            size_t n;
+            const double *ring = sunder_shape_ring(geometry->shape, p, r, &n);
+            ok = add_line(writer, ring, n, true, scratch, error);
+        }
+    add_integer(writer->to, 0);
+    return ok;
+}
+
+static bool add_barriers(data_writer *writer, gis_error *error)
+{
+    const gis_page_model *model = writer->model;
+    double tolerance = writer->thinning->barrier_tolerance;
+    gis_corners scratch = {0};
+    bool ok = true;
+    gis_text_add(writer->to, ",\n\"barrier\": \"");
+    writer->last[0] = writer->last[1] = 0;
+    for (size_t k = 0; ok && k < model->n_barriers; k++) {
+        const double *box = model->barrier[k].box;
+        if (tolerance > 0 && fmax(box[2] - box[0], box[3] - box[1]) <= tolerance) continue;
+        ok = gis_go_on(error) && add_barrier(writer, &model->barrier[k], &scratch, error);
+    }
+    gis_text_add(writer->to, "\"");
+    gis_corners_clear(&scratch);
+    return ok;
+}
+
 static void add_conflicts(data_writer *writer)
 {
     const gis_page_model *model = writer->model;
@@ -196,7 +249,7 @@ bool gis_map_data_write(const gis_page_model *model, const gis_thinning *thinnin
     gis_json_clear(&head);
     ok = ok && add_labels(&writer, error) && add_column(&writer, "status", add_status, error) &&
          add_column(&writer, "move", add_move, error) && add_column(&writer, "anchor", add_anchor, error) &&
-         add_column(&writer, "shape", add_shape, error);
+         add_column(&writer, "shape", add_shape, error) && add_barriers(&writer, error);
     if (ok) add_conflicts(&writer);
     gis_text_add(to, "}\n");
     return ok;

@@ -72,6 +72,43 @@ static bool take_features(gis_page_model *model, gis_error *error)
     return true;
 }
 
+/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
+
+static void barrier_box(const sunder_barrier *barrier, double box[4])
+{
+    const sunder_obstacle *geometry = &barrier->geometry;
+    size_t n = geometry->lines ? geometry->line_end[geometry->lines - 1] : 0;
+    gis_box_clear(box);
+    for (size_t i = 0; i < n; i++) {
+        const double *at = geometry->xy + 2 * i, point[4] = {at[0], at[1], at[0], at[1]};
+        gis_box_add(box, point);
+    }
+    if (geometry->shape && !sunder_shape_is_empty(geometry->shape)) {
+        double of_shape[4];
+        sunder_shape_box(geometry->shape, of_shape);
+        gis_box_add(box, of_shape);
+    }
+    for (int k = 0; k < 4; k++) box[k] += (k < 2 ? -0.5 : 0.5) * barrier->width;
+}
+
+/* Of a network that goes on beyond the layer only what lies about the layer is of interest. */
+static bool take_barriers(gis_page_model *model, gis_error *error)
+{
+    static const double beyond = 0.1;
+    const gis_barriers *barriers = &model->request->input->barriers;
+    double seen[4];
+    model->barrier = malloc((barriers->n + 1) * sizeof *model->barrier);
+    if (!model->barrier) return gis_no_memory(error);
+    double rim = beyond * fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
+    for (int k = 0; k < 4; k++) seen[k] = model->extent[k] + (k < 2 ? -rim : rim);
+    for (size_t k = 0; k < barriers->n; k++) {
+        gis_page_barrier each = {.given = &barriers->barrier[k]};
+        barrier_box(each.given, each.box);
+        if (!model->empty && gis_box_meets(each.box, seen)) model->barrier[model->n_barriers++] = each;
+    }
+    return true;
+}
+
 /* ---- Orders ------------------------------------------------------------------------------------------------------ */
 
 static int descending(double a, double b) { return (a < b) - (a > b); }
@@ -234,7 +271,9 @@ static void choose_places(gis_page_model *model)
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error)
 {
     *model = (gis_page_model){.request = request, .n = request->input->n, .unit = gis_report_unit_of(request->unit)};
-    if (!take_features(model, error) || !take_conflicts(model, error) || !take_moves(model, error)) return false;
+    if (!take_features(model, error) || !take_barriers(model, error) || !take_conflicts(model, error) ||
+        !take_moves(model, error))
+        return false;
     choose_places(model);
     return true;
 }
@@ -242,6 +281,7 @@ bool gis_page_model_make(const gis_page_request *request, gis_page_model *model,
 void gis_page_model_clear(gis_page_model *model)
 {
     free(model->feature);
+    free(model->barrier);
     free(model->conflict);
     free(model->moved);
     *model = (gis_page_model){0};
@@ -250,6 +290,11 @@ void gis_page_model_clear(gis_page_model *model)
 void gis_page_name(const gis_page_model *model, size_t thing, gis_text *to)
 {
     const gis_layer_input *input = model->request->input;
+    if (thing >= model->n) {
+        const gis_barrier_feature *barrier = &input->barriers.feature[thing - model->n];
+        gis_text_print(to, "%s:" CPL_FRMT_GIB, input->barriers.layer[barrier->request], barrier->fid);
+        return;
+    }
     GIntBig fid = gis_source_fid(input->source, thing);
     OGRFeatureH feature = gis_source_feature(input->source, thing);
     if (input->id_field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, input->id_field))

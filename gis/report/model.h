@@ -1,5 +1,5 @@
-/* model.h: what the page shows, before any of it is drawn or written: features and conflicts as the core reports them,
- * brought into the order in which a reader wants them. */
+/* model.h: what the page shows, before any of it is drawn or written: features, barriers and conflicts as the core
+ * reports them, brought into the order in which a reader wants them. */
 #ifndef GIS_REPORT_MODEL_H
 #define GIS_REPORT_MODEL_H
 
@@ -16,6 +16,11 @@ typedef struct gis_page_feature {
     bool involved; /* is in a conflict that remains, or in the way of one */
 } gis_page_feature;
 
+typedef struct gis_page_barrier {
+    const sunder_barrier *given;
+    double box[4]; /* as it is drawn, with its width */
+} gis_page_barrier;
+
 /* A piece of the map that deserves a closer look. */
 typedef struct gis_page_place {
     double window[4];                /* of one aspect, so that pictures stand beside each other */
@@ -30,9 +35,11 @@ typedef struct gis_page_model {
     const gis_page_request *request;
     gis_report_unit unit;
     size_t n;
-    gis_page_feature *feature;        /* [n] */
-    double extent[4];                 /* of all that is drawn, before and after; empty: all zero */
-    bool empty;                       /* nothing is drawn */
+    gis_page_feature *feature; /* [n] */
+    double extent[4];          /* of all that is drawn, before and after; empty: all zero */
+    bool empty;                /* nothing is drawn */
+    gis_page_barrier *barrier; /* those that are seen beside the features */
+    size_t n_barriers;
     const sunder_conflict **conflict; /* those between blocks, the worst first */
     size_t n_conflicts;
     size_t *moved; /* features, the longest move first */
@@ -45,7 +52,8 @@ typedef struct gis_page_model {
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error);
 void gis_page_model_clear(gis_page_model *model);
 
-/* By which name a reader knows a feature: "FID 12", with the user's own id if there is one. Plain text, not escaped. */
+/* By which name a reader knows a feature: "FID 12", with the user's own id if there is one; or a barrier: "roads:12".
+ * Plain text, not escaped. */
 void gis_page_name(const gis_page_model *model, size_t thing, gis_text *to);
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */

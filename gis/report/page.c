@@ -20,13 +20,21 @@ static const struct {
     const char *text;
     gis_page_section *section;
 } slots[] = {
-    {"style", gis_template_style, NULL},   {"style-hash", gis_template_style_hash, NULL},
-    {"script", gis_template_script, NULL}, {"script-hash", gis_template_script_hash, NULL},
-    {"title", NULL, gis_page_title},       {"lede", NULL, gis_page_lede},
-    {"figures", NULL, gis_page_figures},   {"overview", NULL, add_overview},
-    {"map-note", NULL, gis_page_map_note}, {"map-data", NULL, gis_map_data_write},
-    {"places", NULL, gis_page_places},     {"moves", NULL, gis_page_moves},
-    {"blocked", NULL, gis_page_blocked},   {"certificate", NULL, gis_page_certificate},
+    {"style", gis_template_style, NULL},
+    {"style-hash", gis_template_style_hash, NULL},
+    {"script", gis_template_script, NULL},
+    {"script-hash", gis_template_script_hash, NULL},
+    {"title", NULL, gis_page_title},
+    {"lede", NULL, gis_page_lede},
+    {"figures", NULL, gis_page_figures},
+    {"overview", NULL, add_overview},
+    {"legend", NULL, gis_page_legend},
+    {"map-note", NULL, gis_page_map_note},
+    {"map-data", NULL, gis_map_data_write},
+    {"places", NULL, gis_page_places},
+    {"moves", NULL, gis_page_moves},
+    {"blocked", NULL, gis_page_blocked},
+    {"certificate", NULL, gis_page_certificate},
     {"colophon", NULL, gis_page_colophon},
 };
 

@@ -65,9 +65,51 @@ static bool add_path(picture_writer *writer, const char *class, double part, add
     return true;
 }
 
+/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
+
+/* A path of one barrier, as wide as it is drawn and so much more; nothing where nothing is seen. */
+static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier, const char *class, double more,
+                        gis_error *error)
+{
+    static const double still[2] = {0, 0};
+    const sunder_obstacle *geometry = &barrier->given->geometry;
+    size_t before = writer->to->length, begin = 0;
+    double width = gis_picture_length(&writer->picture, barrier->given->width) + more;
+    gis_text_print(writer->to, "<path class=\"%s %s\" stroke-width=\"%.0f\" d=\"", class,
+                   geometry->shape ? "area" : "line", width);
+    size_t empty = writer->to->length;
+    for (size_t line = 0; line < geometry->lines; begin = geometry->line_end[line++])
+        gis_picture_add_line(&writer->picture, geometry->xy + 2 * begin, geometry->line_end[line] - begin, writer->to);
+    if (geometry->shape &&
+        !gis_picture_add_shape(&writer->picture, geometry->shape, still, &writer->scratch, writer->to, error))
+        return false;
+    if (writer->to->length == empty)
+        writer->to->length = before;
+    else
+        gis_text_add(writer->to, "\"/>\n");
+    return true;
+}
+
+/* Their rims first, so that roads that meet run into each other. */
+static bool add_barriers(picture_writer *writer, double rim, double least_size, gis_error *error)
+{
+    const gis_page_model *model = writer->model;
+    for (int inner = 0; inner < 2; inner++)
+        for (size_t k = 0; k < model->n_barriers; k++) {
+            const gis_page_barrier *each = &model->barrier[k];
+            double size = fmax(each->box[2] - each->box[0], each->box[3] - each->box[1]);
+            if (!gis_box_meets(each->box, writer->picture.window) ||
+                gis_picture_length(&writer->picture, size) < least_size)
+                continue;
+            if (!gis_go_on(error) || !add_barrier(writer, each, inner ? "road" : "rim", inner ? 0 : rim, error))
+                return false;
+        }
+    return true;
+}
+
 /* ---- A place ----------------------------------------------------------------------------------------------------- */
 
-enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000 };
+enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000, CLOSE_UP_RIM = 30 };
 
 static bool has_moved(const picture_writer *writer, const gis_page_feature *feature)
 {
@@ -136,7 +178,7 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
     picture_writer writer = {model, {.width = CLOSE_UP_WIDTH, .height = CLOSE_UP_HEIGHT}, {0}, to};
     memcpy(writer.picture.window, place->window, sizeof place->window);
     begin_svg(&writer, "close-up", after ? "after" : "before");
-    bool ok = true;
+    bool ok = add_barriers(&writer, CLOSE_UP_RIM, 0, error);
     for (int k = 0; ok && k < CLASSES; k++)
         ok = add_path(&writer, after ? classes[k].after : classes[k].before, after, add_feature, classes[k].status,
                       error);
@@ -152,7 +194,7 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
 /* The longer side. Of features that are tiny at this size one is drawn in each square of so many units, as a box, so
  * that a large layer makes no large picture: larger squares where there are many. What moved or is in conflict is drawn
  * first there. */
-enum { OVERVIEW_SIDE = 10000, SQUARE = 30, LARGE_SQUARE = 80, MANY = 10000 };
+enum { OVERVIEW_SIDE = 10000, OVERVIEW_RIM = 12, SQUARE = 30, LARGE_SQUARE = 80, MANY = 10000 };
 enum { SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
 
 typedef struct overview_writer {
@@ -210,7 +252,7 @@ bool gis_page_add_overview(const gis_page_model *model, gis_text *to, gis_error 
     begin_svg(&whole.writer, "overview", "the whole layer, after");
     /* The most telling first, for the squares; drawn in the order of the classes, for what lies on top. */
     gis_text paths[CLASSES] = {0};
-    bool ok = true;
+    bool ok = add_barriers(&whole.writer, OVERVIEW_RIM, 4 * whole.square, error);
     for (int k = CLASSES - 1; ok && k >= 0; k--) {
         whole.writer.to = &paths[k];
         ok = add_path(&whole.writer, classes[k].after, 1, add_for_overview, classes[k].status, error) &&

@@ -144,6 +144,26 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
 
 /* ---- The map, its pictures --------------------------------------------------------------------------------------- */
 
+bool gis_page_legend(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
+{
+    (void)thinning, (void)error;
+    if (model->n_barriers > 0) gis_text_add(to, "<li><i class=\"barrier\"></i>barrier</li>\n");
+    return true;
+}
+
+static void add_barrier_note(const gis_page_model *model, const gis_thinning *thinning, gis_text *to)
+{
+    if (model->n_barriers == 0) return;
+    gis_text_add(to, " ");
+    add_number_of(to, model->n_barriers, "barrier lies", "barriers lie");
+    gis_text_add(to, " about them");
+    if (thinning->barrier_tolerance > 0) {
+        gis_text_add(to, ", drawn simplified by up to ");
+        gis_report_length(to, thinning->barrier_tolerance, &model->unit);
+    }
+    gis_text_add(to, ".");
+}
+
 bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
     (void)error;
@@ -154,6 +174,7 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
     if (thinning->tolerance == 0) {
         add_number_of(to, thinning->whole, "feature is drawn", "features are drawn");
         gis_text_add(to, ", with every corner.");
+        add_barrier_note(model, thinning, to);
         return true;
     }
     gis_text_add(to, "The layer is large, so that the map is thinned: ");
@@ -167,6 +188,7 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
     gis_text_add(
         to, " no larger than that are left out. This is for drawing alone: what was separated, and proved, are the "
             "features as they are.");
+    add_barrier_note(model, thinning, to);
     return true;
 }
 

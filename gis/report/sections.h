@@ -10,6 +10,7 @@ typedef bool gis_page_section(const gis_page_model *model, const gis_thinning *t
 gis_page_section gis_page_title;       /* the layer's name */
 gis_page_section gis_page_lede;        /* what came of the run, in a sentence or two */
 gis_page_section gis_page_figures;     /* the few numbers that matter */
+gis_page_section gis_page_legend;      /* what there is only in some layers */
 gis_page_section gis_page_map_note;    /* how much of the layer the map draws */
 gis_page_section gis_page_places;      /* close-ups, the worst first */
 gis_page_section gis_page_moves;       /* the histogram */

@@ -165,11 +165,52 @@ static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_erro
     }
 }
 
+/* ---- Barriers ---------------------------------------------------------------------------------------------------- */
+
+static const double most_barrier_bytes = 2e6;
+
+static bool line_bytes(const gis_page_barrier *barrier, double tolerance, gis_corners *scratch, double *bytes,
+                       gis_error *error)
+{
+    const sunder_obstacle *geometry = &barrier->given->geometry;
+    size_t begin = 0;
+    *bytes = FEATURE_BYTES;
+    for (size_t line = 0; line < geometry->lines; begin = geometry->line_end[line++]) {
+        size_t n = geometry->line_end[line] - begin;
+        if (tolerance > 0 && !gis_corners_simplify_line(scratch, geometry->xy + 2 * begin, n, tolerance, error))
+            return false;
+        *bytes += CORNER_BYTES * (double)(tolerance > 0 ? scratch->n : n);
+    }
+    if (geometry->shape) *bytes += CORNER_BYTES * (double)sunder_shape_vertices(geometry->shape);
+    return true;
+}
+
+/* Those that are as small as the tolerance are left out. */
+static bool choose_barriers(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
+{
+    gis_corners scratch = {0};
+    double size = fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
+    bool ok = true;
+    for (double *tolerance = &thinning->barrier_tolerance; ok; *tolerance = fmax(2 * *tolerance, size / 0x1p14)) {
+        double bytes = 0;
+        for (size_t k = 0; ok && k < model->n_barriers; k++) {
+            const double *box = model->barrier[k].box;
+            double one = 0;
+            bool drawn = *tolerance == 0 || fmax(box[2] - box[0], box[3] - box[1]) > *tolerance;
+            ok = !drawn || line_bytes(&model->barrier[k], *tolerance, &scratch, &one, error);
+            bytes += one;
+        }
+        if (bytes <= most_barrier_bytes) break;
+    }
+    gis_corners_clear(&scratch);
+    return ok;
+}
+
 bool gis_thinning_choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
 {
     *thinning = (gis_thinning){.drawn = calloc(model->n + 1, 1)};
     if (!thinning->drawn) return gis_no_memory(error);
-    return model->empty || choose(model, thinning, error);
+    return model->empty || (choose(model, thinning, error) && choose_barriers(model, thinning, error));
 }
 
 void gis_thinning_clear(gis_thinning *thinning)

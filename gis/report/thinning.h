@@ -15,6 +15,7 @@ typedef struct gis_thinning {
     unsigned char *drawn; /* [features] gis_drawn */
     double tolerance;     /* 0: nothing is simplified */
     size_t whole, simpler, left_out;
+    double barrier_tolerance; /* of barriers, likewise */
 } gis_thinning;
 
 /* Clear in any case. */

@@ -3,7 +3,7 @@
     report.py CHROMIUM PROFILE FOLDER
 
 FOLDER holds two.html (two squares that overlap, moved one unit each), town.html, town.json (its --stats), town.geojson
-(its output), evil.html (a hostile layer, whose name is in evil.txt), many.html, degenerate.html.
+(its output), evil.html (a hostile layer, whose name is in evil.txt), many.html, roads.html, and pages of layers with next to nothing.
 """
 import json
 import os
@@ -297,9 +297,13 @@ def ask_many(browser):
 
 
 def ask_degenerate(browser):
-    for name in ("none.html", "lone.html", "degenerate.html", "points.html"):
+    for name in ("none.html", "lone.html", "degenerate.html", "points.html", "roads.html"):
         page = browser.open(address(name), 1000, 800)
         page.picture()
+        if name == "roads.html":
+            picture = page.picture(".map canvas")
+            seen = sum(picture.at(x, y) == (255, 255, 255) for y in range(0, picture.height, 4) for x in range(0, picture.width, 4))
+            demand(seen > 500, "roads of 13 m are not seen: %d" % seen)
         demand("certificate" in page.evaluate("document.body.innerText").lower(), name + " is not whole")
         quiet(page, name)
 

@@ -36,6 +36,8 @@ expect 3 separate evil.geojson evil.gpkg --gap 3 --max-shift 0.1 --id-field id -
 
 expect 0 separate "$town" lone.gpkg -l buildings --where 'fid = 1' --gap 3 --report lone.html -q
 expect 0 separate "$town" none.gpkg -l buildings --where 'fid < 0' --gap 3 --report none.html -q
+expect 3 separate "$town" roads.gpkg -l buildings --where 'fid <= 60' --max-shift 1 --barrier "$town,layer=roads,width=13" \
+    --report roads.html -q
 layer far.gpkg far POLYGON <<'X'
 id,WKT
 1,"POLYGON((-1e300 -1e300,1e300 -1e300,1e300 1e300,-1e300 -1e300))"

@@ -110,6 +110,15 @@ expect 0 separate in.gpkg /vsistdout/ --of GeoJSON --report beside.html
 page beside.html
 says out FeatureCollection
 
+# Barriers are drawn, with their width, and named by layer and FID.
+expect 3 separate "$town" roads.gpkg -l buildings --where 'fid <= 60' --max-shift 1 --barrier "$town,layer=roads,width=13" \
+    --report roads.html -q
+page roads.html
+for words in '<i class="barrier"></i>' '<bdi>roads:' 'on a barrier' '"barrier": "' 'class="road line" stroke-width="'; do
+    says roads.html "$words"
+done
+grep -q 'class="road' town.html && fail "there are roads where no barriers are"
+
 # A large layer is thinned, and the page says so.
 "$SUNDER_BUILD/sunder-town" --buildings 140000 --seed 3 large.gpkg >town_said || fail "no large town"
 expect 0 separate large.gpkg large_out.gpkg -l buildings --gap 1 --ignore-where 'fid > 500' --report large.html --layers conflicts \

@@ -44,6 +44,28 @@ function readShapes(text, count, step) {
   return { ringsOf, cornersOf: Uint32Array.from(cornersOf), corners: Float64Array.from(corners) };
 }
 
+// Barriers: a width, lines, rings, each a flat list of coordinates; and the box of it all, the width included.
+function readBarriers(text, step) {
+  const reader = numberReader(text), barriers = [];
+  let x = 0, y = 0;
+  while (reader.more()) {
+    const barrier = { width: reader.next() * step, lines: [], rings: [] }, xs = [], ys = [];
+    for (const parts of [barrier.lines, barrier.rings])
+      for (let n = reader.next(); n > 0; n = reader.next()) {
+        const part = new Float64Array(2 * n);
+        for (let i = 0; i < 2 * n; i += 2) {
+          xs.push(part[i] = (x += reader.next()) * step);
+          ys.push(part[i + 1] = (y += reader.next()) * step);
+        }
+        parts.push(part);
+      }
+    const least = (values) => values.reduce((a, b) => Math.min(a, b), Infinity) - barrier.width / 2;
+    const most = (values) => values.reduce((a, b) => Math.max(a, b), -Infinity) + barrier.width / 2;
+    barriers.push(Object.assign(barrier, { box: [least(xs), least(ys), most(xs), most(ys)] }));
+  }
+  return barriers.sort((a, b) => a.width - b.width); // so that many can be drawn at once
+}
+
 function boxesOf(shapes, count) {
   const boxes = new Float64Array(4 * count);
   for (let f = 0; f < count; f++) {
@@ -79,6 +101,7 @@ function readLayer(data) {
   }
   layer.shapes = readShapes(data.shape, count, step);
   layer.boxes = boxesOf(layer.shapes, count);
+  layer.barriers = readBarriers(data.barrier, step);
   layer.conflicts = [];
   const links = numberReader(data.conflict);
   for (let x = 0, y = 0; links.more();) {

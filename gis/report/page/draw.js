@@ -3,7 +3,7 @@
 // Colours of the style sheet, as they are now: in the dark, or on paper.
 function readColours() {
   const style = getComputedStyle(document.documentElement), colours = {};
-  for (const name of ["ground", "ink", "paper", "unmoved", "fixed", "moved", "stood", "blocked", "skipped", "arrow", "link"]) {
+  for (const name of ["ground", "ink", "paper", "unmoved", "fixed", "moved", "stood", "blocked", "skipped", "barrier", "arrow", "link"]) {
     colours[name] = style.getPropertyValue("--" + name).trim();
     colours[name + "Line"] = style.getPropertyValue("--" + name + "-line").trim();
   }
@@ -134,6 +134,60 @@ function drawLinks(context, layer, view, colours) {
   }
 }
 
+function tracePart(context, view, part) {
+  for (let i = 0; i < part.length; i += 2) {
+    const x = view.x + part[i] * view.scale, y = view.y - part[i + 1] * view.scale;
+    if (i === 0) context.moveTo(x, y);
+    if (i > 0 || part.length === 2) context.lineTo(x, y);
+  }
+}
+
+// Barriers with their width: rims first, so that roads that meet run into each other. Where a road is hardly wider than
+// its rim, or has no width, the rim is all there is.
+function drawBarriers(context, layer, view, colours) {
+  const rim = 1.6;
+  const seen = layer.barriers.filter(({ box }) => view.x + box[2] * view.scale >= 0 && view.x + box[0] * view.scale <= view.width &&
+    view.y - box[1] * view.scale >= 0 && view.y - box[3] * view.scale <= view.height &&
+    Math.max(box[2] - box[0], box[3] - box[1]) * view.scale >= leastShape);
+  context.lineCap = context.lineJoin = "round";
+  for (const inner of [false, true]) {
+    // Lines of one width, many in one path; areas one by one.
+    let corners = 0, last = -1;
+    const flush = () => {
+      if (corners > 0) context.stroke();
+      corners = 0;
+    };
+    for (const { width, lines, rings } of seen) {
+      const wide = width * view.scale;
+      if (inner && wide < 1 && rings.length === 0) continue;
+      if (wide !== last || corners > manyCorners || rings.length > 0) flush();
+      last = wide;
+      if (corners === 0) {
+        context.lineWidth = inner ? Math.max(wide, 1e-3) : wide + rim;
+        context.strokeStyle = inner ? colours.barrier : colours.barrierLine;
+        context.beginPath();
+      }
+      for (const line of lines) {
+        tracePart(context, view, line);
+        corners += line.length / 2;
+      }
+      if (rings.length === 0) continue;
+      flush();
+      context.fillStyle = colours.barrier;
+      context.beginPath();
+      for (const ring of rings) {
+        tracePart(context, view, ring);
+        context.closePath();
+      }
+      if (inner) context.fill("nonzero");
+      context.stroke();
+    }
+    flush();
+  }
+  context.lineJoin = "miter";
+  context.lineCap = "butt";
+}
+
 // A colour between two, both #rrggbb.
 function mix(from, to, part) {
   const channel = (k) => {
@@ -147,6 +201,7 @@ function mix(from, to, part) {
 function drawLayer(context, layer, lists, view, part, colours) {
   context.fillStyle = colours.ground;
   context.fillRect(0, 0, view.width, view.height);
+  drawBarriers(context, layer, view, colours);
   let seen = 0;
   for (let f = 0; f < layer.count && seen <= fewFeatures; f++) seen += sizeInView(layer, view, f, part) >= leastShape;
   for (const status of drawingOrder) {
