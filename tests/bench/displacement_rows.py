@@ -87,7 +87,7 @@ def units_before(source, layer, unit, words):
     if status not in (0, 3):
         raise Failed(done.stderr.strip().splitlines()[-1])
     found, conflicts = set(), 0
-    for _, a, b in column("c.gpkg", "l_conflicts", "fid_a", "fid_b"):
+    for _, a, b in column("c.gpkg", None, "fid_a", "fid_b"):
         if b is not None and unit[a] == unit[b]:
             continue
         found |= {unit[a]} | ({unit[b]} if b is not None else set())
