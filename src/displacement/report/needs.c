@@ -26,7 +26,7 @@ typedef struct surroundings {
     sunder_feature *as;      /* [feature.n] how each takes part */
     sunder_shape **standing; /* [feature.n] owned shapes, of those that moved; else NULL */
     double known[4];         /* whoever reaches into this box is among them */
-    bool left;               /* somebody went farther than that in the last answer */
+    double farthest;         /* nobody may go farther than this */
 } surroundings;
 
 typedef struct needing {
@@ -81,14 +81,19 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
     return true;
 }
 
+/* Unless there are enough: two, and so many features. */
 static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *moving)
 {
-    for (size_t k = 0; k < moving->n; k++)
+    size_t features = model->body[body].members;
+    for (size_t k = 0; k < moving->n; k++) {
         if (moving->item[k] == body) return true;
-    return model->body[body].fixed || moving->n >= NEED_MOVING || sunder_i_list_push(moving, body);
+        features += model->body[moving->item[k]].members;
+    }
+    const bool enough = moving->n >= 2 && features > NEED_MOVING;
+    return model->body[body].fixed || enough || sunder_i_list_push(moving, body);
 }
 
-/* Those of the two that may move, then of those about them, in order of number, up to NEED_MOVING. */
+/* Those of the two that may move, then of those about them, in order of number. */
 static bool choose_moving(const sunder_i_solver *s, const sunder_conflict *c, double reach, sunder_i_list *moving)
 {
     const sunder_i_model *model = &s->model;
@@ -128,9 +133,7 @@ static sunder_status take_part(const sunder_i_solver *s, surroundings *a, size_t
     return status;
 }
 
-/* far: how many times as far as the conflict needs them to part they are to know who is there. */
-static sunder_status surround(const sunder_i_solver *s, const sunder_conflict *c, double far, surroundings *a,
-                              sunder_error *err)
+static sunder_status surround(const sunder_i_solver *s, const sunder_conflict *c, surroundings *a, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     const double reach = c->required + missing(c);
@@ -140,7 +143,8 @@ static sunder_status surround(const sunder_i_solver *s, const sunder_conflict *c
     for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &a->feature);
     a->moving = a->feature.n;
     for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, model->box + 4 * (size_t)a->feature.item[k]);
-    sunder_i_box_grow(a->known, far * reach, a->known);
+    a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c);
+    sunder_i_box_grow(a->known, a->farthest + reach, a->known);
     ok = ok && sunder_i_rtree_query(&s->placement.tree, a->known, &near);
     moving.n = sunder_i_set_make(moving.item, moving.n);
     near.n = sunder_i_set_make(near.item, near.n);
@@ -159,11 +163,10 @@ static sunder_status surround(const sunder_i_solver *s, const sunder_conflict *c
 /* ---- One question ------------------------------------------------------------------------------------------------ */
 
 /* Is nothing that moves in conflict, and all of it where everybody is known? *longest: of the moves. */
-static bool is_solved(surroundings *a, const sunder_i_solver *x, double gap, double *longest)
+static bool is_solved(const surroundings *a, const sunder_i_solver *x, double gap, double *longest)
 {
     const sunder_i_model *model = &x->model;
     *longest = 0;
-    a->left = false;
     gap = fmax(gap, x->barriers.farthest);
     for (size_t k = 0; k < model->features; k++) {
         const double *t = model->move + 2 * (size_t)model->body_of[k], *box = x->placement.box + 4 * k;
@@ -171,9 +174,8 @@ static bool is_solved(surroundings *a, const sunder_i_solver *x, double gap, dou
         *longest = fmax(*longest, hypot(t[0], t[1]));
         if (box[0] - gap < a->known[0] || box[1] - gap < a->known[1] || box[2] + gap > a->known[2] ||
             box[3] + gap > a->known[3])
-            a->left = true;
+            return false;
     }
-    if (a->left) return false;
     for (size_t k = 0; k < x->now.n; k++) {
         const sunder_i_relation *r = &x->now.pair[k];
         if (sunder_i_is_conflict_of_bodies(model, r) && (x->number[r->a] < a->moving || x->number[r->b] < a->moving))
@@ -245,7 +247,7 @@ static sunder_status set_barriers(const sunder_i_solver *s, const surroundings *
     return status;
 }
 
-static sunder_status ask(const needing *g, surroundings *a, const supposition *what, bool *yes, double *longest,
+static sunder_status ask(const needing *g, const surroundings *a, const supposition *what, bool *yes, double *longest,
                          sunder_error *err)
 {
     sunder_layer_options options = *g->options;
@@ -281,15 +283,15 @@ static sunder_status ask(const needing *g, surroundings *a, const supposition *w
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
-/* A limit of moves: what they need where there is none, and then less, by halves. */
-static sunder_status need_shift(const needing *g, surroundings *a, sunder_conflict *c, sunder_error *err)
+/* A limit of moves: what they need where they may go as far as is known, and then less, by halves. */
+static sunder_status need_shift(const needing *g, const surroundings *a, sunder_conflict *c, sunder_error *err)
 {
-    supposition what = {INFINITY, c->required, SUNDER_I_NOBODY};
+    supposition what = {a->farthest, c->required, SUNDER_I_NOBODY};
     double longest, low = INFINITY;
     bool yes;
     what.gap = g->options->gap;
     for (size_t k = 0; k < a->moving; k++) low = fmin(low, a->as[k].max_shift);
-    if (low == INFINITY) return SUNDER_OK;
+    if (!(low < what.limit)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
         const sunder_status status = ask(g, a, &what, &yes, &longest, err);
         if (status) return status;
@@ -306,7 +308,7 @@ static sunder_status need_shift(const needing *g, surroundings *a, sunder_confli
     return SUNDER_OK;
 }
 
-static sunder_status need_gap(const needing *g, surroundings *a, sunder_conflict *c, sunder_error *err)
+static sunder_status need_gap(const needing *g, const surroundings *a, sunder_conflict *c, sunder_error *err)
 {
     supposition what = {0, 0, SUNDER_I_NOBODY};
     double high = g->options->gap, longest;
@@ -326,7 +328,7 @@ static sunder_status need_gap(const needing *g, surroundings *a, sunder_conflict
 }
 
 /* The first of those in the way, without which all others are solved. */
-static sunder_status need_gone(const needing *g, surroundings *a, sunder_conflict *c, sunder_error *err)
+static sunder_status need_gone(const needing *g, const surroundings *a, sunder_conflict *c, sunder_error *err)
 {
     const supposition none = {0, g->options->gap, SUNDER_I_NOBODY};
     double longest;
@@ -341,17 +343,22 @@ static sunder_status need_gone(const needing *g, surroundings *a, sunder_conflic
     return SUNDER_OK;
 }
 
+static size_t members_that_move(const sunder_i_model *model, size_t feature)
+{
+    const sunder_i_body *body = &model->body[model->body_of[feature]];
+    return body->fixed ? 0 : body->members;
+}
+
 static sunder_status find_needs(const needing *g, sunder_conflict *c, sunder_error *err)
 {
-    surroundings a = {0}, wider = {0};
-    sunder_status status = surround(g->solver, c, NEED_REACH, &a, err);
+    const sunder_i_model *model = &g->solver->model;
+    surroundings a = {0};
+    if (members_that_move(model, c->a) + members_that_move(model, c->b) > NEED_MOST) return SUNDER_OK;
+    sunder_status status = surround(g->solver, c, &a, err);
     if (!status) status = need_shift(g, &a, c, err);
-    if (!status && a.left) status = surround(g->solver, c, NEED_REACH * NEED_WIDER, &wider, err);
-    if (!status && a.left) status = need_shift(g, &wider, c, err);
     if (!status) status = need_gap(g, &a, c, err);
     if (!status) status = need_gone(g, &a, c, err);
     clear(&a);
-    clear(&wider);
     return status;
 }
 

@@ -38,12 +38,13 @@
 
 /* ---- What would free a conflict (needs.c) ------------------------------------------------------------------------ */
 
-/* So many bodies move in a question at most: a question takes some milliseconds then. */
+/* So many features move in a question at most, the two apart: it takes some milliseconds then. */
 #define NEED_MOVING 8
-/* Who stands within so many times as far as the pair lacks and owes takes part; where somebody goes farther without
- * limits, so many times that, once. */
-#define NEED_REACH 4
-#define NEED_WIDER 4
+/* Nothing is asked about larger blocks. */
+#define NEED_MOST 24
+/* They may go so many gaps and so many times what the pair lacks, and who stands within that takes part. */
+#define NEED_GAPS 4
+#define NEED_MISSING 4
 /* For each unit of effort, up to so many, what lies between what does and what does not is halved once, and so many of
  * those in the way are let go by turns. */
 #define NEED_EFFORT 16
