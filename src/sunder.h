@@ -433,7 +433,7 @@ typedef struct sunder_layer_options {
     sunder_progress progress;
     void *progress_user;
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
-    double effort;    /* >= 0: how hard to search for better sides and for proofs; not honoured yet */
+    double effort;    /* >= 0: how many questions are asked about what would free a conflict; 0: none */
     uint64_t seed;    /* of what search is random; nothing is yet */
 } sunder_layer_options;
 
