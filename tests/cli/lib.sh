@@ -29,7 +29,7 @@ run() {
 
 # After separate IN.gpkg OUT.gpkg ...: what stays in conflict stands no worse, exactly, by code that reads the two
 # layers. Not asked where the words say what upheld.py does not know: other formats, units, symbols, barriers, choices of
-# features.
+# features or of layers.
 moved_pairs=0
 demand_upheld() {
     local rule=$SUNDER_BUILD/tests/standing_rule input=${2:-} output=${3:-} name= written= gap=0 word
@@ -42,7 +42,7 @@ demand_upheld() {
             --input-layer | -l) name=$2 ;;
             --output-layer | -nln) written=$2 ;;
             --gap) gap=$2 ;;
-            --symbol* | --barrier | --where | -where | --sql | -sql | --spat | -spat | --input-crs | --open-option | -oo) return 0 ;;
+            --layers | --symbol* | --barrier | --where | -where | --sql | -sql | --spat | -spat | --input-crs | --open-option | -oo) return 0 ;;
         esac
         case $word in
             --input-layer | -l | --gap | --contained | --touch-tolerance | --block-field) same+=("$word" "$2") && shift ;;
