@@ -262,7 +262,7 @@ static sunder_status ask(const needing *g, const surroundings *a, const supposit
     }
     for (size_t k = 0; k < a->feature.n; k++) {
         sunder_feature *f = &layer->feature[k];
-        if (k < a->moving) f->max_shift = fmax(f->max_shift, what->limit);
+        if (k < a->moving) f->max_shift = fmin(fmax(f->max_shift, what->limit), a->farthest);
         f->ignored = f->ignored || a->feature.item[k] == what->gone;
     }
     options.gap = what->gap;
