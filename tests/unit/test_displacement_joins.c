@@ -1,6 +1,6 @@
 /* What joins features, and how blocks are numbered: by their first members; touch alone can be switched off; what a
  * small tolerance would join is counted where it is 0. */
-#include "run_layer.h"
+#include "scene.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -10,100 +10,59 @@
 
 #include <cmocka.h>
 
-enum { MOST = 8 };
-
-typedef struct scene {
-    sunder_feature feature[MOST];
-    sunder_shape *shape[MOST];
-    size_t n;
-    sunder_layer_options options;
-    sunder_report *report;
-    sunder_layer_summary summary;
-} scene;
-
-static void begin(scene *s)
-{
-    memset(s, 0, sizeof *s);
-    sunder_layer_options_init(&s->options);
-}
-
-static void add_box(scene *s, double x, double y, double w, double h)
-{
-    const double xy[] = {x, y, x + w, y, x + w, y + h, x, y + h};
-    const size_t ring_end = 4, poly_end = 1, i = s->n++;
-    assert_int_equal(sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &s->shape[i], NULL),
-                     SUNDER_OK);
-    s->feature[i] = (sunder_feature){.shape = s->shape[i], .weight = 1, .max_shift = INFINITY, .block = -1};
-}
-
-static void check(scene *s)
-{
-    sunder_report_free(s->report);
-    s->report = run_check(s->feature, s->n, &s->options);
-    sunder_report_summary(s->report, &s->summary);
-}
-
-static void end(scene *s)
-{
-    sunder_report_free(s->report);
-    for (size_t i = 0; i < s->n; i++) sunder_shape_free(s->shape[i]);
-}
-
 static void test_numbers(void **state)
 {
     scene s;
-    begin(&s);
-    for (int i = 0; i < 5; i++) add_box(&s, 20 * i, 0, 10, 10);
-    add_box(&s, 60, 10, 10, 10); /* touches the fourth */
+    scene_begin(&s, 0);
+    for (int i = 0; i < 5; i++) scene_add_box(&s, 20 * i, 0, 10, 10);
+    scene_add_box(&s, 60, 10, 10, 10); /* touches the fourth */
     s.feature[1].block = s.feature[4].block = 7;
     for (int separate = 0; separate < 2; separate++) {
         static const int64_t expected[] = {-1, 1, -1, 3, 1, 3};
-        check(&s);
+        scene_check(&s);
         if (separate) {
-            sunder_report_free(s.report);
-            s.report = run_separate(s.feature, s.n, &s.options);
-            sunder_report_summary(s.report, &s.summary);
+            scene_separate(&s);
         }
         assert_int_equal(s.summary.blocks, 2);
         for (size_t i = 0; i < s.n; i++) assert_int_equal(sunder_report_block(s.report, i), expected[i]);
     }
-    end(&s);
+    scene_end(&s);
 }
 
 static void test_thin(void **state)
 {
     scene s;
-    begin(&s);
-    add_box(&s, 0, 0, 10, 10);
-    add_box(&s, 9.75, 0, 10, 10);
-    add_box(&s, 19, 0, 10, 10); /* 0.75 deep in the second */
-    add_box(&s, 28, 0, 10, 10); /* 1 deep in the third */
-    add_box(&s, 5, 5, 1, 1);    /* contained, which is a question of its own */
+    scene_begin(&s, 0);
+    scene_add_box(&s, 0, 0, 10, 10);
+    scene_add_box(&s, 9.75, 0, 10, 10);
+    scene_add_box(&s, 19, 0, 10, 10); /* 0.75 deep in the second */
+    scene_add_box(&s, 28, 0, 10, 10); /* 1 deep in the third */
+    scene_add_box(&s, 5, 5, 1, 1);    /* contained, which is a question of its own */
     s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
     s.options.thin = 0.75;
-    check(&s);
+    scene_check(&s);
     assert_int_equal(s.summary.before.overlap, 3);
     assert_int_equal(s.summary.thin, 2);
     s.feature[0].block = s.feature[1].block = 3; /* what is one block already */
-    check(&s);
+    scene_check(&s);
     assert_int_equal(s.summary.thin, 1);
     s.options.no_touch = true; /* then no tolerance joins anything */
-    check(&s);
+    scene_check(&s);
     assert_int_equal(s.summary.thin, 0);
     s.options.no_touch = false;
     s.options.touch_tolerance = 0.8; /* nor is it asked where there is one */
-    check(&s);
+    scene_check(&s);
     assert_int_equal(s.summary.thin, 0);
     assert_int_equal(s.summary.before.overlap, 1);
-    end(&s);
+    scene_end(&s);
 }
 
 static void test_thin_out_of_range(void **state)
 {
     static const double wrong[] = {-1, NAN, INFINITY};
     scene s;
-    begin(&s);
-    add_box(&s, 0, 0, 1, 1);
+    scene_begin(&s, 0);
+    scene_add_box(&s, 0, 0, 1, 1);
     sunder_layer *layer;
     assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, NULL), SUNDER_OK);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -111,22 +70,22 @@ static void test_thin_out_of_range(void **state)
         assert_int_equal(sunder_layer_check(layer, &s.options, &s.report, NULL), SUNDER_EARG);
     }
     sunder_layer_free(layer);
-    end(&s);
+    scene_end(&s);
 }
 
 static void test_no_touch(void **state)
 {
     scene s;
-    begin(&s);
-    add_box(&s, 0, 0, 10, 10);
-    add_box(&s, 10, 0, 10, 10);
-    add_box(&s, 2, 2, 1, 1);
+    scene_begin(&s, 0);
+    scene_add_box(&s, 0, 0, 10, 10);
+    scene_add_box(&s, 10, 0, 10, 10);
+    scene_add_box(&s, 2, 2, 1, 1);
     s.options.no_touch = true; /* containment joins all the same */
-    check(&s);
+    scene_check(&s);
     assert_int_equal(s.summary.blocks, 1);
     assert_int_equal(sunder_report_block(s.report, 2), 0);
     assert_int_equal(sunder_report_block(s.report, 1), -1);
-    end(&s);
+    scene_end(&s);
 }
 
 int main(void)

@@ -1,0 +1,35 @@
+/* A small layer, set up feature by feature, and its last report: what unit tests of displacement begin with. What
+ * fails, fails the test. */
+#ifndef SUNDER_TESTS_SCENE_H
+#define SUNDER_TESTS_SCENE_H
+
+#include "sunder.h"
+
+enum { SCENE_MOST = 30 };
+
+typedef struct scene {
+    sunder_feature feature[SCENE_MOST];
+    size_t n;
+    sunder_layer_options options;
+    sunder_report *report; /* the last one; freed by the next and by scene_end() */
+    sunder_layer_summary summary;
+} scene;
+
+/* No features, and the usual options but for the gap. */
+void scene_begin(scene *s, double gap);
+void scene_end(scene *s);
+
+/* Of weight 1, without a limit, in no block; without a shape where wkt is NULL. Lives in the scene. */
+sunder_feature *scene_add(scene *s, const char *wkt);
+/* The axis-parallel rectangle of that width and height with its lower left corner at (x, y). */
+sunder_feature *scene_add_box(scene *s, double x, double y, double w, double h);
+
+void scene_separate(scene *s);
+void scene_check(scene *s);
+
+/* Conflicts left between blocks, of every kind. */
+size_t scene_left(const scene *s);
+/* How far a feature went. */
+double scene_length(const scene *s, size_t feature);
+
+#endif
