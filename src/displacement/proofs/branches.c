@@ -42,15 +42,18 @@ static void cut(area *p, const double n[2], double d)
 }
 
 /* What limits and claims leave of the relative moves of a pair, roughly. */
-static area room_of(const sunder_i_branching *c, uint32_t i, uint32_t j)
+static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
 {
     area room = {.n = DISC_SIDES};
-    const double r = (c->limit[i] + c->limit[j]) / cos(TURN / (2 * DISC_SIDES));
+    const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
+    const double reach = sunder_i_branching_limit(c, o->p) + sunder_i_branching_limit(c, o->q);
+    const double r = reach / cos(TURN / (2 * DISC_SIDES));
     for (int k = 0; k < DISC_SIDES; k++) {
         room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);
         room.xy[2 * k + 1] = r * sin(TURN * k / DISC_SIDES);
     }
-    for (size_t k = 0; k < c->claims; k++) {
+    const bool takes_part = j != SUNDER_I_GROUND || !(sunder_i_branching_limit(c, o->q) > 0);
+    for (size_t k = 0; k < c->claims && takes_part; k++) {
         const sunder_i_claim *s = &c->claim[k];
         const double behind[2] = {-s->n[0], -s->n[1]};
         if (s->i == i && s->j == j) cut(&room, s->n, s->d);
@@ -60,9 +63,9 @@ static area room_of(const sunder_i_branching *c, uint32_t i, uint32_t j)
 }
 
 /* How many ways are open to a pair, roughly, at most `most`. */
-static size_t count_ways(const sunder_i_branching *c, uint32_t i, uint32_t j, size_t ways, size_t most)
+static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t most)
 {
-    const area room = room_of(c, i, j);
+    const area room = room_of(c, o);
     size_t open = 0;
     for (size_t k = 0; k < ways && open < most; k++) {
         double best = -INFINITY;
@@ -78,10 +81,9 @@ static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, s
 {
     size_t best = 0, fewest = SIZE_MAX;
     for (size_t k = 0; k < n && fewest && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
-        const uint32_t i = sunder_i_branching_place(c, deepest[k].p), j = sunder_i_branching_place(c, deepest[k].q);
         *ways = sunder_i_branching_ways(c, &deepest[k]);
         if (c->failed) return 0;
-        const size_t open = count_ways(c, i, j, *ways, fewest);
+        const size_t open = count_ways(c, &deepest[k], *ways, fewest);
         c->looked += *ways * 4;
         if (open >= fewest) continue;
         fewest = open;
@@ -146,7 +148,7 @@ static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, siz
     if (!sunder_i_reserve(&c->claim, &c->claim_capacity, c->claims + 1, sizeof *c->claim)) return false;
     const sunder_i_way *w = &c->way[way];
     const double sign = behind ? -1 : 1;
-    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && j < c->bodies && i != j);
+    SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < c->bodies && (j < c->bodies || j == SUNDER_I_GROUND) && i != j);
     c->claim[c->claims++] = (sunder_i_claim){.i = i,
                                              .j = j,
                                              .n = {sign * w->n[0], sign * w->n[1]},
@@ -162,7 +164,8 @@ static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, siz
 static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
-    const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
+    const uint32_t i = sunder_i_branching_join(c, o->p), j = sunder_i_branching_join(c, o->q);
+    if (c->failed) return sunder_i_no_memory(err);
     const size_t first = c->node[node].way, end = first + c->node[node].ways, claims = c->claims, bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
     if (!t) return sunder_i_no_memory(err);

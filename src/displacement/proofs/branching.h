@@ -20,7 +20,7 @@ typedef struct sunder_i_levels {
 
 /* What a branch of the tree says: that a pair is beyond a line, or behind it. */
 typedef struct sunder_i_claim {
-    uint32_t i, j;  /* places in sunder_i_branching.body */
+    uint32_t i, j;  /* places in sunder_i_branching.body, or SUNDER_I_GROUND: what does not move */
     double n[2], d; /* n.(t_j - t_i) >= d */
     double force;   /* in the last program */
     size_t node, way;
@@ -46,7 +46,7 @@ typedef struct sunder_i_node {
 typedef struct sunder_i_branching {
     const sunder_i_subproblem *subproblem;
     const sunder_i_model *model;
-    /* Those that take part so far, in the order in which they came in. */
+    /* Those that may move and take part so far, in the order in which they came in. */
     uint32_t *body;
     double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
     size_t bodies;
@@ -82,8 +82,12 @@ static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
 
 /* ---- participants.c ---------------------------------------------------------------------------------------------- */
 
-/* The place of a body among those that take part; it is taken in if it was not there. */
-uint32_t sunder_i_branching_place(sunder_i_branching *branching, uint32_t body);
+/* How far a body may go: 0 if it is fixed. */
+double sunder_i_branching_limit(const sunder_i_branching *branching, uint32_t body);
+/* The place of a body among those that take part; SUNDER_I_GROUND: it is none of them, or cannot move. */
+uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t body);
+/* The same, and it is taken in if it was not there; SUNDER_I_GROUND: it cannot move. */
+uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body);
 /* Takes in those of the reserve that could meet one that takes part; false if there are none. */
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What features f and g of two bodies owe each other; false if nothing. */
@@ -108,7 +112,7 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
 /* Two convex pieces that the candidate has nearer than they owe; or an anchor, and a piece that it jumped over. */
 typedef struct sunder_i_violation {
-    uint32_t p, q; /* bodies; p takes part */
+    uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
     bool shadow; /* a or b is an anchor, and in the shadow of the other */

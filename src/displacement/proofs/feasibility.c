@@ -40,7 +40,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     for (size_t k = 0; k < subproblem->bodies && limited; k++) {
         const sunder_i_body *b = &subproblem->model->body[subproblem->body[k]];
         limited = limited && (b->fixed || isfinite(b->limit));
-        sunder_i_branching_place(&c, subproblem->body[k]);
+        sunder_i_branching_join(&c, subproblem->body[k]);
     }
     sunder_status status = c.failed ? sunder_i_no_memory(err) : SUNDER_OK;
     sunder_i_levels levels;

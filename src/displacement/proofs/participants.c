@@ -9,17 +9,33 @@
  * limit, and more than what rounding does to places (ways.c). */
 static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limit)
 {
-    const sunder_i_body *first = &c->model->body[c->body[0]];
+    const sunder_i_body *first = &c->model->body[c->subproblem->body[0]];
     double size = 0;
     for (size_t x = 0; x < 4; x++) size += fabs(b->box[x]) + fabs(b->origin[x & 1] - first->origin[x & 1]);
     c->longest = fmax(c->longest, limit);
     c->hair = fmax(c->hair, fmax(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
 }
 
-uint32_t sunder_i_branching_place(sunder_i_branching *c, uint32_t body)
+double sunder_i_branching_limit(const sunder_i_branching *c, uint32_t body)
+{
+    const sunder_i_body *b = &c->model->body[body];
+    return b->fixed ? 0 : b->limit;
+}
+
+uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
 {
     for (uint32_t k = 0; k < c->bodies; k++)
         if (c->body[k] == body) return k;
+    return SUNDER_I_GROUND;
+}
+
+uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
+{
+    const uint32_t known = sunder_i_branching_place(c, body);
+    const double limit = sunder_i_branching_limit(c, body);
+    if (known != SUNDER_I_GROUND) return known;
+    set_scale(c, &c->model->body[body], limit);
+    if (!(limit > 0)) return SUNDER_I_GROUND;
     const size_t n = c->bodies + 1;
     if (!sunder_i_reserve(&c->body, &c->body_capacity, n, sizeof *c->body) ||
         !sunder_i_reserve(&c->limit, &c->limit_capacity, n, sizeof *c->limit) ||
@@ -31,13 +47,11 @@ uint32_t sunder_i_branching_place(sunder_i_branching *c, uint32_t body)
         c->failed = true;
         return 0;
     }
-    const sunder_i_body *b = &c->model->body[body];
     const uint32_t at = (uint32_t)c->bodies++;
     c->body[at] = body;
-    c->limit[at] = b->fixed ? 0 : b->limit;
-    c->mass[at] = c->limit[at] > 0 ? 1 : 0;
+    c->limit[at] = limit;
+    c->mass[at] = 1;
     c->t[2 * at] = c->t[2 * at + 1] = c->shift[2 * at] = c->shift[2 * at + 1] = 0;
-    set_scale(c, b, c->limit[at]);
     return at;
 }
 
@@ -68,8 +82,7 @@ static bool find_in_reach(sunder_i_branching *c, uint32_t of)
     for (size_t k = before; k < c->near.n; k++) {
         const uint32_t b = model->body_of[c->near.item[k]];
         const sunder_i_body *r = &model->body[b];
-        if ((r->fixed || isfinite(r->limit)) && sunder_i_set_has(q->reserve, q->reserves, b) &&
-            is_in_reach(model, p, r))
+        if (!r->fixed && isfinite(r->limit) && sunder_i_set_has(q->reserve, q->reserves, b) && is_in_reach(model, p, r))
             c->near.item[out++] = b;
     }
     c->near.n = out;
@@ -83,7 +96,7 @@ bool sunder_i_branching_widen(sunder_i_branching *c)
     for (size_t i = 0; i < before && c->subproblem->reserves && !c->failed; i++)
         if (!find_in_reach(c, c->body[i])) c->failed = true;
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);
-    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_branching_place(c, c->near.item[k]);
+    for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_branching_join(c, c->near.item[k]);
     return c->bodies > before;
 }
 

@@ -10,8 +10,10 @@
  *
  * Limits enter it as tangents, added where a solution oversteps one. The program pulls each body to a place, softly,
  * and asks a hair more of the claims than they say, so that its softness does not show. The place is the last solution,
- * and the program is solved again and again [proximal point method, Roc76]: so the pull vanishes, and with
- * it what it spoils of the forces' balance, where the claims contradict the limits by a millionth of them or less. */
+ * and the program is solved again and again [proximal point method, Roc76]: so the pull vanishes, and with it what it
+ * spoils of the forces' balance, where the claims contradict the limits by a millionth of them or less. Where that is
+ * too slow (two claims that all but oppose each other, of which a solution lies far off, where their lines meet), the
+ * program is made harder each time. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -36,11 +38,10 @@ static bool is_contradiction(sunder_i_branching *c)
         if (!(s->force > 0)) continue;
         won += s->force * s->d;
         all += s->force * fabs(s->d);
-        for (size_t x = 0; x < 2; x++) {
-            c->net[2 * s->j + x] += s->force * s->n[x];
-            c->net[2 * s->i + x] -= s->force * s->n[x];
-        }
+        for (size_t x = 0; x < 2; x++) c->net[2 * s->i + x] -= s->force * s->n[x];
         c->weight[s->i] += s->force;
+        if (s->j == SUNDER_I_GROUND) continue;
+        for (size_t x = 0; x < 2; x++) c->net[2 * s->j + x] += s->force * s->n[x];
         c->weight[s->j] += s->force;
     }
     for (size_t b = 0; b < c->bodies; b++) {
@@ -53,7 +54,7 @@ static bool is_contradiction(sunder_i_branching *c)
 bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
 {
     sunder_i_claim *last = &c->claim[c->claims - 1];
-    if (!(last->d > c->limit[last->i] + c->limit[last->j])) return false;
+    if (!(last->d > c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]))) return false;
     for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
     last->force = 1;
     return is_contradiction(c);
@@ -62,6 +63,12 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
 static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
+
+/* By how much the candidate misses what a claim says. */
+static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
+{
+    return s->d - (s->j == SUNDER_I_GROUND ? 0 : at(s->n, c->t + 2 * (size_t)s->j)) + at(s->n, c->t + 2 * (size_t)s->i);
+}
 
 /* Steps and tangents, as they look from the candidate. */
 static bool load(sunder_i_branching *c)
@@ -74,7 +81,7 @@ static bool load(sunder_i_branching *c)
     p->n = 0;
     for (size_t k = 0; k < c->claims; k++) {
         const sunder_i_claim *s = &c->claim[k];
-        const double d = s->d + c->hair - at(s->n, c->t + 2 * s->j) + at(s->n, c->t + 2 * s->i);
+        const double d = missed_by(c, s) + c->hair;
         p->constraint[p->n++] = (sunder_i_constraint){s->i, s->j, {s->n[0], s->n[1]}, d, s->force, k};
     }
     for (size_t k = 0; k < c->tangents; k++) {
@@ -100,10 +107,7 @@ static void take_over(sunder_i_branching *c)
 static double worst_claim(const sunder_i_branching *c)
 {
     double worst = 0;
-    for (size_t k = 0; k < c->claims; k++) {
-        const sunder_i_claim *s = &c->claim[k];
-        worst = fmax(worst, s->d - at(s->n, c->t + 2 * s->j) + at(s->n, c->t + 2 * s->i));
-    }
+    for (size_t k = 0; k < c->claims; k++) worst = fmax(worst, missed_by(c, &c->claim[k]));
     return worst;
 }
 
@@ -114,7 +118,7 @@ static size_t add_tangents(sunder_i_branching *c, double *worst)
     *worst = 0;
     for (uint32_t b = 0; b < c->bodies; b++) {
         const double *t = c->t + 2 * b, length = sqrt(at(t, t)), over = length - c->limit[b];
-        if (!(c->limit[b] > 0) || !(over > c->hair)) continue;
+        if (!(over > c->hair)) continue;
         *worst = fmax(*worst, over);
         const double n[2] = {-t[0] / length, -t[1] / length};
         bool known = false;
@@ -141,10 +145,11 @@ static void drop_idle_tangents(sunder_i_branching *c)
 
 sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
 {
-    double missed = INFINITY, over = INFINITY;
+    double missed = INFINITY, over = INFINITY, softness = SOFTNESS;
     drop_idle_tangents(c);
     for (int round = 0; round < ROUNDS && !sunder_i_branching_is_over(c); round++) {
-        if (!load(c) || sunder_i_quadratic_solve(&c->program, SOFTNESS, c->hair / SOLVED_TO, c->longest) < 0)
+        if (round >= SOFT_ROUNDS) softness = fmax(softness / HARDER, LEAST_SOFTNESS);
+        if (!load(c) || sunder_i_quadratic_solve(&c->program, softness, c->hair / SOLVED_TO, c->longest) < 0)
             return sunder_i_no_memory(err);
         if (!sunder_i_look()) return sunder_i_no_memory(err);
         take_over(c);

@@ -9,6 +9,11 @@
  * both only tell how soon a contradiction of a small part of the lengths shows. */
 #define SOFTNESS 1e-6
 #define ROUNDS 24
+/* What has not ended by then is made so many times harder each round, to the least: it ended one in twenty questions
+ * about buildings between roads. */
+#define SOFT_ROUNDS 4
+#define HARDER 10
+#define LEAST_SOFTNESS 1e-12
 /* It is solved to this part of a hair. */
 #define SOLVED_TO 4
 

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
 
@@ -54,9 +55,12 @@ typedef struct standing {
     double t[2];
 } standing;
 
-static standing stand(const sunder_i_branching *c, uint32_t place)
+static standing stand(const sunder_i_branching *c, uint32_t body)
 {
-    return (standing){c->body[place], &c->model->body[c->body[place]], {c->t[2 * place], c->t[2 * place + 1]}};
+    standing s = {.number = body, .body = &c->model->body[body]};
+    const uint32_t at = sunder_i_branching_place(c, body);
+    if (at != SUNDER_I_GROUND) memcpy(s.t, c->t + 2 * (size_t)at, sizeof s.t);
+    return s;
 }
 
 static void look_at(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
@@ -160,10 +164,10 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
 {
     size_t n = 0;
     for (uint32_t i = 0; i < c->bodies; i++) {
-        const standing s = stand(c, i);
+        const standing s = stand(c, c->body[i]);
         for (uint32_t j = i + 1; j < c->bodies; j++) {
             sunder_i_violation o = {.depth = 2 * c->hair};
-            const standing r = stand(c, j);
+            const standing r = stand(c, c->body[j]);
             look_at_all(c, &s, &r, &o);
             n = insert(deepest, n, &o);
         }
@@ -171,10 +175,8 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
         if (!find_near(c, &s)) c->failed = true;
         for (size_t k = 0; k < c->near.n && !c->failed; k++) {
             sunder_i_violation o = {.depth = 2 * c->hair};
-            bool known = false;
-            for (uint32_t j = 0; j < c->bodies && !known; j++) known = c->body[j] == c->near.item[k];
-            if (known) continue;
-            const standing r = {.number = c->near.item[k], .body = &c->model->body[c->near.item[k]]};
+            if (sunder_i_branching_place(c, c->near.item[k]) != SUNDER_I_GROUND) continue;
+            const standing r = stand(c, c->near.item[k]);
             look_at_all(c, &s, &r, &o);
             n = insert(deepest, n, &o);
         }
@@ -191,7 +193,7 @@ static int by_nearness(const void *a, const void *b)
 
 size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
-    const standing s = stand(c, sunder_i_branching_place(c, o->p)), r = stand(c, sunder_i_branching_place(c, o->q));
+    const standing s = stand(c, o->p), r = stand(c, o->q);
     const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance, o->shadow);
     const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     depth_of(c, n, u);
