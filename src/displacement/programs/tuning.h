@@ -41,6 +41,11 @@
  * pieces), and any split of their force will do. Far above rounding, far below what the tolerance shows. */
 #define RAISED 1e-11
 
+/* ---- Nearest place (nearest.c) ----------------------------------------------------------------------------------- */
+
+/* Steps, which are some for each constraint that acts in the end. */
+#define MOST_NEAREST 1000
+
 /* ---- Interior point ---------------------------------------------------------------------------------------------- */
 
 /* Steps, of which a dozen or two are the rule; one that is shorter than the least leads nowhere. */

@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_BRANCHING_H
 #define SUNDER_I_BRANCHING_H
 
-#include "displacement/programs/quadratic.h"
+#include "displacement/programs/nearest.h"
 #include "displacement/proofs/feasibility.h"
 #include "displacement/proofs/ways.h"
 
@@ -28,12 +28,6 @@ typedef struct sunder_i_claim {
     unsigned level; /* of the branch that says so */
 } sunder_i_claim;
 
-/* A tangent of a body's limit. */
-typedef struct sunder_i_tangent {
-    uint32_t body;
-    double n[2], force;
-} sunder_i_tangent;
-
 /* A node of the tree, as of sunder_proof_node; its parts are pieces of the model. */
 typedef struct sunder_i_node {
     uint32_t a, b; /* features */
@@ -48,17 +42,16 @@ typedef struct sunder_i_branching {
     const sunder_i_model *model;
     /* Those that may move and take part so far, in the order in which they came in. */
     uint32_t *body;
-    double *limit, *mass, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
+    double *limit, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
     size_t bodies;
-    size_t body_capacity, limit_capacity, mass_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
+    size_t body_capacity, limit_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
     double longest;        /* limit */
     double hair;           /* a length far below the limits, and far above rounding */
     uint64_t looked;       /* work done besides the programs' */
     sunder_i_claim *claim; /* what the branches down to the node at hand say */
     size_t claims, claim_capacity;
-    sunder_i_tangent *tangent;
-    size_t tangents, tangent_capacity;
     sunder_i_quadratic program;
+    sunder_i_nearest nearest;
     /* The record. */
     sunder_i_node *node;
     size_t nodes, node_capacity;

@@ -18,13 +18,12 @@
 static void clear(sunder_i_branching *c)
 {
     sunder_i_free(c->limit);
-    sunder_i_free(c->mass);
     sunder_i_free(c->shift);
     sunder_i_free(c->net);
     sunder_i_free(c->weight);
     sunder_i_free(c->claim);
-    sunder_i_free(c->tangent);
     sunder_i_free(c->program.constraint);
+    sunder_i_nearest_free(&c->nearest);
     sunder_i_free(c->node);
     sunder_i_free(c->way);
     sunder_i_free(c->force);

@@ -39,7 +39,6 @@ uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
     const size_t n = c->bodies + 1;
     if (!sunder_i_reserve(&c->body, &c->body_capacity, n, sizeof *c->body) ||
         !sunder_i_reserve(&c->limit, &c->limit_capacity, n, sizeof *c->limit) ||
-        !sunder_i_reserve(&c->mass, &c->mass_capacity, n, sizeof *c->mass) ||
         !sunder_i_reserve(&c->weight, &c->weight_capacity, n, sizeof *c->weight) ||
         !sunder_i_reserve(&c->t, &c->t_capacity, 2 * n, sizeof *c->t) ||
         !sunder_i_reserve(&c->shift, &c->shift_capacity, 2 * n, sizeof *c->shift) ||
@@ -50,7 +49,6 @@ uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
     const uint32_t at = (uint32_t)c->bodies++;
     c->body[at] = body;
     c->limit[at] = limit;
-    c->mass[at] = 1;
     c->t[2 * at] = c->t[2 * at + 1] = c->shift[2 * at] = c->shift[2 * at + 1] = 0;
     return at;
 }

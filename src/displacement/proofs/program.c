@@ -8,20 +8,15 @@
  * for any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
  * section 5.8]. The program's own forces are tried, whatever it restored with.
  *
- * Limits enter it as tangents, added where a solution oversteps one. The program pulls each body to a place, softly,
- * and asks a hair more of the claims than they say, so that its softness does not show. The place is the last solution,
- * and the program is solved again and again [proximal point method, Roc76]: so the pull vanishes, and with it what it
- * spoils of the forces' balance, where the claims contradict the limits by a millionth of them or less. Where that is
- * too slow (two claims that all but oppose each other, of which a solution lies far off, where their lines meet), the
- * program is made harder each time. */
+ * Limits enter it as tangents, added where a solution oversteps one. The program asks for the solution nearest to the
+ * last candidate (programs/nearest.c), which kept all but the last claim, and so is few steps away; and a hair more
+ * than the claims say. What has a solution but not with that hair is asked without. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
 #include "base/watch.h"
 
 #include <math.h>
-
-#define TANGENT UINT64_MAX
 
 /* ---- The sum ----------------------------------------------------------------------------------------------------- */
 
@@ -70,97 +65,84 @@ static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
     return s->d - (s->j == SUNDER_I_GROUND ? 0 : at(s->n, c->t + 2 * (size_t)s->j)) + at(s->n, c->t + 2 * (size_t)s->i);
 }
 
-/* Steps and tangents, as they look from the candidate. */
-static bool load(sunder_i_branching *c)
+/* One more constraint: body b may not go beyond its limit where it is on its way to there, as that looks from the
+ * candidate. False if it is there already. */
+static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
 {
     sunder_i_quadratic *p = &c->program;
-    if (!sunder_i_reserve(&p->constraint, &p->capacity, c->claims + c->tangents, sizeof *p->constraint)) return false;
+    const double length = sqrt(at(to, to)), n[2] = {-to[0] / length, -to[1] / length};
+    for (size_t k = c->claims; k < p->n; k++)
+        if (p->constraint[k].j == b && at(n, p->constraint[k].n) > SAME_TANGENT) return false;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
+        c->failed = true;
+        return false;
+    }
+    p->constraint[p->n++] = (sunder_i_constraint){
+        .i = SUNDER_I_GROUND, .j = b, .n = {n[0], n[1]}, .d = -c->limit[b] - at(n, c->t + 2 * (size_t)b)};
+    return true;
+}
+
+/* Claims, of which that much more is asked, and tangents for those who stand at their limit. */
+static bool load(sunder_i_branching *c, double margin)
+{
+    sunder_i_quadratic *p = &c->program;
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, c->claims, sizeof *p->constraint)) return false;
     p->bodies = c->bodies;
-    p->mass = c->mass;
     p->t = c->shift;
     p->n = 0;
     for (size_t k = 0; k < c->claims; k++) {
         const sunder_i_claim *s = &c->claim[k];
-        const double d = missed_by(c, s) + c->hair;
-        p->constraint[p->n++] = (sunder_i_constraint){s->i, s->j, {s->n[0], s->n[1]}, d, s->force, k};
-    }
-    for (size_t k = 0; k < c->tangents; k++) {
-        const sunder_i_tangent *s = &c->tangent[k];
-        const double d = -c->limit[s->body] - at(s->n, c->t + 2 * s->body);
         p->constraint[p->n++] =
-            (sunder_i_constraint){SUNDER_I_GROUND, s->body, {s->n[0], s->n[1]}, d, s->force, TANGENT - k};
+            (sunder_i_constraint){.i = s->i, .j = s->j, .n = {s->n[0], s->n[1]}, .d = missed_by(c, s) + margin};
     }
-    return true;
-}
-
-static void take_over(sunder_i_branching *c)
-{
-    const sunder_i_quadratic *p = &c->program;
-    for (size_t k = 0; k < p->n; k++) {
-        const sunder_i_constraint *e = &p->constraint[k];
-        *(e->key < c->claims ? &c->claim[e->key].force : &c->tangent[TANGENT - e->key].force) = e->force;
-    }
-    for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
-}
-
-/* By how much the candidate misses a claim at worst. */
-static double worst_claim(const sunder_i_branching *c)
-{
-    double worst = 0;
-    for (size_t k = 0; k < c->claims; k++) worst = fmax(worst, missed_by(c, &c->claim[k]));
-    return worst;
-}
-
-/* Tangents where the candidate oversteps a limit; how many, and the longest overstep. */
-static size_t add_tangents(sunder_i_branching *c, double *worst)
-{
-    size_t added = 0;
-    *worst = 0;
     for (uint32_t b = 0; b < c->bodies; b++) {
-        const double *t = c->t + 2 * b, length = sqrt(at(t, t)), over = length - c->limit[b];
-        if (!(over > c->hair)) continue;
-        *worst = fmax(*worst, over);
-        const double n[2] = {-t[0] / length, -t[1] / length};
-        bool known = false;
-        for (size_t k = 0; k < c->tangents && !known; k++)
-            known = c->tangent[k].body == b && at(n, c->tangent[k].n) > 1 - 0x1p-40;
-        if (known) continue;
-        if (!sunder_i_reserve(&c->tangent, &c->tangent_capacity, c->tangents + 1, sizeof *c->tangent)) {
-            c->failed = true;
-            return 0;
-        }
-        c->tangent[c->tangents++] = (sunder_i_tangent){b, {n[0], n[1]}, 0};
-        added++;
+        const double *t = c->t + 2 * (size_t)b;
+        if (sqrt(at(t, t)) > AT_LIMIT * c->limit[b]) add_tangent(c, b, t);
+    }
+    return !c->failed && sunder_i_nearest_begin(&c->nearest, p);
+}
+
+/* Tangents where the solution oversteps a limit; false: there is none to add. */
+static bool add_tangents(sunder_i_branching *c)
+{
+    bool added = false;
+    for (uint32_t b = 0; b < c->bodies; b++) {
+        const double t[2] = {c->t[2 * b] + c->shift[2 * b], c->t[2 * b + 1] + c->shift[2 * b + 1]};
+        if (sqrt(at(t, t)) > c->limit[b] + c->hair) added = add_tangent(c, b, t) || added;
     }
     return added;
 }
 
-static void drop_idle_tangents(sunder_i_branching *c)
+/* Does the solution keep the limits, and say what the claims do, up to a hair? Then it is the candidate. */
+static bool is_candidate(sunder_i_branching *c)
 {
-    size_t out = 0;
-    for (size_t k = 0; k < c->tangents; k++)
-        if (c->tangent[k].force > 0) c->tangent[out++] = c->tangent[k];
-    c->tangents = out;
+    double worst = 0;
+    for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
+    for (size_t k = 0; k < c->claims; k++) worst = fmax(worst, missed_by(c, &c->claim[k]));
+    for (size_t b = 0; b < c->bodies; b++) worst = fmax(worst, sqrt(at(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
+    return worst <= c->hair;
+}
+
+static sunder_i_node_outcome solve(sunder_i_branching *c)
+{
+    sunder_i_quadratic *p = &c->program;
+    sunder_i_nearest_outcome outcome = SUNDER_I_NEAREST_FOUND;
+    for (int round = 0; round < ROUNDS && outcome == SUNDER_I_NEAREST_FOUND; round++) {
+        outcome = sunder_i_nearest_go_on(&c->nearest, p, c->t, c->limit, c->hair / SOLVED_TO);
+        if (outcome != SUNDER_I_NEAREST_FOUND || !add_tangents(c)) break;
+    }
+    for (size_t k = 0; k < c->claims; k++) c->claim[k].force = p->constraint[k].force;
+    if (outcome == SUNDER_I_NEAREST_NONE && is_contradiction(c)) return SUNDER_I_NODE_INFEASIBLE;
+    return outcome == SUNDER_I_NEAREST_FOUND && is_candidate(c) ? SUNDER_I_NODE_CANDIDATE : SUNDER_I_NODE_UNDECIDED;
 }
 
 sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
 {
-    double missed = INFINITY, over = INFINITY, softness = SOFTNESS;
-    drop_idle_tangents(c);
-    for (int round = 0; round < ROUNDS && !sunder_i_branching_is_over(c); round++) {
-        if (round >= SOFT_ROUNDS) softness = fmax(softness / HARDER, LEAST_SOFTNESS);
-        if (!load(c) || sunder_i_quadratic_solve(&c->program, softness, c->hair / SOLVED_TO, c->longest) < 0)
-            return sunder_i_no_memory(err);
-        if (!sunder_i_look()) return sunder_i_no_memory(err);
-        take_over(c);
-        *outcome = SUNDER_I_NODE_INFEASIBLE;
-        if (is_contradiction(c)) return SUNDER_OK;
-        missed = worst_claim(c);
-        add_tangents(c, &over);
-        if (c->failed) return sunder_i_no_memory(err);
-        *outcome = SUNDER_I_NODE_CANDIDATE;
-        if (missed <= c->hair && over <= c->hair) return SUNDER_OK;
-    }
     *outcome = SUNDER_I_NODE_UNDECIDED;
+    for (int hairs = 1; hairs >= 0 && *outcome == SUNDER_I_NODE_UNDECIDED; hairs--) {
+        if (!load(c, hairs * c->hair)) return sunder_i_no_memory(err);
+        *outcome = solve(c);
+        if (c->failed || !sunder_i_look()) return sunder_i_no_memory(err);
+    }
     return SUNDER_OK;
 }

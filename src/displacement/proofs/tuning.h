@@ -5,17 +5,13 @@
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
-/* Its softness, and how often it is solved again about its last solution. The pull to a place is weaker each time, so
- * both only tell how soon a contradiction of a small part of the lengths shows. */
-#define SOFTNESS 1e-6
-#define ROUNDS 24
-/* What has not ended by then is made so many times harder each round, to the least: it ended one in twenty questions
- * about buildings between roads. */
-#define SOFT_ROUNDS 4
-#define HARDER 10
-#define LEAST_SOFTNESS 1e-12
-/* It is solved to this part of a hair. */
+/* It is solved to this part of a hair, with tangents so often. */
 #define SOLVED_TO 4
+#define ROUNDS 48
+/* A tangent is the same as another up to this cosine: there is less than a hair between them. Who is so far on the way
+ * to the limit has one from the start. */
+#define SAME_TANGENT (1 - 0x1p-40)
+#define AT_LIMIT 0.999
 
 /* ---- The branches (branches.c, violations.c) --------------------------------------------------------------------- */
 
