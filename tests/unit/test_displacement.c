@@ -143,6 +143,22 @@ static void check_chain_without_room(void **state)
     scene_end(&s);
 }
 
+/* Twelve houses wall to wall, each of which may go a third of the way that would make room for the gaps: all that stays
+ * is proved to, though each pair by itself has room. */
+static void check_row_without_room(void **state)
+{
+    scene s;
+    scene_begin(&s, 3);
+    for (int k = 0; k < 12; k++)
+        scene_add_box(&s, 11 * k + (k % 3) * 0x1p-6, (k % 2) * 0x1p-5, 10, 10)->max_shift = 3.5;
+    scene_separate(&s);
+    size_t n;
+    const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
+    assert_true(n > 0);
+    for (size_t k = 0; k < n; k++) assert_int_equal(c[k].reason, SUNDER_REASON_NO_ROOM);
+    scene_end(&s);
+}
+
 static void check_courtyard(void **state)
 {
     scene s;
@@ -278,17 +294,12 @@ static void check_within(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_nothing),
-        cmocka_unit_test(check_two_squares),
-        cmocka_unit_test(check_weights),
-        cmocka_unit_test(check_fixed),
-        cmocka_unit_test(check_limits),
-        cmocka_unit_test(check_chain_without_room),
-        cmocka_unit_test(check_courtyard),
-        cmocka_unit_test(check_narrow_yard),
-        cmocka_unit_test(check_yard_without_gate),
-        cmocka_unit_test(check_nothing_worse),
-        cmocka_unit_test(check_ignored),
+        cmocka_unit_test(check_nothing),          cmocka_unit_test(check_two_squares),
+        cmocka_unit_test(check_weights),          cmocka_unit_test(check_fixed),
+        cmocka_unit_test(check_limits),           cmocka_unit_test(check_chain_without_room),
+        cmocka_unit_test(check_row_without_room), cmocka_unit_test(check_courtyard),
+        cmocka_unit_test(check_narrow_yard),      cmocka_unit_test(check_yard_without_gate),
+        cmocka_unit_test(check_nothing_worse),    cmocka_unit_test(check_ignored),
         cmocka_unit_test(check_within),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

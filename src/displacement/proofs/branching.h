@@ -98,7 +98,8 @@ typedef enum sunder_i_node_outcome {
 
 sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_node_outcome *outcome,
                                        sunder_error *err);
-/* Is the last claim alone more than the limits allow? Then the forces are set to say so. */
+/* Is the last claim, alone or with another of the same pair, more than the limits allow? Then the forces are set to say
+ * so. */
 bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */

@@ -29,6 +29,9 @@ typedef struct sunder_i_subproblem {
     size_t required_n;
     const uint32_t *feature; /* NULL, or the only things to be heeded, likewise, ascending */
     size_t features;
+    /* Lines between pairs may be short by this share of how far the two may go: then proofs are smaller, and a
+     * solution is none; 0: what is feasible is so up to a hair. */
+    double coarse;
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;

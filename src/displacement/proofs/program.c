@@ -46,13 +46,34 @@ static bool is_contradiction(sunder_i_branching *c)
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
 
+/* Forces on two claims of one pair, such that they balance at the shortest relative move that is as both say; false if
+ * one alone tells that move. */
+static bool balance(sunder_i_claim *p, sunder_i_claim *q)
+{
+    const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
+    const double square = fmax(1 - cosine * cosine, 0x1p-100);
+    p->force = p->d - cosine * q->d;
+    q->force = q->d - cosine * p->d;
+    if (!(p->force > 0) || !(q->force > 0)) return false;
+    p->force /= square;
+    q->force /= square;
+    return true;
+}
+
 bool sunder_i_branching_is_dead_end(sunder_i_branching *c)
 {
     sunder_i_claim *last = &c->claim[c->claims - 1];
-    if (!(last->d > c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]))) return false;
+    const double reach = c->limit[last->i] + (last->j == SUNDER_I_GROUND ? 0 : c->limit[last->j]);
     for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 0;
     last->force = 1;
-    return is_contradiction(c);
+    if (last->d > reach && is_contradiction(c)) return true;
+    for (size_t k = 0; k + 1 < c->claims; k++) {
+        sunder_i_claim *other = &c->claim[k];
+        if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
+        if (balance(last, other) && is_contradiction(c)) return true;
+        other->force = 0;
+    }
+    return false;
 }
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */

@@ -17,12 +17,15 @@ static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
                         const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
 {
     const sunder_i_model *model = c->model;
+    const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q),
+                 coarse = isfinite(reach) ? c->subproblem->coarse * reach : 0;
     sunder_i_parting parting = {.a = model->corner + 2 * (size_t)a->corner,
                                 .b = model->corner + 2 * (size_t)b->corner,
                                 .na = a->corners,
                                 .nb = b->corners,
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
-                                .clearance = clearance};
+                                .clearance = clearance,
+                                .coarse = coarse};
     /* Corners of rational shapes are known as the nearest doubles. */
     for (int x = 0; x < 4; x++) {
         if (is_rational(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);

@@ -14,6 +14,10 @@
  *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
  *              |
  *
+ * Edges that turn by little, or not at all (two walls that face each other make one each), have one line for all, that
+ * of their chord: two that are the same but for rounding would each be a case, and the cases of a row of houses double
+ * with each.
+ *
  * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a
  * clearance, has all of u + v in it, then u is not such; so the half-planes move inward by s.
  *
@@ -29,6 +33,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 #define UNIT 0x1p-50
 
@@ -37,6 +42,8 @@
 /* Up to these one line, or two, go round a corner, else four. */
 #define SLIGHT 0.92
 #define SQUARE -0.01
+/* Edges that one line may tell of. */
+#define MOST_IN_RUN 16
 
 typedef struct side {
     double n[2], tilt;
@@ -61,11 +68,54 @@ static void add(walk *w, const double n[2], double base, double off)
     w->way[w->n++] = (sunder_i_way){.n = {n[0], n[1]}, .d = d + off};
 }
 
-static void add_edge(walk *w, const side *s, const double p[2], const double q[2])
+/* Edges of K, one after the other, of which one line tells: that of their chord. */
+typedef struct run {
+    double corner[2 * (MOST_IN_RUN + 1)];
+    size_t edges;
+    side first, last;
+} run;
+
+static void begin_run(run *r, const double from[2], const double to[2], const side *s)
 {
-    const double g = w->parting->clearance;
-    const double off = g >= 0 ? g * fmax(0, 1 - 2 * UNIT - s->tilt * s->tilt) : g * (1 + 2 * UNIT);
-    add(w, s->n, fmin(dot(s->n, p), dot(s->n, q)), off);
+    memcpy(r->corner, from, 2 * sizeof *from);
+    memcpy(r->corner + 2, to, 2 * sizeof *to);
+    r->edges = 1;
+    r->first = r->last = *s;
+}
+
+/* Can the two, of which the second goes on where the first ends, be told of by one line? Between edges that turn by t,
+ * a chord of length l is no more than l tan(t / 2) / 2 from any corner, or l t / 2 where t is small. */
+static bool can_join(const walk *w, const run *r, const run *next)
+{
+    const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
+    const double *p = r->corner, *q = next->corner + 2 * next->edges;
+    return r->edges + next->edges <= MOST_IN_RUN && dot(r->first.n, next->last.n) > SLIGHT &&
+           fabs(sine) * hypot(q[0] - p[0], q[1] - p[1]) / 2 <= fmax(w->parting->coarse, w->slack);
+}
+
+static void join(run *r, const run *next)
+{
+    memcpy(r->corner + 2 * (r->edges + 1), next->corner + 2, 2 * next->edges * sizeof *r->corner);
+    r->edges += next->edges;
+    r->last = next->last;
+}
+
+/* Every corner of the run is beyond its line, and so is what stands off by the gap in the direction of any normal of
+ * the run, which is the line's up to a share of the square of what they turn by. */
+static void add_run(walk *w, const run *r)
+{
+    const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;
+    const double length = hypot(q[0] - p[0], q[1] - p[1]);
+    side s = r->first;
+    if (r->edges > 1) {
+        s.n[0] = (q[1] - p[1]) / length;
+        s.n[1] = (p[0] - q[0]) / length;
+        s.tilt = fabs(r->first.n[0] * r->last.n[1] - r->first.n[1] * r->last.n[0]) + r->first.tilt + r->last.tilt;
+    }
+    double base = INFINITY;
+    for (size_t k = 0; k <= r->edges; k++) base = fmin(base, dot(s.n, r->corner + 2 * k));
+    const double off = g >= 0 ? g * fmax(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
+    add(w, s.n, base, off);
 }
 
 static void bisect(const double n1[2], const double n2[2], double out[2])
@@ -99,6 +149,35 @@ static void turn(walk *w, const double q[2], const side *from, const side *to)
     add_arc(w, q, from->n, to->n, from->tilt + to->tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
 }
 
+/* The next edge of K: it joins the last run, or is another. The first run may yet be joined by the last, and waits. */
+static void take_run(walk *w, run *first, run *last, const run *now)
+{
+    if (last->edges && can_join(w, last, now)) {
+        join(last, now);
+        return;
+    }
+    if (last->edges) turn(w, last->corner + 2 * last->edges, &last->last, &now->first);
+    if (last->edges && first->edges)
+        add_run(w, last);
+    else if (last->edges)
+        *first = *last;
+    *last = *now;
+}
+
+static void end_runs(walk *w, const run *first, run *last)
+{
+    if (first->edges == 0) {
+        add_run(w, last);
+    } else if (can_join(w, last, first)) {
+        join(last, first);
+        add_run(w, last);
+    } else {
+        turn(w, first->corner, &last->last, &first->first);
+        add_run(w, first);
+        add_run(w, last);
+    }
+}
+
 static void measure(walk *w)
 {
     const sunder_i_parting *p = w->parting;
@@ -125,8 +204,8 @@ size_t sunder_i_ways_between(const sunder_i_parting *p, sunder_i_way *out)
     /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
     const size_t a0 = sunder_i_extreme_corner(p->a, p->na, 1), b0 = sunder_i_extreme_corner(p->b, p->nb, -1);
     sunder_i_merge m = sunder_i_merge_of((uint32_t)p->na, (uint32_t)p->nb);
-    side first = {.tilt = -1}, last = first;
-    double start[2] = {0, 0}, from[2], to[2];
+    run first = {.edges = 0}, last = first;
+    double from[2], to[2];
     corner(p, a0, b0, from);
     for (;; from[0] = to[0], from[1] = to[1]) {
         const size_t a = (a0 + m.next_a) % p->na, a1 = (a + 1) % p->na, b = (b0 + m.next_b) % p->nb,
@@ -137,17 +216,10 @@ size_t sunder_i_ways_between(const sunder_i_parting *p, sunder_i_way *out)
         const double *e = m.of_a ? u : v, length = sqrt(dot(e, e));
         corner(p, (a0 + m.next_a) % p->na, (b0 + m.next_b) % p->nb, to);
         if (!(length > 0)) continue;
-        const side now = {{e[1] / length, -e[0] / length}, w.slack / length};
-        if (last.tilt >= 0) {
-            turn(&w, from, &last, &now);
-        } else {
-            first = now;
-            start[0] = from[0];
-            start[1] = from[1];
-        }
-        add_edge(&w, &now, from, to);
-        last = now;
+        run now;
+        begin_run(&now, from, to, &(side){{e[1] / length, -e[0] / length}, w.slack / length});
+        take_run(&w, &first, &last, &now);
     }
-    if (first.tilt >= 0) turn(&w, start, &last, &first);
+    if (last.edges) end_runs(&w, &first, &last);
     return w.holds ? w.n : 0;
 }

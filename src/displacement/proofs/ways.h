@@ -12,6 +12,7 @@ typedef struct sunder_i_parting {
     double offset[2]; /* the origin of B less that of A */
     double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
     double clearance;
+    double coarse; /* lines may be short by so much of what they could say, where one can stand for several */
 } sunder_i_parting;
 
 /* A half-plane of relative moves u of B. */

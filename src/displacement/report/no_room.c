@@ -182,6 +182,7 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
 typedef struct matter {
     uint32_t root, conflict;
     bool open;
+    bool fine; /* by coarse lines there is a solution */
 } matter;
 
 typedef struct asking {
@@ -203,7 +204,8 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     return farthest;
 }
 
-/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
+/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. First by lines that are a
+ * little coarse, which make smaller proofs; where that has a solution, as finely as can be. */
 static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     sunder_report *report = g->report;
@@ -213,8 +215,15 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2; /* it is met where it is near */
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
+    q->coarse = m->fine ? 0 : COARSE;
     sunder_i_decision decision;
     sunder_status status = sunder_i_decide(q, &decision, err);
+    if (!status && !m->fine && decision.verdict == SUNDER_I_FEASIBLE) {
+        sunder_i_decision_clear(&decision);
+        m->fine = true;
+        q->coarse = 0;
+        status = sunder_i_decide(q, &decision, err);
+    }
     sunder_proof **proof = &report->proof[m->conflict];
     *proof = decision.proof;
     decision.proof = NULL;
@@ -261,7 +270,7 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
         const sunder_conflict *c = &report->conflict[listed[k]];
         if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
-        list[open++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true};
+        list[open++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false};
     }
     if (open) qsort(list, open, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < open; k++)
