@@ -459,7 +459,7 @@ typedef struct sunder_barrier {
     sunder_obstacle geometry; /* borrowed; must outlive the layer. Empty: in the way of nothing */
     double width;             /* >= 0 and finite: the full drawn width; a polygon grows by half of it */
     double gap;               /* finite; from the drawn edge; negative: the layer's */
-    bool side;                /* its lines and boundaries may not be crossed; not honoured yet */
+    bool side;                /* its lines and boundaries may not be crossed: see sunder_layer_separate() */
 } sunder_barrier;
 
 /* The barriers of a layer, in place of those that it had. A pair of a feature and a barrier is one, however many lines
@@ -492,21 +492,22 @@ typedef enum sunder_conflict_kind {
     /* What sunder_layer_check_moves() finds, and nobody else; of one feature alone where b is SIZE_MAX: */
     SUNDER_CONFLICT_WORSE,          /* in conflict, and worse than it stood */
     SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and was allowed no more than `required` */
+    SUNDER_CONFLICT_SIDE,           /* a crossed a side of barrier b, on the way `from` - `to` of its side anchor */
     SUNDER_CONFLICT_JUMP,           /* a jumped over b, on the way `from` - `to` as b sees it */
     SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
 } sunder_conflict_kind;
 
-/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate", "worse", "limit", "jump",
+/* "overlap", "too_close", "barrier", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump",
  * "not_a_translate". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,       /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
-    SUNDER_REASON_FIXED,      /* neither may move */
-    SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone crosses no side of a barrier; not found yet */
-    SUNDER_REASON_JUMP,       /* proved: no solution of the pair alone within its limits is without a jump */
-    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
+    SUNDER_REASON_NONE,      /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT, /* proved: the pair cannot be parted, or brought inside, within both limits together */
+    SUNDER_REASON_FIXED,     /* neither may move */
+    SUNDER_REASON_SIDE,    /* proved: every solution of the pair alone within its limits crosses a side of a barrier */
+    SUNDER_REASON_JUMP,    /* proved: no solution of the pair alone within its limits is without a jump */
+    SUNDER_REASON_NO_ROOM, /* proved: the pair and all pairs not listed have no solution in which other listed
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
@@ -561,7 +562,7 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
                                             sunder_report **out, sunder_error *err);
 
 /* What broke a rule on the way from `before` to `after`, two layers of the same features in the same order, whoever
- * moved them: as the report's conflicts, of the four kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and what is
+ * moved them: as the report's conflicts, of the five kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and what is
  * fixed or ignored are those of `before`; options as for what moved it. Features of a block may have moved each by
  * itself: their rigidity is not asked for; nor what cannot be
  * known, the move of a repaired shape of which the repaired form was written. summary.verified: nothing was found.
@@ -580,7 +581,13 @@ SUNDER_API sunder_status sunder_layer_check_moves(const sunder_layer *before, co
  * Unless allow_jumps, no feature jumps over another: for every feature A with the anchor a (sunder_shape_anchor()) and
  * the move t, and every other B with the move s, that is neither ignored nor of A's block and does not hold a, the
  * closed segment from a to a + t - s, not rounded, does not meet B where it stood. So what stands in a yard that has no
- * room for it keeps its conflict, whatever its limit. */
+ * room for it keeps its conflict, whatever its limit.
+ *
+ * Nor does a feature cross a barrier that has sides: with c its side anchor, the closed segment from c to c + t meets
+ * none of the barrier's lines but such as c lies on, and none of its areas' edges of which c lies strictly on the outer
+ * side: so what stands in an area may leave it, and not come in again. The side anchor is an interior point of the
+ * largest part that all such lines and edges leave of the feature; the anchor, where none of them meets its interior:
+ * src/displacement/layer/side_anchor.c has the rule. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);
@@ -617,8 +624,10 @@ SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_repor
  * for those before.
  *
  * Where `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
- * hold; the other part is one of that feature. Any u at which the straight way of the anchor, as the other part sees
- * it, does not meet the interior of that part has n.u >= d for at least one of the node's ways: no clearance is asked.
+ * hold; the other part is one of that feature. Or b is a barrier, the corner is the side anchor of its feature, and the
+ * other part has two: a segment of the barrier's lines, or an edge of its areas, with the area on its left and the
+ * anchor on its right. Any u at which the straight way of the anchor, as the other part sees it, does not meet the
+ * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: no clearance is asked.
  *
  * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
  * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force

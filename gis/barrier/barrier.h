@@ -1,6 +1,6 @@
 /* barrier.h: what never moves, and keeps a distance of its own: the data sources of --barrier, as the core's barriers.
  *
- *   DATASET[,layer=NAME][,width=LENGTH|,width-field=FIELD][,gap=LENGTH][,as=area|boundary][,where=SQL]
+ *   DATASET[,layer=NAME][,width=LENGTH|,width-field=FIELD][,gap=LENGTH][,side=yes|no][,as=area|boundary][,where=SQL]
  */
 #ifndef GIS_BARRIER_H
 #define GIS_BARRIER_H
@@ -17,7 +17,7 @@ typedef struct gis_barrier_request {
     char *text; /* owned; what follows points into it, and is NULL where it was not given */
     const char *dataset, *layer, *width_field, *where;
     gis_optional_length width, gap;
-    bool as_boundary;
+    bool side, as_boundary;
 } gis_barrier_request;
 
 /* A failure is wrong usage, and nothing is to be cleared then. */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_LAYER, KEY_WIDTH, KEY_WIDTH_FIELD, KEY_GAP, KEY_AS, KEY_WHERE, N_KEYS };
-static const char *const keys[N_KEYS] = {"layer", "width", "width-field", "gap", "as", "where"};
+enum { KEY_LAYER, KEY_WIDTH, KEY_WIDTH_FIELD, KEY_GAP, KEY_SIDE, KEY_AS, KEY_WHERE, N_KEYS };
+static const char *const keys[N_KEYS] = {"layer", "width", "width-field", "gap", "side", "as", "where"};
 
 void gis_barrier_request_clear(gis_barrier_request *request)
 {
@@ -45,7 +45,7 @@ static bool unknown_key(const char *argument, const char *word, size_t n, gis_er
         return gis_fail_usage(error, "--barrier %s: %.*s is not known; did you mean %s=?", argument, (int)n, word,
                               search.best);
     return gis_fail_usage(error,
-                          "--barrier %s: %.*s is none of layer=, width=, width-field=, gap=, as=, where=; a "
+                          "--barrier %s: %.*s is none of layer=, width=, width-field=, gap=, side=, as=, where=; a "
                           "comma in a name is written \\,",
                           argument, (int)n, word);
 }
@@ -78,6 +78,7 @@ static bool take_value(const char *argument, int key, const char *value, gis_bar
     case KEY_WHERE: out->where = value; return true;
     case KEY_WIDTH: return take_length(argument, keys[key], value, &out->width, error);
     case KEY_GAP: return take_length(argument, keys[key], value, &out->gap, error);
+    case KEY_SIDE: return take_choice(argument, keys[key], value, "yes", "no", &out->side, error);
     default:
         if (!take_choice(argument, keys[key], value, "area", "boundary", &area, error)) return false;
         out->as_boundary = !area;
@@ -115,7 +116,7 @@ static bool take_words(const char *argument, gis_barrier_request *out, gis_error
 
 bool gis_barrier_parse(const char *text, gis_barrier_request *out, gis_error *error)
 {
-    gis_barrier_request parsed = {.text = malloc(strlen(text) + 1)};
+    gis_barrier_request parsed = {.text = malloc(strlen(text) + 1), .side = true};
     if (!parsed.text) return gis_no_memory(error);
     strcpy(parsed.text, text);
     if (!take_words(text, &parsed, error)) {

@@ -246,6 +246,7 @@ static bool make_barriers(const gis_barrier_request *requests, const double *dis
             .geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
             .width = f->width,
             .gap = requests[f->request].gap.text ? distance[f->request] : -1,
+            .side = requests[f->request].side,
         };
     }
     return true;

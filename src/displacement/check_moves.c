@@ -1,8 +1,9 @@
 /* What broke a rule on the way from one layer to another, whoever moved it.
  *
  * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
- * then asked for its limit, and with all others for the rule against jumps; and no pair that is in conflict afterwards
- * may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it was. */
+ * then asked for its limit, with all others for the rule against jumps, and for the sides of barriers; and no pair that
+ * is in conflict afterwards may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it
+ * was. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
@@ -85,23 +86,48 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
-/* Who jumped, and over whom: the one, or both over each other. */
-static sunder_status check_jumps(comparison *c, sunder_error *err)
+/* A feature's side anchor crossed a side of a part; of a barrier that is told once. */
+static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_error *err)
+{
+    const size_t barrier = c->number[part];
+    const sunder_conflict *last = c->n ? &c->found[c->n - 1] : NULL;
+    if (!c->translated[f] || (last && last->kind == SUNDER_CONFLICT_SIDE && last->a == f && last->b == barrier))
+        return SUNDER_OK;
+    sunder_conflict *found = add(c, SUNDER_CONFLICT_SIDE, f, barrier);
+    if (!found) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < 2; k++) {
+        found->from[k] = c->model.side_at[2 * (size_t)f + k];
+        found->to[k] = found->from[k] + c->move[2 * (size_t)f + k];
+    }
+    return SUNDER_OK;
+}
+
+static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_error *err)
+{
+    bool jumps = false;
+    if (!c->translated[f] || !c->translated[g]) return SUNDER_OK;
+    const sunder_status status = sunder_i_jumps_over(&c->jumps, &c->model, f, g, &jumps, err);
+    if (status || !jumps) return status;
+    sunder_conflict *found = add(c, SUNDER_CONFLICT_JUMP, f, g);
+    if (!found) return sunder_i_no_memory(err);
+    draw(c, f, c->move + 2 * (size_t)g, found);
+    return SUNDER_OK;
+}
+
+/* Who crossed which sides; who jumped, and over whom: the one, or both over each other. */
+static sunder_status check_ways(comparison *c, sunder_error *err)
 {
     c->jumps.own = c->move;
     sunder_status status = sunder_i_jumps_update(&c->jumps, &c->model, NULL, err);
-    for (size_t k = 0; k < c->jumps.n && !status; k++)
-        for (int e = 0; e < 2 && !status; e++) {
-            const uint32_t f = e ? c->jumps.pair[k].b : c->jumps.pair[k].a,
-                           g = e ? c->jumps.pair[k].a : c->jumps.pair[k].b;
-            bool jumps = false;
-            if (c->translated[f] && c->translated[g])
-                status = sunder_i_jumps_over(&c->jumps, &c->model, f, g, &jumps, err);
-            if (status || !jumps) continue;
-            sunder_conflict *found = add(c, SUNDER_CONFLICT_JUMP, f, g);
-            if (!found) return sunder_i_no_memory(err);
-            draw(c, f, c->move + 2 * (size_t)g, found);
+    for (size_t k = 0; k < c->jumps.n && !status; k++) {
+        const uint32_t a = c->jumps.pair[k].a, b = c->jumps.pair[k].b;
+        if (sunder_i_is_barrier(&c->model, b)) {
+            status = tell_side(c, a, b, err);
+            continue;
         }
+        status = tell_jump(c, a, b, err);
+        if (!status) status = tell_jump(c, b, a, err);
+    }
     return status;
 }
 
@@ -217,7 +243,7 @@ static sunder_status compare(comparison *c, const sunder_layer_options *options,
             status = check_feature(c, f, err);
         if (!status && !sunder_i_look()) status = sunder_i_cancelled(err);
     }
-    if (!status) status = check_jumps(c, err);
+    if (!status) status = check_ways(c, err);
     if (!status) status = check_pairs(c, *report, err);
     if (status) return status;
     sunder_i_free((*report)->conflict);

@@ -83,32 +83,30 @@ static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_sh
                                      e->den};
 }
 
-/* No unit of a coordinate is lower. */
-static long lowest_unit(const sunder_shape *p, const double *v, size_t n)
+/* No unit of a coordinate of vertex v is lower, nor than unit. */
+static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
 {
-    long unit = p->extent.low_bit;
-    for (uint32_t k = 0; k < p->vertices; k++) {
-        if (p->exact[k].den.size == 0) {
-            for (int c = 0; c < 2; c++) {
-                const int bit = sunder_i_low_bit(corner(p, k)[c]);
-                if (bit < unit) unit = bit;
-            }
-        } else if (p->exact[k].exponent < unit) {
-            unit = p->exact[k].exponent;
-        }
+    if (p->exact[v].den.size) return p->exact[v].exponent < unit ? p->exact[v].exponent : unit;
+    for (int c = 0; c < 2; c++) {
+        const int bit = sunder_i_low_bit(corner(p, v)[c]);
+        if (bit < unit) unit = bit;
     }
-    for (size_t k = 0; k < n; k++)
-        if (sunder_i_low_bit(v[k]) < unit) unit = sunder_i_low_bit(v[k]);
     return unit;
 }
 
-static bool put_all(rationals *r, const sunder_i_passage *way, const sunder_shape *p)
+/* Vertex i of those asked for: n of them in `which`, or all. */
+static uint32_t asked(const uint32_t *which, uint32_t i) { return which ? which[i] : i; }
+
+static bool put(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which, uint32_t n)
 {
     const double given[6] = {way->from[0], way->from[1], way->t[0], way->t[1], way->s[0], way->s[1]};
-    const long unit = lowest_unit(p, given, 6);
+    long unit = p->extent.low_bit;
+    for (uint32_t i = 0; i < n; i++) unit = lower_unit(p, asked(which, i), unit);
+    for (size_t k = 0; k < 6; k++)
+        if (sunder_i_low_bit(given[k]) < unit) unit = sunder_i_low_bit(given[k]);
     sunder_i_arena_init(&r->arena);
-    r->corner = sunder_i_arena_alloc(&r->arena, p->vertices, sizeof *r->corner);
-    for (uint32_t v = 0; v < p->vertices && !r->arena.failed; v++) r->corner[v] = put_corner(&r->arena, p, v, unit);
+    r->corner = sunder_i_arena_alloc(&r->arena, n, sizeof *r->corner);
+    for (uint32_t i = 0; i < n && !r->arena.failed; i++) r->corner[i] = put_corner(&r->arena, p, asked(which, i), unit);
     r->from = put_double(&r->arena, way->from, unit);
     r->to = sunder_i_rational_add(&r->arena, r->from, put_double(&r->arena, way->t, unit));
     r->to = sunder_i_rational_sub(&r->arena, r->to, put_double(&r->arena, way->s, unit));
@@ -150,16 +148,22 @@ static bool share_coordinates(const void *context)
     return true;
 }
 
+/* The edge from corner c to corner d, as they were put. */
+static bool meets_edge(rationals *r, uint32_t c, uint32_t d)
+{
+    const meeting m = {r, c, d};
+    const sunder_i_rational_point p = r->corner[c], q = r->corner[d];
+    return sunder_i_sides_meet(sunder_i_rational_orient(&r->arena, r->from, r->to, p),
+                               sunder_i_rational_orient(&r->arena, r->from, r->to, q),
+                               sunder_i_rational_orient(&r->arena, p, q, r->from),
+                               sunder_i_rational_orient(&r->arena, p, q, r->to), share_coordinates, &m);
+}
+
 static bool meets_rational(rationals *r, const sunder_shape *p)
 {
     for (uint32_t v = 0; v < p->vertices && !r->arena.failed; v++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&r->arena);
-        const meeting m = {r, v, p->next[v]};
-        const sunder_i_rational_point c = r->corner[m.c], d = r->corner[m.d];
-        const bool meets = sunder_i_sides_meet(sunder_i_rational_orient(&r->arena, r->from, r->to, c),
-                                               sunder_i_rational_orient(&r->arena, r->from, r->to, d),
-                                               sunder_i_rational_orient(&r->arena, c, d, r->from),
-                                               sunder_i_rational_orient(&r->arena, c, d, r->to), share_coordinates, &m);
+        const bool meets = meets_edge(r, v, p->next[v]);
         sunder_i_arena_release(&r->arena, mark);
         if (meets) return true;
     }
@@ -172,7 +176,8 @@ static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shap
 {
     rationals r;
     bool answer = false;
-    if (put_all(&r, way, p)) answer = holds ? holds_rational(&r, p) : meets_rational(&r, p) && !holds_rational(&r, p);
+    if (put(&r, way, p, NULL, p->vertices))
+        answer = holds ? holds_rational(&r, p) : meets_rational(&r, p) && !holds_rational(&r, p);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);
     if (failed) return sunder_i_no_memory(err);
@@ -201,5 +206,25 @@ sunder_status sunder_i_passes(const sunder_i_passage *way, const sunder_shape *p
     if (!sunder_i_box_meet(box, p->box)) return SUNDER_OK;
     if (p->rational) return ask_rational(way, p, NULL, passes, err);
     *passes = meets_doubles(way, box, p) && !(box_holds(p->box, way->from) && holds_doubles(p, way->from));
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_enters_by_edge(const sunder_i_passage *way, const sunder_shape *p, uint32_t v, bool *enters,
+                                      sunder_error *err)
+{
+    const uint32_t end[2] = {v, p->next[v]};
+    if (!p->rational || (p->exact[end[0]].den.size == 0 && p->exact[end[1]].den.size == 0)) {
+        const sunder_point c = point_of(corner(p, end[0])), d = point_of(corner(p, end[1])), at = point_of(way->from);
+        *enters = sunder_orient(&c, &d, &at) < 0 && sunder_i_passage_meets(way, corner(p, end[0]), corner(p, end[1]));
+        return SUNDER_OK;
+    }
+    rationals r;
+    bool answer = false;
+    if (put(&r, way, p, end, 2))
+        answer = sunder_i_rational_orient(&r.arena, r.corner[0], r.corner[1], r.from) < 0 && meets_edge(&r, 0, 1);
+    const bool failed = r.arena.failed;
+    sunder_i_arena_free(&r.arena);
+    if (failed) return sunder_i_no_memory(err);
+    *enters = answer;
     return SUNDER_OK;
 }

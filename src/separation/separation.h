@@ -26,6 +26,9 @@ sunder_status sunder_i_contained(const sunder_shape *p, const double tp[2], cons
 sunder_status sunder_i_holds(const sunder_shape *p, const double point[2], bool *holds, sunder_error *err);
 /* Does the passage, beginning outside the closed set P, meet it? Exact. One that begins in P does not. */
 sunder_status sunder_i_passes(const sunder_i_passage *passage, const sunder_shape *p, bool *passes, sunder_error *err);
+/* Does it begin strictly on the outer side of the edge from vertex v, and meet that, a closed segment? Exact. */
+sunder_status sunder_i_enters_by_edge(const sunder_i_passage *passage, const sunder_shape *p, uint32_t v, bool *enters,
+                                      sunder_error *err);
 /* sunder_pair_distance() of translated shapes. An empty operand: infinite, with both ends at the origin. */
 sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double *distance, double on_p[2], double on_q[2], sunder_error *err);

@@ -35,6 +35,7 @@ found '1 roads:1 barrier_near 3.048;' --barrier roads.gpkg,gap=10ft
 found '1 roads:1 barrier_near 3.125;' --barrier roads.gpkg,width=0.25mm --scale 25000
 found '' --barrier roads.gpkg,width-field=w,gap=1
 found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width-field=w,gap=1.25
+found '1 roads:1 barrier_near 3.25;' --barrier roads.gpkg,width=6.5,side=no
 found '1 roads:1 barrier_near 3.25;1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,width=6.5 --barrier roads.gpkg,gap=3.5
 says out 'barrier near 2'
 
@@ -131,6 +132,7 @@ wrong 'did you mean width=?' roads.gpkg,wdth=3
 wrong 'given twice' roads.gpkg,width=3,width=4
 wrong 'give one of them' roads.gpkg,width=3,width-field=w
 wrong 'name of the dataset is missing' ,width=3
+wrong 'must be yes or no' roads.gpkg,side=maybe
 wrong 'must be area or boundary' roads.gpkg,as=line
 wrong 'negative' roads.gpkg,gap=-1
 wrong 'negative' roads.gpkg,width=-1

@@ -144,10 +144,16 @@ static void test_jumps(void **state)
     ask(60, 2, 3, HAMLET_NO_JUMPS, 3);
 }
 
-static void test_jumps_and_barriers(void **state)
+static void test_sides(void **state)
 {
     (void)state;
-    ask(60, 1, 4, HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 4);
+    ask(60, 1, 3, HAMLET_SIDES, 4);
+}
+
+static void test_all_rules(void **state)
+{
+    (void)state;
+    ask(60, 1, 4, HAMLET_SIDES | HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 5);
 }
 
 /* ---- The oracle itself */
@@ -223,7 +229,8 @@ int main(void)
         cmocka_unit_test(test_four_and_five),
         cmocka_unit_test(test_barriers),
         cmocka_unit_test(test_jumps),
-        cmocka_unit_test(test_jumps_and_barriers),
+        cmocka_unit_test(test_sides),
+        cmocka_unit_test(test_all_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,8 @@ static void set_outline(house *h, const double *xy, size_t outer, size_t inner)
     h->rings = inner ? 2 : 1;
 }
 
-/* In units of the grid: a box, a triangle, a slanted quadrangle, an L, a U, a frame round a yard. */
+/* In units of the grid: a box, a triangle, a slanted quadrangle, an L, a U, a frame round a yard. Parts overlap: their
+ * interiors have to cover the feature's, so that no line finds room between two of them. */
 static void build(rng *r, house *h, double x, double y, double unit)
 {
     const double w = unit * (double)rng_int(r, 3, 8), d = unit * (double)rng_int(r, 3, 8), a = unit, b = unit;
@@ -51,20 +52,20 @@ static void build(rng *r, house *h, double x, double y, double unit)
     case 2:
         set_outline(h, l, 6, 0);
         add_box(h, x, y, w, b);
-        add_box(h, x, y + b, a, d - b);
+        add_box(h, x, y, a, d);
         break;
     case 3:
         set_outline(h, u, 8, 0);
         add_box(h, x, y, w, b);
-        add_box(h, x, y + b, a, d - b);
-        add_box(h, x + w - a, y + b, a, d - b);
+        add_box(h, x, y, a, d);
+        add_box(h, x + w - a, y, a, d);
         break;
     case 4:
         set_outline(h, frame, 4, 4);
         add_box(h, x, y, w, b);
         add_box(h, x, y + d - b, w, b);
-        add_box(h, x, y + b, a, d - 2 * b);
-        add_box(h, x + w - a, y + b, a, d - 2 * b);
+        add_box(h, x, y, a, d);
+        add_box(h, x + w - a, y, a, d);
         break;
     default: set_outline(h, box, 4, 0); add_box(h, x, y, w, d);
     }

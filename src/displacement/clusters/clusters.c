@@ -185,7 +185,8 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         sunder_i_cluster *c = &s->cluster[s->clusters++];
         for (end = first; end < s->members && s->member[end].root == s->member[first].root; end++) {
             const sunder_i_body *body = &s->model.body[s->member[end].body];
-            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY || !s->model.rules.jumps;
+            c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY ||
+                         sunder_i_forbids_ways(&s->model);
         }
         c->body = s->body + first;
         c->n = end - first;

@@ -3,7 +3,7 @@
  * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()), whichever those are: for a sliver they
  * may lie beside it. The rule is about the anchor as those doubles say it, so it is exact whatever they are; an anchor
  * never lies outside its feature's box, since rounding keeps order. */
-#include "displacement/layer/model.h"
+#include "displacement/layer/sides.h"
 
 #include "separation/separation.h"
 
@@ -40,7 +40,8 @@ static sunder_status find_holders(sunder_i_model *model, sunder_error *err)
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
-    if (model->rules.jumps) return SUNDER_OK;
+    const sunder_status status = sunder_i_model_find_sides(model, err);
+    if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
     model->anchor = sunder_i_calloc(model->things, sizeof *model->anchor);
     if (!model->anchor_at || !model->anchor) return sunder_i_no_memory(err);

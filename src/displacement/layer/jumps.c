@@ -1,13 +1,15 @@
-/* The rule against jumps, exactly, of features as they moved.
+/* The rule against jumps, and that of sides, exactly, of features as they moved.
  *
  * A feature's anchor a goes straight from a to a + (t - s), seen from another that moves by s: it may not meet that
  * other where it stood, unless it lay in it to begin with. If it does, then at some moment of both ways, walked evenly,
  * the anchor lies in the other as that stands then; so the boxes of their ways meet. A tree of these boxes gives the
- * pairs; separation/passes.c decides. */
+ * pairs; separation/passes.c decides. The parts of barriers that the way of a side anchor comes near are given by the
+ * model's tree, and sides.c decides. */
 #include "displacement/layer/jumps.h"
 
 #include "base/invariant.h"
 #include "base/parallel.h"
+#include "displacement/layer/sides.h"
 #include "separation/separation.h"
 
 #include <math.h>
@@ -67,6 +69,7 @@ static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, 
 sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
                                   bool *over, sunder_error *err)
 {
+    if (sunder_i_is_barrier(model, g)) return sunder_i_crosses_side(model, f, move_of(jumps, model, f), g, over, err);
     const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
     const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
     return sunder_i_passes(&way, model->layer->feature[g].shape, over, err);
@@ -82,6 +85,42 @@ static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model 
     return status || *any ? status : sunder_i_jumps_over(jumps, model, g, f, any, err);
 }
 
+/* ---- Sides ------------------------------------------------------------------------------------------------------- */
+
+/* Parts of barriers that the side anchor of f may have come near: appended. */
+static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
+{
+    const double *a = model->side_at + 2 * (size_t)f, *t = move_of(jumps, model, f);
+    const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
+    const size_t before = near->n;
+    double box[4];
+    if (t[0] == 0 && t[1] == 0) return true;
+    sunder_i_passage_box(&way, box);
+    if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
+    size_t kept = before;
+    for (size_t k = before; k < near->n; k++)
+        if (model->body[model->body_of[near->item[k]]].sides) near->item[kept++] = near->item[k];
+    near->n = kept;
+    return true;
+}
+
+/* Those whose side it crossed: appended. near: scratch. */
+static sunder_status find_crossed(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f,
+                                  sunder_i_list *near, sunder_i_list *found, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    near->n = 0;
+    if (!find_parts(jumps, model, f, near)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < near->n && !status; k++) {
+        bool crosses;
+        status = sunder_i_jumps_over(jumps, model, f, near->item[k], &crosses, err);
+        if (!status && crosses && !sunder_i_list_push(found, near->item[k])) status = sunder_i_no_memory(err);
+    }
+    return status;
+}
+
+/* ---- Pairs that break a rule ------------------------------------------------------------------------------------- */
+
 typedef struct pair_search {
     const sunder_i_jumps *jumps;
     const sunder_i_model *model;
@@ -90,23 +129,32 @@ typedef struct pair_search {
     sunder_i_list *found; /* [asked] partners that broke the rule; of two that are asked the lesser has it */
 } pair_search;
 
+static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list *list, sunder_error *err)
+{
+    size_t kept = 0;
+    sunder_status status = SUNDER_OK;
+    if (!sunder_i_rtree_query(&s->jumps->tree, s->jumps->way + 4 * (size_t)f, list)) return sunder_i_no_memory(err);
+    for (size_t i = 0; i < list->n && !status; i++) {
+        const uint32_t g = list->item[i];
+        bool jumps = false;
+        if (g > f || (s->changed && !s->changed[g])) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
+        if (jumps) list->item[kept++] = g;
+    }
+    list->n = kept;
+    return status;
+}
+
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
+    sunder_i_list near = {0};
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        const uint32_t f = s->asked[k];
-        sunder_i_list *list = &s->found[k];
-        if (!sunder_i_rtree_query(&s->jumps->tree, s->jumps->way + 4 * (size_t)f, list)) return sunder_i_no_memory(err);
-        size_t kept = 0;
-        for (size_t i = 0; i < list->n && !status; i++) {
-            const uint32_t g = list->item[i];
-            bool jumps = false;
-            if (g > f || (s->changed && !s->changed[g])) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
-            if (jumps) list->item[kept++] = g;
-        }
-        list->n = kept;
+        if (!s->model->rules.jumps) status = find_jumped(s, s->asked[k], &s->found[k], err);
+        if (!status && s->model->sides)
+            status = find_crossed(s->jumps, s->model, s->asked[k], &near, &s->found[k], err);
     }
+    sunder_i_free(near.item);
     return status;
 }
 
@@ -134,14 +182,14 @@ static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
                                     sunder_error *err)
 {
-    if (model->rules.jumps) return SUNDER_OK;
-    sunder_status status = jumps->way ? SUNDER_OK : begin(jumps, model, err);
+    if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
+    sunder_status status = jumps->way || model->rules.jumps ? SUNDER_OK : begin(jumps, model, err);
     uint32_t *asked = sunder_i_alloc(model->features, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
     size_t n = 0;
     for (uint32_t f = 0; f < model->features && !status; f++)
         if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
-    if (!status) status = follow(jumps, model, asked, n, err);
+    if (!status && jumps->way) status = follow(jumps, model, asked, n, err);
     sunder_i_list *found = sunder_i_calloc(n, sizeof *found);
     if (!status && !found) status = sunder_i_no_memory(err);
     pair_search s = {jumps, model, changed, asked, found};
@@ -172,13 +220,18 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
     const sunder_i_body *b = &model->body[body];
     sunder_status status = SUNDER_OK;
     *any = false;
-    for (uint32_t m = 0; m < b->members && jumps->way && !status && !*any; m++) {
+    for (uint32_t m = 0; m < b->members && !status && !*any; m++) {
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
         near->n = 0;
-        if (!sunder_i_rtree_query(&jumps->tree, jumps->way + 4 * (size_t)f, near)) return sunder_i_no_memory(err);
+        if (jumps->way && !sunder_i_rtree_query(&jumps->tree, jumps->way + 4 * (size_t)f, near))
+            return sunder_i_no_memory(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = ask_both(jumps, model, f, near->item[k], any, err);
+        near->n = 0;
+        if (!status && model->sides && !find_parts(jumps, model, f, near)) return sunder_i_no_memory(err);
+        for (size_t k = 0; k < near->n && !status && !*any; k++)
+            status = sunder_i_jumps_over(jumps, model, f, near->item[k], any, err);
     }
     return status;
 }

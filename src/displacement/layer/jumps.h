@@ -1,23 +1,24 @@
-/* Who jumped over whom, exactly; see jumps.c. */
+/* Who jumped over whom, or over which side, exactly; see jumps.c. */
 #ifndef SUNDER_I_JUMPS_H
 #define SUNDER_I_JUMPS_H
 
 #include "displacement/layer/model.h"
 
-/* The pairs that break the rule as the features stand, kept up to date while they move. Zeroed: nothing has moved. */
+/* The pairs that break a rule as the features stand, kept up to date while they move: features of which one jumped over
+ * the other, and a feature with a part of a barrier whose side it crossed. Zeroed: nothing has moved. */
 typedef struct sunder_i_jumps {
     double *way;            /* [4 * features] boxes of where each was on its straight way from home */
     sunder_i_rtree tree;    /* of these */
     const double *own;      /* [2 * features] lent: each feature's move; NULL: they move with their bodies */
-    sunder_i_id_pair *pair; /* features, a < b, of different bodies; sorted */
+    sunder_i_id_pair *pair; /* things, a < b, of different bodies; sorted */
     size_t n;
 } sunder_i_jumps;
 
 void sunder_i_jumps_free(sunder_i_jumps *jumps);
-/* Features f with changed[f] (NULL: all) stand elsewhere now, by model->move. Of no effect where jumps are allowed. */
+/* Things f with changed[f] (NULL: all) stand elsewhere now, by model->move. Of no effect where no way is forbidden. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const bool *changed,
                                     sunder_error *err);
-/* Did the anchor of f pass g? */
+/* Did the anchor of f pass g; or if g is part of a barrier, its side anchor a side of that? */
 sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
                                   bool *over, sunder_error *err);
 /* One body stands elsewhere for now; the pairs stay what they were. */

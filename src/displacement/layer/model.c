@@ -20,6 +20,9 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->anchor);
     sunder_i_free(model->anchor_at);
     sunder_i_free(model->held);
+    sunder_i_free(model->side);
+    sunder_i_free(model->side_anchor);
+    sunder_i_free(model->side_at);
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
     sunder_i_free(model->whole);
     sunder_i_free(model->box);

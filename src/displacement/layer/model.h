@@ -15,6 +15,7 @@ typedef struct sunder_i_body {
     uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
     uint32_t piece, pieces;   /* its convex pieces in sunder_i_model.piece */
     uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
+    uint32_t side, sides;     /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
     bool fixed;               /* limit 0 counts too */
@@ -22,6 +23,7 @@ typedef struct sunder_i_body {
     double origin[2];         /* its corners are stored relative to this */
     double box[4];            /* of its pieces, relative to the origin */
     double anchors[4];        /* of its members' anchors, likewise */
+    double side_anchors[4];   /* of their side anchors */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
@@ -30,6 +32,15 @@ typedef struct sunder_i_body_piece {
     uint32_t feature;
     double box[4]; /* relative to the body's origin */
 } sunder_i_body_piece;
+
+/* A line of a barrier that features may not cross. */
+typedef struct sunder_i_side {
+    sunder_i_body_piece piece; /* of two corners; its feature is the part of the barrier */
+    const double *from, *to;   /* its ends; of a rational area the nearest doubles */
+    const sunder_shape
+        *area; /* which has it as the edge from that vertex, and lies on its left; NULL: it bounds none */
+    uint32_t vertex;
+} sunder_i_side;
 
 /* May it move at all? */
 static inline bool sunder_i_may_move(const sunder_i_body *body) { return !body->fixed && !body->pinned; }
@@ -62,6 +73,11 @@ struct sunder_i_model {
     double *anchor_at;           /* [2 * features] the anchors as they are */
     sunder_i_id_pair *held;      /* a feature, and one of another body that holds its anchor; sorted */
     size_t held_n;
+    /* Where barriers have sides; else NULL: */
+    sunder_i_side *side;
+    size_t sides;
+    sunder_i_body_piece *side_anchor; /* [features] each side anchor as a piece of one corner */
+    double *side_at;                  /* [2 * features] the side anchors as they are */
     sunder_shape **whole;        /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
     double *box;                 /* [4 * things] as they stood at the start; see sunder_i_reach_beyond() */
     bool *present;               /* [things] */
@@ -95,6 +111,9 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
 {
     return model->barriers->barrier[part - model->features];
 }
+
+/* May some relative moves not be made, wherever that leads? */
+static inline bool sunder_i_forbids_ways(const sunder_i_model *model) { return !model->rules.jumps || model->sides; }
 
 /* A thing by which all parts of a barrier are known: their first; else the thing itself. */
 static inline uint32_t sunder_i_whole_of(const sunder_i_model *model, uint32_t thing)
@@ -148,7 +167,7 @@ const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t b
 
 /* ---- anchors.c --------------------------------------------------------------------------------------------------- */
 
-/* The anchors, where they matter; after the pieces are cut. */
+/* The anchors, where they matter, and the side anchors (sides.h); after the pieces are cut. */
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
 /* Does g, of another body, hold the anchor of f? Then f may leave it. */
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);

@@ -33,7 +33,7 @@ typedef struct sunder_i_node {
     uint32_t a, b; /* features */
     const sunder_i_body_piece *part_a, *part_b;
     double clearance;
-    bool shadow; /* one part is an anchor, which may not jump over the other */
+    bool shadow; /* one part is an anchor, which may not pass the other */
     size_t way, ways, force, forces;
 } sunder_i_node;
 
@@ -85,7 +85,7 @@ uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body);
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What features f and g of two bodies owe each other; false if nothing. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
-/* May f, of another body, not jump over g? */
+/* May f, of another body, not jump over g, or if g is part of a barrier cross its sides? */
 bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g);
 
 /* ---- program.c --------------------------------------------------------------------------------------------------- */
@@ -104,7 +104,7 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 
-/* Two convex pieces that the candidate has nearer than they owe; or an anchor, and a piece that it jumped over. */
+/* Two convex pieces that the candidate has nearer than they owe; or an anchor, and a piece that it passed. */
 typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;

@@ -32,6 +32,8 @@ typedef struct sunder_i_subproblem {
     /* Lines between pairs may be short by this share of how far the two may go: then proofs are smaller, and a
      * solution is none; 0: what is feasible is so up to a hair. */
     double coarse;
+    bool every_side; /* the sides of barriers that are not among them are heeded, too */
+    bool any_jump;   /* features may jump over each other */
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;

@@ -98,22 +98,27 @@ bool sunder_i_branching_widen(sunder_i_branching *c)
     return c->bodies > before;
 }
 
-/* Are the two of bodies that can move, one of them, and heeded? How far they can, at most. */
-static bool takes_part(const sunder_i_branching *c, uint32_t f, uint32_t g, double *reach)
+static bool is_heeded(const sunder_i_branching *c, uint32_t f)
+{
+    const sunder_i_subproblem *q = c->subproblem;
+    return !q->feature || sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(c->model, f));
+}
+
+/* Are the two of bodies that can move, one of them? How far they can, at most. */
+static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double *reach)
 {
     const sunder_i_model *model = c->model;
-    const sunder_i_subproblem *q = c->subproblem;
     const sunder_i_body *p = &model->body[model->body_of[f]], *r = &model->body[model->body_of[g]];
     *reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
-    if (p == r || !(*reach > 0) || !isfinite(*reach)) return false;
-    return !q->feature || (sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(model, f)) &&
-                           sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(model, g)));
+    return p != r && *reach > 0 && isfinite(*reach);
 }
 
 bool sunder_i_branching_shades(const sunder_i_branching *c, uint32_t f, uint32_t g)
 {
+    const bool side = sunder_i_is_barrier(c->model, g);
     double reach;
-    return takes_part(c, f, g, &reach) && !sunder_i_is_held(c->model, f, g);
+    return can_move(c, f, g, &reach) && is_heeded(c, f) && ((side && c->subproblem->every_side) || is_heeded(c, g)) &&
+           (side || !sunder_i_is_held(c->model, f, g));
 }
 
 bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)
@@ -122,7 +127,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
     const sunder_i_subproblem *q = c->subproblem;
     const uint32_t whole[2] = {sunder_i_whole_of(model, f), sunder_i_whole_of(model, g)};
     double reach;
-    if (!takes_part(c, f, g, &reach)) return false;
+    if (!can_move(c, f, g, &reach) || !is_heeded(c, f) || !is_heeded(c, g)) return false;
     if (!sunder_i_is_barrier(model, f > g ? f : g) &&
         sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
                                 nextafter(reach, INFINITY)))

@@ -29,15 +29,41 @@ typedef struct copying {
     size_t path_copy[SUNDER_I_LEVELS + 1]; /* ... and of the proof */
 } copying;
 
+static void copy_corner(copying *g, const double *xy)
+{
+    memcpy(g->corner + 2 * g->proof->corners++, xy, 2 * sizeof *xy);
+}
+
+/* An anchor, or a side: the corners as they are. False if it is a piece of a shape. */
+static bool copy_of_shadow(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
+{
+    const sunder_i_model *model = g->branching->model;
+    const bool barrier = sunder_i_is_barrier(model, feature);
+    if (!barrier && model->anchor && piece == &model->anchor[feature]) {
+        copy_corner(g, model->anchor_at + 2 * (size_t)feature);
+        return true;
+    }
+    if (!barrier && model->side_anchor && piece == &model->side_anchor[feature]) {
+        copy_corner(g, model->side_at + 2 * (size_t)feature);
+        return true;
+    }
+    const sunder_i_body *body = &model->body[model->body_of[feature]];
+    for (uint32_t k = body->side; barrier && k < body->side + body->sides; k++) {
+        const sunder_i_side *side = &model->side[k];
+        if (piece != &side->piece) continue;
+        copy_corner(g, side->from);
+        copy_corner(g, side->to);
+        return true;
+    }
+    return false;
+}
+
 static size_t copy_part(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
 {
     const sunder_i_model *model = g->branching->model;
     const sunder_shape *shape = model->layer->feature[feature].shape;
     const size_t at = g->proof->corners;
-    if (model->anchor && piece == &model->anchor[feature]) {
-        memcpy(g->corner + 2 * g->proof->corners++, model->anchor_at + 2 * (size_t)feature, 2 * sizeof(double));
-        return at;
-    }
+    if (copy_of_shadow(g, piece, feature)) return at;
     /* Pieces of the model are in the order of the shape's; the model's corners are relative to the body. */
     uint32_t p = 0;
     const sunder_i_body_piece *first = piece;
@@ -45,7 +71,7 @@ static size_t copy_part(copying *g, const sunder_i_body_piece *piece, uint32_t f
     while (first > all && first[-1].feature == feature) first--, p++;
     const uint32_t from = p ? shape->piece_end[p - 1] : 0;
     for (uint32_t k = from; k < shape->piece_end[p]; k++)
-        memcpy(g->corner + 2 * g->proof->corners++, shape->xy + 2 * (size_t)shape->piece_vertex[k], 2 * sizeof(double));
+        copy_corner(g, shape->xy + 2 * (size_t)shape->piece_vertex[k]);
     return at;
 }
 

@@ -1,5 +1,6 @@
-/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece,
- * and the ways out. */
+/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece or
+ * crossed a side, and the ways out. */
+#include "displacement/layer/sides.h"
 #include "displacement/obstacles/shadow.h"
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
@@ -95,6 +96,16 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
     }
 }
 
+/* Of that is the passing of a piece by an anchor; swapped: which is r's. */
+static void look_at_shadow(sunder_i_branching *c, const standing *s, const standing *r, const double u[2],
+                           const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped,
+                           sunder_i_violation *worst)
+{
+    const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
+    const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true), u);
+    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true};
+}
+
 /* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
 static void look_past(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
                       sunder_i_violation *worst)
@@ -112,13 +123,38 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
         const sunder_i_body_piece *anchor = &model->anchor[f];
         c->looked += 1 + other->pieces / 4;
         for (uint32_t l = other->piece; l < other->piece + other->pieces && anchor->corners; l++) {
-            const sunder_i_body_piece *piece = &model->piece[l], *a = swapped ? piece : anchor,
-                                      *b = swapped ? anchor : piece;
-            if (!sunder_i_shadow_may_reach(a->box, b->box, offset, way) ||
-                !sunder_i_branching_shades(c, f, piece->feature))
-                continue;
-            const double depth = depth_of(c, fill_ways(c, p, a, q, b, 0, true), u);
-            if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true};
+            const sunder_i_body_piece *piece = &model->piece[l];
+            if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
+                                          way) &&
+                sunder_i_branching_shades(c, f, piece->feature))
+                look_at_shadow(c, s, r, u, anchor, piece, swapped, worst);
+        }
+    }
+}
+
+/* Which sides of the one, part of a barrier, did side anchors of the other cross? swapped: the part is s. */
+static void look_across(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
+                        sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *part = swapped ? p : q;
+    const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
+                 offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    c->looked++;
+    if (!sunder_i_shadow_may_reach(swapped ? p->box : p->side_anchors, swapped ? q->side_anchors : q->box, offset, way))
+        return;
+    for (uint32_t m = 0; m < of->members; m++) {
+        const uint32_t f = model->member[of->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        c->looked += 1 + part->sides / 4;
+        for (uint32_t l = part->side; l < part->side + part->sides && anchor->corners; l++) {
+            const sunder_i_side *side = &model->side[l];
+            if (sunder_i_shadow_may_reach((swapped ? &side->piece : anchor)->box,
+                                          (swapped ? anchor : &side->piece)->box, offset, way) &&
+                sunder_i_branching_shades(c, f, side->piece.feature) && sunder_i_side_faces(model, side, f))
+                look_at_shadow(c, s, r, u, anchor, &side->piece, swapped, worst);
         }
     }
 }
@@ -126,7 +162,8 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
 static void look_at_all(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
 {
     look_at(c, s, r, worst);
-    if (c->model->rules.jumps || sunder_i_is_barrier_body(c->model, s->body) ||
+    if (s->body->sides || r->body->sides) look_across(c, s, r, s->body->sides > 0, worst);
+    if (c->model->rules.jumps || c->subproblem->any_jump || sunder_i_is_barrier_body(c->model, s->body) ||
         sunder_i_is_barrier_body(c->model, r->body))
         return;
     look_past(c, s, r, false, worst);
@@ -143,7 +180,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         double box[4], grown[4];
         if (!model->present[f]) continue;
         for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] + s->t[x & 1];
-        if (!model->rules.jumps)
+        if (sunder_i_forbids_ways(model))
             sunder_i_box_join(box, model->box + 4 * (size_t)f); /* what it passed on its way, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;

@@ -193,23 +193,28 @@ static double limit_of(const sunder_i_model *model, size_t f)
     return body->fixed ? 0 : body->limit;
 }
 
-/* Is it the rule against jumps that leaves the pair by itself no solution? Proved, or false. */
-static sunder_status would_jump(const sunder_i_model *model, const sunder_conflict *c, bool *jump, sunder_error *err)
+/* Is it a rule about ways that leaves the pair by itself no solution: sides of barriers and, unless any_jump, that
+ * against jumps? Proved, or false. */
+static sunder_status must_pass(const sunder_i_model *model, const sunder_conflict *c, bool any_jump, bool *must,
+                               sunder_error *err)
 {
+    const size_t bodies = c->b < model->features ? 2 : 1;
     const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
                    body[2] = {model->body_of[c->a], model->body_of[c->b]};
     const sunder_i_subproblem alone = {.model = model,
                                        .body = body,
-                                       .bodies = 2,
+                                       .bodies = bodies,
                                        .a = feature[0],
                                        .b = feature[1],
                                        .feature = feature,
                                        .features = 2,
+                                       .every_side = true,
+                                       .any_jump = any_jump,
                                        .effort = ALONE_EFFORT,
-                                       .most = 2};
+                                       .most = ALONE_MOST};
     sunder_i_decision decision;
     const sunder_status status = sunder_i_decide(&alone, &decision, err);
-    *jump = decision.verdict == SUNDER_I_INFEASIBLE;
+    *must = decision.verdict == SUNDER_I_INFEASIBLE;
     sunder_i_decision_clear(&decision);
     return status;
 }
@@ -228,10 +233,15 @@ static sunder_status reason_of(const sunder_i_model *model, const sunder_conflic
     sunder_i_resolution resolution;
     sunder_status status = sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
     if (!status && resolution.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
-    if (status || resolution.beyond || model->rules.jumps || c->b >= model->features) return status;
-    bool jump;
-    status = would_jump(model, c, &jump, err);
-    if (!status && jump) *reason = SUNDER_REASON_JUMP;
+    const bool jump = !model->rules.jumps && c->b < model->features;
+    if (status || resolution.beyond || (!jump && model->sides == 0)) return status;
+    bool must;
+    status = must_pass(model, c, !jump, &must, err);
+    if (status || !must) return status;
+    *reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
+    if (!jump || model->sides == 0) return SUNDER_OK;
+    status = must_pass(model, c, true, &must, err);
+    if (!status && must) *reason = SUNDER_REASON_SIDE;
     return status;
 }
 

@@ -9,11 +9,13 @@
  * others as in the result, the pair and its neighbours are solved. That a smaller change would not do is not said.
  * Neighbours are few, and so are the questions; what it costs grows with the number of conflicts, and a conflict's
  * answers depend on what stands about it alone. */
+#include "displacement/layer/sides.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
 #include "separation/separation.h"
+#include "shape/shape.h"
 
 #include <math.h>
 #include <string.h>
@@ -202,21 +204,32 @@ static sunder_status pass(const sunder_i_model *model, uint32_t f, const double 
     return status || *passes ? status : sunder_i_passes(&back, model->layer->feature[f].shape, passes, err);
 }
 
-/* In that layer all who stand do so from the beginning. As they moved, is there a jump? */
-static sunder_status find_jump(const needing *g, const surroundings *a, const sunder_i_solver *x, bool *jumps,
-                               sunder_error *err)
+/* Does f, going by t, cross a side? That layer knows those of lines alone. */
+static sunder_status cross(const sunder_i_model *model, uint32_t f, const double t[2], const surroundings *a,
+                           uint32_t gone, bool *crosses, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < a->part.n && model->sides && !status && !*crosses; k++)
+        if (sunder_i_whole_of(model, a->part.item[k]) != gone)
+            status = sunder_i_crosses_side(model, f, t, a->part.item[k], crosses, err);
+    return status;
+}
+
+/* In that layer all who stand do so from the beginning. As they moved, is there a jump, or is a side crossed? */
+static sunder_status find_jump(const needing *g, const surroundings *a, const sunder_i_solver *x, uint32_t gone,
+                               bool *jumps, sunder_error *err)
 {
     const sunder_i_solver *s = g->solver;
     const double none[2] = {0, 0};
     sunder_i_list mover = {0};
     sunder_status status = SUNDER_OK;
     *jumps = false;
-    if (s->model.rules.jumps || !s->jumps.way) return SUNDER_OK;
-    if (!sunder_i_rtree_query(&s->jumps.tree, a->known, &mover)) status = sunder_i_no_memory(err);
+    if (s->jumps.way && !sunder_i_rtree_query(&s->jumps.tree, a->known, &mover)) status = sunder_i_no_memory(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
         const size_t at = x->number[k];
         if (at >= a->moving || !x->model.present[k]) continue;
         const double *t = x->model.move + 2 * (size_t)x->model.body_of[k];
+        if (!status) status = cross(&s->model, a->feature.item[at], t, a, gone, jumps, err);
         for (size_t m = 0; m < mover.n && !status && !*jumps; m++) {
             bool moves = false; /* itself, in that layer */
             for (size_t i = 0; i < a->moving && !moves; i++) moves = a->feature.item[i] == mover.item[m];
@@ -229,7 +242,7 @@ static sunder_status find_jump(const needing *g, const surroundings *a, const su
     return status;
 }
 
-/* Parts of barriers as barriers of their own. */
+/* Parts of barriers as barriers of their own: of areas without sides, since some edges of pieces are none. */
 static sunder_status set_barriers(const sunder_i_solver *s, const surroundings *a, uint32_t gone, sunder_layer *layer,
                                   sunder_error *err)
 {
@@ -240,6 +253,7 @@ static sunder_status set_barriers(const sunder_i_solver *s, const surroundings *
         const uint32_t part = a->part.item[k];
         if (sunder_i_whole_of(&s->model, part) == gone) continue;
         barrier[n] = s->layer.barrier[sunder_i_barrier_of(&s->model, part)];
+        barrier[n].side = barrier[n].side && s->model.layer->feature[part].shape->flat;
         barrier[n++].geometry = (sunder_obstacle){.shape = s->model.layer->feature[part].shape};
     }
     const sunder_status status = sunder_layer_set_barriers(layer, barrier, n, err);
@@ -274,7 +288,7 @@ static sunder_status ask(const needing *g, const surroundings *a, const supposit
     status = g->solve(layer, &options, &x, err);
     if (!status) *yes = is_solved(a, &x, what->gap, longest);
     bool jumps = false;
-    if (!status && *yes) status = find_jump(g, a, &x, &jumps, err);
+    if (!status && *yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
     *yes = *yes && !jumps;
     sunder_i_solver_free(&x);
     sunder_layer_free(layer);

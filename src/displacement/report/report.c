@@ -98,6 +98,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_DUPLICATE: counts->duplicate++; break;
     case SUNDER_CONFLICT_WORSE:
     case SUNDER_CONFLICT_LIMIT:
+    case SUNDER_CONFLICT_SIDE:
     case SUNDER_CONFLICT_JUMP:
     case SUNDER_CONFLICT_NOT_A_TRANSLATE: break; /* no conflicts of a layer as it stands */
     }

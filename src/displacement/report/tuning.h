@@ -28,7 +28,9 @@
 
 /* ---- A pair by itself (conflicts.c) ------------------------------------------------------------------------------ */
 
-/* The effort for a proof that it has no solution without a jump: some ten milliseconds. */
+/* The effort for a proof that it has no solution without a jump, or on its sides: some ten milliseconds; and how many
+ * bodies may take part, most of them parts of barriers. */
+#define ALONE_MOST 64
 #define ALONE_EFFORT 2000000u
 
 /* ---- The lower bound (bound.c) ----------------------------------------------------------------------------------- */

@@ -268,7 +268,7 @@ static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double 
 /* How many shadows two bodies may cast. */
 static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
 {
-    return (uint64_t)p->members * q->pieces + (uint64_t)q->members * p->pieces;
+    return (uint64_t)p->members * (q->pieces + q->sides) + (uint64_t)q->members * (p->pieces + p->sides);
 }
 
 /* Obstacles for body i from all the others, within reach of place `at`. Among very many pieces, shadows of large blocks

@@ -95,7 +95,7 @@ typedef struct sunder_i_piece_pair {
     uint64_t key;                       /* tells it from all others */
     sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
     bool relaxed;                       /* the bodies: some of the pieces owe each other less */
-    bool shadow;                        /* one of the two is an anchor, which may not jump over the other */
+    bool shadow;                        /* one of the two is an anchor, which may not pass the other */
     const sunder_i_relaxation *relaxation; /* ... these; or NULL */
 } sunder_i_piece_pair;
 
@@ -133,7 +133,7 @@ const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, con
 /* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 
-/* ---- shadows.c: who may not jump over whom ----------------------------------------------------------------------- */
+/* ---- shadows.c: who may not pass whom ---------------------------------------------------------------------------- */
 
 /* All shadows of bodies i and j that may lie within reach of relative position u. */
 void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -141,7 +141,7 @@ void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, co
 /* The same between any two bodies of the model. */
 void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
                                   const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
-/* Every pair of bodies, one of them movable, that may have jumped over each other on their way from home to t, or are
+/* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are
  * within reach of it, and do not stand within reach of each other there. */
 void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                              void *context);

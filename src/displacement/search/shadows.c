@@ -1,12 +1,14 @@
-/* No jumps: shadows between bodies, as further pieces of what they owe each other.
+/* No jumps, and sides: shadows between bodies, as further pieces of what they owe each other.
  *
  * With a the anchor of a member of one body and B a piece of the other, as they stood, the anchor passes B exactly when
  * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
  * shadow is made as an obstacle is, of an anchor as a piece of one corner. It owes the margin, so that what was rounded
- * stands clear of it; but never more than home has. What holds the anchor has no shadow from it.
+ * stands clear of it; but never more than home has. What holds the anchor has no shadow from it. Likewise of a side
+ * anchor and the lines of a part of a barrier that it may not cross (layer/sides.c).
  *
  * Most pairs never come near any of it: relative moves are short, and K lies as far from the origin as the anchor does
  * from B. That is asked of boxes first. */
+#include "displacement/layer/sides.h"
 #include "displacement/search/search.h"
 
 #include "base/watch.h"
@@ -40,14 +42,50 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
     }
 }
 
+/* Lines of `other`, part of a barrier, from the side anchors of `p`. */
+static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
+                        sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        if (!anchor->corners) continue;
+        for (uint32_t l = other->side; l < other->side + other->sides && !s->failed; l++) {
+            const sunder_i_side *side = &model->side[l];
+            part->a = swapped ? &side->piece : anchor;
+            part->b = swapped ? anchor : &side->piece;
+            if (!sunder_i_shadow_may_reach(part->a->box, part->b->box, part->offset, way) ||
+                !sunder_i_side_faces(model, side, f))
+                continue;
+            part->key = UINT64_C(3) << 60 | (uint64_t)f << 30 | l;
+            visit(s, part, context);
+        }
+        if (!sunder_i_steps(1 + other->sides / 8)) s->failed = true;
+    }
+}
+
+/* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
+static bool may_cross(const sunder_i_body *p, const sunder_i_body *q, const double offset[2], const double way[4],
+                      bool *swapped)
+{
+    *swapped = p->sides > 0;
+    if (p->sides) return sunder_i_shadow_may_reach(p->box, q->side_anchors, offset, way);
+    return q->sides && sunder_i_shadow_may_reach(p->side_anchors, q->box, offset, way);
+}
+
 void sunder_i_search_body_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double u[2],
                                   double reach, sunder_i_visit_piece_pair visit, void *context)
 {
     sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, .shadow = true};
     double way[4];
-    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q)) return;
+    bool swapped;
+    if (!sunder_i_forbids_ways(s->model)) return;
     sunder_i_shadow_way(u, reach, way);
     part.inclusion = SUNDER_I_LAPSED;
+    if (may_cross(p, q, part.offset, way, &swapped))
+        visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
+    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q)) return;
     if (sunder_i_shadow_may_reach(p->anchors, q->box, part.offset, way))
         visit_from(s, p, q, way, &part, false, visit, context);
     if (sunder_i_shadow_may_reach(p->box, q->anchors, part.offset, way))
@@ -89,9 +127,12 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     double way[4];
+    bool swapped;
+    if (!sunder_i_forbids_ways(s->model)) return false;
+    sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
+    if (may_cross(p, q, offset, way, &swapped)) return true;
     if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q))
         return false;
-    sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
     return sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
            sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
 }
@@ -104,8 +145,12 @@ static double least_depth(const sunder_i_search *s)
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->model->body[s->body[k]];
         if (b->pieces == 0) continue;
-        for (int c = 0; c < 2; c++)
-            least = fmin(least, fmin(b->anchors[c] - b->box[c], b->box[c + 2] - b->anchors[c + 2]));
+        for (int c = 0; c < 2; c++) {
+            if (!s->model->rules.jumps)
+                least = fmin(least, fmin(b->anchors[c] - b->box[c], b->box[c + 2] - b->anchors[c + 2]));
+            if (s->model->sides)
+                least = fmin(least, fmin(b->side_anchors[c] - b->box[c], b->box[c + 2] - b->side_anchors[c + 2]));
+        }
     }
     return least;
 }
@@ -132,7 +177,7 @@ static int by_left(const void *a, const void *b)
 void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit,
                              void *context)
 {
-    if (s->model->rules.jumps || s->n < 2) return;
+    if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
     /* Two that passed are apart by more than the reach along an axis; half of it is given to each. */
     if (2 * longest(s, t) + reach - s->model->rules.gap < least_depth(s) + reach) return;
     swept *list = sunder_i_alloc(s->n, sizeof *list);

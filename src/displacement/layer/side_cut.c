@@ -1,0 +1,297 @@
+/* A feature cut by lines into parts.
+ *
+ * Each member, with the lines about it, is a planar map, and its parts are the faces of that within the member: a face
+ * is connected, and what ends inside it bounds it on both sides and parts nothing. Areas are compared in doubles with a
+ * bound first, and exactly where that does not tell. Corners that are no doubles, of the feature or of an area of a
+ * barrier, stand on the lattice as what they are. */
+#include "displacement/layer/side_cut.h"
+
+#include "base/error.h"
+#include "base/random.h"
+#include "base/watch.h"
+#include "shape/shape.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- On one lattice ---------------------------------------------------------------------------------------------- */
+
+static bool is_exact(const sunder_shape *s, uint32_t v) { return s->rational && s->exact[v].den.size; }
+
+/* A line's ends; those that are no doubles lie within a unit of the nearest ones. */
+static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
+{
+    const bool rational = side->area && side->area->rational;
+    for (int e = 0; e < 2; e++) {
+        const double *at = e ? side->to : side->from;
+        sunder_i_extent_add(all, at, 1);
+        for (int k = 0; rational && k < 2; k++) {
+            all->low[k] = fmin(all->low[k], nextafter(at[k], -DBL_MAX));
+            all->high[k] = fmax(all->high[k], nextafter(at[k], DBL_MAX));
+        }
+    }
+    if (rational && side->area->extent.low_bit < all->low_bit) all->low_bit = side->area->extent.low_bit;
+}
+
+static void begin(sunder_i_side_cut *c)
+{
+    sunder_i_extent all = c->shape->extent;
+    bool rational = c->shape->rational;
+    for (size_t k = 0; k < c->sides; k++) {
+        add_extent(&all, c->side[k]);
+        rational = rational || (c->side[k]->area && c->side[k]->area->rational);
+    }
+    sunder_i_lattice_init(&c->lattice, &all, 1, true, &c->origin, false);
+    if (rational) sunder_i_lattice_admit_ratios(&c->lattice);
+    sunder_i_arena_init(&c->arena);
+}
+
+/* Vertex v of a shape, or two doubles. */
+static sunder_i_rational_point put(sunder_i_side_cut *c, const sunder_shape *s, uint32_t v, const double *xy)
+{
+    sunder_i_point at;
+    if (s && is_exact(s, v)) {
+        at = sunder_i_place_exact(&c->lattice, &s->exact[v], NULL, c->origin);
+    } else {
+        at.x = sunder_i_lattice_int(&c->lattice, xy[0], c->origin[0]);
+        at.y = sunder_i_lattice_int(&c->lattice, xy[1], c->origin[1]);
+    }
+    return sunder_i_rational_get(&c->arena, &c->lattice, at);
+}
+
+static sunder_i_rational_point put_vertex(sunder_i_side_cut *c, uint32_t v)
+{
+    return put(c, c->shape, v, c->shape->xy + 2 * (size_t)v);
+}
+
+static void put_line(sunder_i_side_cut *c, const sunder_i_side *side, sunder_i_rational_point end[2])
+{
+    const sunder_shape *s = side->area;
+    end[0] = put(c, s, side->vertex, side->from);
+    end[1] = put(c, s, s ? s->next[side->vertex] : 0, side->to);
+}
+
+/* Any doubles, which need not be multiples of the lattice's unit. */
+sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *c, const double xy[2])
+{
+    sunder_i_arena *m = &c->arena;
+    long unit = c->lattice.exponent;
+    for (int k = 0; k < 2; k++)
+        if (xy[k] != 0 && sunder_i_low_bit(xy[k]) < unit) unit = sunder_i_low_bit(xy[k]);
+    sunder_i_big at[2];
+    for (int k = 0; k < 2; k++) {
+        int e, f;
+        sunder_i_big v = sunder_i_big_double(m, xy[k], &e), o = sunder_i_big_double(m, c->origin[k], &f);
+        if (v.size) v = sunder_i_big_shl(m, v, (unsigned long)(e - unit));
+        if (o.size) o = sunder_i_big_shl(m, o, (unsigned long)(f - unit));
+        at[k] = sunder_i_big_sub(m, v, o);
+    }
+    return (sunder_i_rational_point){
+        at[0], at[1], sunder_i_big_shl(m, sunder_i_big_i64(m, 1), (unsigned long)(c->lattice.exponent - unit))};
+}
+
+/* The nearest doubles to a point. */
+void sunder_i_side_cut_doubles(sunder_i_side_cut *c, const sunder_i_rational_point *at, double xy[2])
+{
+    sunder_i_arena *m = &c->arena;
+    for (int k = 0; k < 2; k++) {
+        int e;
+        sunder_i_big o = sunder_i_big_double(m, c->origin[k], &e);
+        if (o.size) o = sunder_i_big_shl(m, o, (unsigned long)(e - c->lattice.exponent));
+        const sunder_i_big num = sunder_i_big_add(m, sunder_i_rational_axis(at, k), sunder_i_big_mul(m, o, at->w));
+        xy[k] = sunder_i_big_ratio(m, num, at->w, c->lattice.exponent);
+    }
+}
+
+/* ---- The boundary of a part -------------------------------------------------------------------------------------- */
+
+void sunder_i_side_cut_boundary(sunder_i_side_cut *c, const sunder_i_cut_part *p, sunder_i_visit_side_cut visit,
+                                void *context)
+{
+    size_t inner;
+    const uint32_t *of = sunder_i_planar_map_face_inner(p->map, p->face, &inner);
+    for (size_t k = 0; k <= inner; k++) {
+        const uint32_t start = k < inner ? of[k] : sunder_i_planar_map_face_outer(p->map, p->face);
+        uint32_t h = start;
+        do {
+            const uint32_t next = sunder_i_planar_map_next(p->map, h);
+            visit(c, sunder_i_planar_map_vertex_point(p->map, sunder_i_planar_map_origin(p->map, h)),
+                  sunder_i_planar_map_vertex_point(p->map, sunder_i_planar_map_origin(p->map, next)), context);
+            h = next;
+        } while (h != start);
+    }
+}
+
+/* In doubles each coordinate is off by 2^-53 of itself, and a cross product by less than 2^-50 of its two products; a
+ * sum of n terms by n 2^-53 of the sum of their magnitudes. */
+typedef struct estimate {
+    double sum, size;
+    size_t n;
+} estimate;
+
+static void add_estimate(sunder_i_side_cut *c, const sunder_i_rational_point *a, const sunder_i_rational_point *b,
+                         void *context)
+{
+    estimate *e = context;
+    const sunder_i_mark mark = sunder_i_arena_mark(&c->arena);
+    double p[2], q[2];
+    sunder_i_rational_doubles(&c->arena, *a, 0, &p[0], &p[1]);
+    sunder_i_rational_doubles(&c->arena, *b, 0, &q[0], &q[1]);
+    sunder_i_arena_release(&c->arena, mark);
+    e->sum += p[0] * q[1] - p[1] * q[0];
+    e->size += fabs(p[0] * q[1]) + fabs(p[1] * q[0]);
+    e->n++;
+}
+
+static void add_exactly(sunder_i_side_cut *c, const sunder_i_rational_point *a, const sunder_i_rational_point *b,
+                        void *context)
+{
+    sunder_i_ratio *sum = context;
+    sunder_i_arena *m = &c->arena;
+    const sunder_i_ratio term = {sunder_i_rational_cross(m, *a, *b), sunder_i_times(m, a->w, b->w)};
+    *sum = sunder_i_ratio_add(m, *sum, term);
+}
+
+static sunder_i_ratio exact_area(sunder_i_side_cut *c, const sunder_i_cut_part *p)
+{
+    sunder_i_ratio sum = {sunder_i_big_i64(&c->arena, 0), sunder_i_big_i64(&c->arena, 1)};
+    sunder_i_side_cut_boundary(c, p, add_exactly, &sum);
+    return sum;
+}
+
+/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+
+static bool add_part(sunder_i_side_cut *c, sunder_i_planar_map *map, uint32_t face)
+{
+    estimate e = {0, 0, 0};
+    sunder_i_cut_part p = {.map = map, .face = face};
+    if (!sunder_i_reserve(&c->part, &c->part_capacity, c->parts + 1, sizeof *c->part)) return false;
+    sunder_i_side_cut_boundary(c, &p, add_estimate, &e);
+    p.area = e.sum;
+    p.off = (8 + (double)e.n) * 0x1p-52 * e.size + DBL_MIN;
+    if (!isfinite(p.area) || !isfinite(p.off)) {
+        p.area = 0;
+        p.off = INFINITY;
+    }
+    c->part[c->parts++] = p;
+    return true;
+}
+
+/* Is the edge a piece of a line inside the member? Those of the member have it on one side, lines along them do not
+ * count. */
+static bool is_inside(const sunder_i_planar_map *map, uint32_t e)
+{
+    return sunder_i_planar_map_sides(map, 2 * e) == 0 && sunder_i_planar_map_sides(map, 2 * e + 1) == 0 &&
+           sunder_i_planar_map_left_covered(map, 2 * e) > 0;
+}
+
+static sunder_status take_parts(sunder_i_side_cut *c, sunder_i_planar_map *map, sunder_error *err)
+{
+    for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(map) && !c->any; e++)
+        c->any = sunder_i_planar_map_edge_alive(map, e) && is_inside(map, e);
+    for (uint32_t f = 1; f < sunder_i_planar_map_face_end(map); f++)
+        if (sunder_i_planar_map_face_covered(map, f) > 0 && !add_part(c, map, f)) return sunder_i_no_memory(err);
+    return SUNDER_OK;
+}
+
+/* One after the other into a map, in random order. */
+typedef struct segment {
+    sunder_i_rational_point from, to;
+    bool line; /* else an edge, with the member on its left */
+} segment;
+
+static sunder_status draw(sunder_i_planar_map *map, const segment *list, size_t n, sunder_error *err)
+{
+    uint32_t *order = sunder_i_alloc(n, sizeof *order);
+    uint64_t random = 1;
+    sunder_status status = order ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t k = 0; order && k < n; k++) order[k] = k;
+    if (order) sunder_i_shuffle(order, n, sizeof *order, &random);
+    for (size_t k = 0; k < n && !status; k++) {
+        const segment *s = &list[order[k]];
+        status = sunder_i_planar_map_insert_segment(map, s->from, s->to, !s->line, 0, NULL, NULL, err);
+        if (!status && !sunder_i_step()) status = sunder_i_cancelled(err);
+    }
+    sunder_i_free(order);
+    return status;
+}
+
+/* Vertices first .. last - 1 are a member's: its map, with the lines. */
+static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t last, sunder_i_planar_map **map,
+                                sunder_error *err)
+{
+    size_t n = 0;
+    segment *list = sunder_i_alloc(last - first + c->sides, sizeof *list);
+    if (!list) return sunder_i_no_memory(err);
+    for (uint32_t v = first; v < last; v++)
+        list[n++] = (segment){put_vertex(c, v), put_vertex(c, c->shape->next[v]), false};
+    for (size_t k = 0; k < c->sides; k++, n++) {
+        sunder_i_rational_point end[2];
+        put_line(c, c->side[k], end);
+        list[n] = (segment){end[0], end[1], true};
+    }
+    sunder_status status = sunder_i_planar_map_new(&c->lattice, 1, map, err);
+    if (!status) status = draw(*map, list, n, err);
+    if (!status) status = sunder_i_planar_map_mark(*map, err);
+    if (!status) status = sunder_i_planar_map_faces(*map, err);
+    sunder_i_free(list);
+    return status ? status : take_parts(c, *map, err);
+}
+
+/* The end of a polygon's vertices. */
+static uint32_t vertices_to(const sunder_shape *s, uint32_t polygon) { return s->ring_end[s->poly_end[polygon] - 1]; }
+
+sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
+                                     sunder_i_side_cut *out, sunder_error *err)
+{
+    memset(out, 0, sizeof *out);
+    out->shape = shape;
+    out->side = side;
+    out->sides = n;
+    begin(out);
+    out->map = sunder_i_calloc(shape->polygons, sizeof(sunder_i_planar_map *));
+    sunder_status status = out->map ? SUNDER_OK : sunder_i_no_memory(err);
+    for (uint32_t k = 0; k < shape->polygons && !status; k++)
+        status = cut_member(out, k ? vertices_to(shape, k - 1) : 0, vertices_to(shape, k), &out->map[k], err);
+    return status;
+}
+
+void sunder_i_side_cut_free(sunder_i_side_cut *c)
+{
+    for (uint32_t k = 0; c->map && k < c->shape->polygons; k++) sunder_i_planar_map_free(c->map[k]);
+    sunder_i_free(c->map);
+    sunder_i_free(c->part);
+    sunder_i_arena_free(&c->arena);
+    sunder_i_lattice_free(&c->lattice);
+}
+
+void sunder_i_side_cut_keep_largest(sunder_i_side_cut *c)
+{
+    double least = -INFINITY;
+    size_t n = 0;
+    for (size_t k = 0; k < c->parts; k++) least = fmax(least, c->part[k].area - c->part[k].off);
+    for (size_t k = 0; k < c->parts; k++)
+        if (!(c->part[k].area + c->part[k].off < least)) c->part[n++] = c->part[k];
+    c->parts = n;
+    if (n < 2) return;
+    sunder_i_ratio largest = exact_area(c, &c->part[0]);
+    n = 1;
+    for (size_t k = 1; k < c->parts && !c->arena.failed; k++) {
+        const sunder_i_ratio area = exact_area(c, &c->part[k]);
+        const int order = sunder_i_ratio_cmp(&c->arena, area, largest);
+        if (order > 0) largest = area;
+        if (order > 0) n = 0;
+        if (order >= 0) c->part[n++] = c->part[k];
+    }
+    c->parts = n;
+}
+
+sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *p, sunder_i_rational_point at, bool *in,
+                                      sunder_error *err)
+{
+    sunder_i_location place;
+    const sunder_status status = sunder_i_planar_map_locate(p->map, at, &place, err);
+    *in = !status && place.place == SUNDER_I_IN_FACE && place.face == p->face;
+    return status;
+}

@@ -1,0 +1,50 @@
+/* A feature cut by lines into parts, exactly; see side_cut.c. */
+#ifndef SUNDER_I_SIDE_CUT_H
+#define SUNDER_I_SIDE_CUT_H
+
+#include "displacement/layer/sides.h"
+
+#include "planar_map/planar_map.h"
+
+/* A face of a member's map that is within the member. */
+typedef struct sunder_i_cut_part {
+    sunder_i_planar_map *map;
+    uint32_t face;
+    double area, off; /* twice its area, in units of the lattice, and by how much that may be off */
+} sunder_i_cut_part;
+
+typedef struct sunder_i_side_cut {
+    const sunder_shape *shape;
+    const sunder_i_side *const *side;
+    size_t sides;
+    sunder_i_lattice lattice;
+    double origin[2];
+    sunder_i_arena arena;      /* of points and numbers */
+    sunder_i_planar_map **map; /* [polygons of the shape] */
+    sunder_i_cut_part *part;
+    size_t parts, part_capacity;
+    bool any; /* some line meets a member's interior */
+} sunder_i_side_cut;
+
+/* All parts, in the order of the members. Shape and lines are borrowed. Failure leaves what sunder_i_side_cut_free()
+ * takes. */
+sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
+                                     sunder_i_side_cut *out, sunder_error *err);
+void sunder_i_side_cut_free(sunder_i_side_cut *cut);
+/* Leaves only the largest ones: the first, and those of the same area. */
+void sunder_i_side_cut_keep_largest(sunder_i_side_cut *cut);
+
+/* Called with the two ends of each half-edge that has the part on its left; slits come twice. */
+typedef void (*sunder_i_visit_side_cut)(sunder_i_side_cut *cut, const sunder_i_rational_point *from,
+                                        const sunder_i_rational_point *to, void *context);
+
+void sunder_i_side_cut_boundary(sunder_i_side_cut *cut, const sunder_i_cut_part *part, sunder_i_visit_side_cut visit,
+                                void *context);
+/* Does the part hold the point, off all lines? */
+sunder_status sunder_i_side_cut_holds(const sunder_i_cut_part *part, sunder_i_rational_point at, bool *holds,
+                                      sunder_error *err);
+/* Any doubles as a point of the cut's plane, and the nearest doubles to such a point. */
+sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *cut, const double xy[2]);
+void sunder_i_side_cut_doubles(sunder_i_side_cut *cut, const sunder_i_rational_point *at, double xy[2]);
+
+#endif

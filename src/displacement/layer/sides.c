@@ -1,0 +1,223 @@
+/* Sides: which side of a barrier's lines a feature stands on, it keeps.
+ *
+ * The lines are the segments of a barrier's lines and the edges of its areas; points have none. A feature's side anchor
+ * goes straight from a to a + t, and may meet none of them, with two exceptions:
+ *
+ *   an edge that `a` lies inside of     what stands in a polygon may leave it. So only edges whose area begins behind
+ *                                       them, as `a` sees them, are in the way: whoever comes into the polygon, from
+ *                                       outside or once more, meets one of those, and who leaves it meets none of them
+ *   a line that `a` lies on             a side anchor lies on none where doubles hold such a point (side_anchor.c), and
+ *                                       elsewhere no side of the line is its own
+ *
+ * To see that who comes in meets an edge that faces the start: just before the place where it does, it is outside, in a
+ * sector there that two edges bound. If the sector is less than half a plane, its inner points are on the outer sides
+ * of both edges' lines; if more, of at least one: and the start is on the same ray. A way that touches an edge which
+ * faces its start, and stays inside, counts as coming in: touching is meeting.
+ *
+ * In the model the lines are pieces of two corners, in the order of the barriers' parts, and a part's body has those of
+ * the part. */
+#include "displacement/layer/sides.h"
+
+#include "base/parallel.h"
+#include "separation/separation.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- Lines ------------------------------------------------------------------------------------------------------- */
+
+/* The lines that piece `of` of a part has: into side, or only counted where that is NULL. */
+static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
+{
+    const sunder_shape *s = of->shape;
+    const uint32_t first = s && of->piece ? s->piece_end[of->piece - 1] : 0,
+                   n = s ? s->piece_end[of->piece] - first : of->n;
+    size_t lines = 0;
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t next = k + 1 < n ? k + 1 : 0;
+        const uint32_t v = s ? s->piece_vertex[first + k] : k, w = s ? s->piece_vertex[first + next] : next;
+        if (n == 1 || (n == 2 && k) || (n > 2 && !sunder_i_is_boundary(s, v, w))) continue;
+        const double *xy = s ? s->xy : of->xy;
+        if (side)
+            side[lines] = (sunder_i_side){
+                .from = xy + 2 * (size_t)v, .to = xy + 2 * (size_t)w, .area = n > 2 ? s : NULL, .vertex = v};
+        lines++;
+    }
+    return lines;
+}
+
+/* The same of a part; none where its barrier has no sides. */
+static size_t take_part(const sunder_i_model *model, uint32_t part, sunder_i_side *side)
+{
+    const sunder_i_barriers *b = model->barriers;
+    size_t lines = 0;
+    if (!model->layer->barrier[b->barrier[part]].side) return 0;
+    for (uint32_t k = part ? b->piece_end[part - 1] : 0; k < b->piece_end[part]; k++)
+        lines += take_lines(&b->piece[k], side ? side + lines : NULL);
+    return lines;
+}
+
+static void box_of_line(const sunder_i_side *side, double box[4])
+{
+    sunder_i_box_of_segment(side->from, side->to, box);
+    if (side->area && side->area->rational) sunder_i_box_grow(box, 0, box);
+}
+
+/* As a piece of its part's body. */
+static void put_piece(sunder_i_model *model, const sunder_i_body *body, uint32_t part, sunder_i_side *side)
+{
+    sunder_i_body_piece *piece = &side->piece;
+    *piece = (sunder_i_body_piece){
+        .corner = (uint32_t)model->corners, .corners = 2, .feature = (uint32_t)model->features + part};
+    sunder_i_box_clear(piece->box);
+    for (int e = 0; e < 2; e++) {
+        double *to = model->corner + 2 * model->corners++;
+        for (int c = 0; c < 2; c++) to[c] = (e ? side->to : side->from)[c] - body->origin[c];
+        sunder_i_box_include(piece->box, to);
+    }
+}
+
+static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
+{
+    const uint32_t parts = model->barriers->parts;
+    size_t n = 0;
+    for (uint32_t k = 0; k < parts; k++) n += take_part(model, k, NULL);
+    if (n == 0) return SUNDER_OK;
+    const size_t corners = model->corners + 2 * n + model->features;
+    if (corners >= UINT32_MAX || n >= UINT32_C(1) << 30)
+        return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
+    double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);
+    if (!corner) return sunder_i_no_memory(err);
+    model->corner = corner;
+    model->side = sunder_i_alloc(n, sizeof *model->side);
+    if (!model->side) return sunder_i_no_memory(err);
+    for (uint32_t k = 0; k < parts; k++) {
+        sunder_i_body *body = &model->body[model->body_of[model->features + k]];
+        body->side = (uint32_t)model->sides;
+        body->sides = (uint32_t)take_part(model, k, model->side + model->sides);
+        for (uint32_t i = 0; i < body->sides; i++) put_piece(model, body, k, &model->side[model->sides++]);
+    }
+    return SUNDER_OK;
+}
+
+/* ---- Side anchors ------------------------------------------------------------------------------------------------ */
+
+/* Appends the lines that meet the box. */
+static bool find_lines(const sunder_i_model *model, const double box[4], sunder_i_list *near,
+                       const sunder_i_side ***line, size_t *n, size_t *capacity)
+{
+    near->n = 0;
+    if (!sunder_i_rtree_query(&model->tree, box, near)) return false;
+    if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
+    for (size_t k = 0; k < near->n; k++) {
+        const sunder_i_body *body = &model->body[model->body_of[near->item[k]]];
+        for (uint32_t i = body->side; i < body->side + body->sides; i++) {
+            double own[4];
+            box_of_line(&model->side[i], own);
+            if (!sunder_i_box_meet(own, box)) continue;
+            if (!sunder_i_reserve(line, capacity, *n + 1, sizeof **line)) return false;
+            (*line)[(*n)++] = &model->side[i];
+        }
+    }
+    return true;
+}
+
+static sunder_status find_some_anchors(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const sunder_i_model *model = context;
+    sunder_i_list near = {0};
+    const sunder_i_side **line = NULL;
+    size_t capacity = 0;
+    sunder_status status = SUNDER_OK;
+    for (size_t f = begin; f < end && !status; f++) {
+        const sunder_shape *shape = model->layer->feature[f].shape;
+        size_t n = 0;
+        if (!model->present[f]) continue;
+        if (!find_lines(model, shape->box, &near, &line, &n, &capacity)) status = sunder_i_no_memory(err);
+        if (!status) status = sunder_i_side_anchor(shape, line, n, model->side_at + 2 * f, err);
+    }
+    sunder_i_free(line);
+    sunder_i_free(near.item);
+    return status;
+}
+
+/* Each as a piece of one corner; and their boxes, by bodies. */
+static void put_anchors(sunder_i_model *model)
+{
+    for (size_t b = 0; b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        sunder_i_box_clear(body->side_anchors);
+        for (uint32_t m = 0; m < body->members; m++) {
+            const uint32_t f = model->member[body->member + m];
+            if (sunder_i_is_barrier(model, f) || !model->present[f]) continue;
+            sunder_i_body_piece *anchor = &model->side_anchor[f];
+            double *to = model->corner + 2 * model->corners;
+            *anchor = (sunder_i_body_piece){.corner = (uint32_t)model->corners++, .corners = 1, .feature = f};
+            for (int c = 0; c < 2; c++)
+                to[c] = anchor->box[c] = anchor->box[c + 2] =
+                    model->side_at[2 * (size_t)f + (size_t)c] - body->origin[c];
+            sunder_i_box_join(body->side_anchors, anchor->box);
+        }
+    }
+}
+
+sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err)
+{
+    sunder_status status = take_all_lines(model, err);
+    if (status || model->sides == 0) return status;
+    model->side_at = sunder_i_calloc(2 * model->features, sizeof *model->side_at);
+    model->side_anchor = sunder_i_calloc(model->features, sizeof *model->side_anchor);
+    if (!model->side_at || !model->side_anchor) return sunder_i_no_memory(err);
+    status =
+        sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_TESTS, find_some_anchors, model, err);
+    if (!status) put_anchors(model);
+    return status;
+}
+
+/* ---- Ways -------------------------------------------------------------------------------------------------------- */
+
+/* Does the way meet a line on which it does not begin? */
+static bool meets_line(const sunder_i_passage *way, const double from[2], const double to[2])
+{
+    const sunder_i_passage stay = {.from = {way->from[0], way->from[1]}};
+    return sunder_i_passage_meets(way, from, to) && !sunder_i_passage_meets(&stay, from, to);
+}
+
+sunder_status sunder_i_crosses_side(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t part,
+                                    bool *crosses, sunder_error *err)
+{
+    const double *a = model->side_at + 2 * (size_t)f;
+    const sunder_i_body *body = &model->body[model->body_of[part]];
+    const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
+    double box[4], own[4];
+    sunder_status status = SUNDER_OK;
+    *crosses = false;
+    if (t[0] == 0 && t[1] == 0) return SUNDER_OK;
+    sunder_i_passage_box(&way, box);
+    for (uint32_t k = body->side; k < body->side + body->sides && !status && !*crosses; k++) {
+        const sunder_i_side *side = &model->side[k];
+        box_of_line(side, own);
+        if (!sunder_i_box_meet(own, box)) continue;
+        if (side->area)
+            status = sunder_i_enters_by_edge(&way, side->area, side->vertex, crosses, err);
+        else
+            *crosses = meets_line(&way, side->from, side->to);
+    }
+    return status;
+}
+
+bool sunder_i_side_faces(const sunder_i_model *model, const sunder_i_side *side, uint32_t f)
+{
+    const double *a = model->side_at + 2 * (size_t)f, *p = side->from, *q = side->to;
+    if (!side->area) return true;
+    if (!side->area->rational) {
+        const sunder_point at = {a[0], a[1]}, from = {p[0], p[1]}, to = {q[0], q[1]};
+        return sunder_orient(&from, &to, &at) < 0;
+    }
+    /* Corners may be off by an ulp: that is 2^-52 of each, in differences that are rounded besides. */
+    const double size = fabs(a[0]) + fabs(a[1]) + fabs(p[0]) + fabs(p[1]) + fabs(q[0]) + fabs(q[1]);
+    const double d[2] = {q[0] - p[0], q[1] - p[1]}, e[2] = {a[0] - p[0], a[1] - p[1]};
+    const double slack = 0x1p-49 * size * (fabs(d[0]) + fabs(d[1]) + fabs(e[0]) + fabs(e[1]) + 0x1p-49 * size);
+    return d[0] * e[1] - d[1] * e[0] < -slack;
+}
