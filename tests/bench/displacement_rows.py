@@ -151,15 +151,13 @@ def roads():
                 ("all roads, gap 0", 0, f"{road},layer={road_layer},width=5"))
         for what, gap, barrier in runs:
             words = ["--gap", str(gap), "--barrier", barrier]
-            before, where, after = barrier.partition(",where=")
-            sides_open = f"{before},side=no{where}{after}"  # sides are not kept
             limits = ["--max-shift", "10", *(["--effort", EFFORT] if EFFORT else [])]
             try:
                 stats = separate(source, layer, words + limits)
                 unit = units_of()
                 was, conflicts = units_before(source, layer, unit, words)
                 left, count = units_after(unit)
-                kept = verdict(source, layer, gap, [f"barrier={sides_open}", "max-shift=10"])
+                kept = verdict(source, layer, gap, [f"barrier={barrier}", "max-shift=10"])
             except Failed as why:
                 row(name, what, why)
                 continue

@@ -28,6 +28,7 @@ from collections import Counter, defaultdict
 from fractions import Fraction
 
 import exact_plane as plane
+from side_anchor import side_anchor
 from rules_layers import CELL, Grid, Lattice, Layers, Options, open_layer, polygons_and_lines, widen
 
 
@@ -260,19 +261,36 @@ class Checker:
                               check=True)
         return {int(w[0]): (float.fromhex(w[1]), float.fromhex(w[2])) for w in map(str.split, done.stdout.splitlines())}
 
+    def side_lines(self, box):
+        """The lines of barriers that have sides, about a box."""
+        near = self.layers.near_barriers(box, 0)
+        return [e for k, edges in near.items() if self.layers.barriers[k].side for e in edges]
+
+    def side_anchors(self, known):
+        """Of all that moved; the plain anchor where no line cuts the feature."""
+        lay, found = self.layers, {}
+        for f in self.moved & known.keys():
+            lines = self.side_lines(lay.was[f].box)
+            found[f] = side_anchor(lay.was[f], lines, known[f], lay.unit) if lines else None
+            self.count["cut by sides"] += found[f] is not None
+            found[f] = found[f] or known[f]
+        return found
+
     def place_anchors(self):
         """Anchors and moves on the lattice; a finer one, should they need it."""
         lay = self.layers
         known = self.anchors()
+        self.moved = {f for f, t in lay.now.items() if t.dx or t.dy}
+        side = self.side_anchors(known)
         lat = Lattice()
         lat.k = self.lat.k
-        lat.hold_all([known.values()])
+        lat.hold_all([known.values(), side.values()])
         factor = 1 << (lat.k - self.lat.k)
         self.at = {f: (lat(x), lat(y)) for f, (x, y) in known.items()}
+        self.side_at = {f: (lat(x), lat(y)) for f, (x, y) in side.items()}
         self.shape_was = {f: s.scaled(factor) if factor > 1 else s for f, s in lay.was.items()}
         self.step = {f: (lat(t.dx), lat(t.dy)) for f, t in lay.now.items()}
         self.factor, self.cell = factor, int(CELL * 2 ** lat.k)
-        self.moved = {f for f, t in lay.now.items() if t.dx or t.dy}
         for a in self.moved & self.at.keys():
             if plane.locate(self.shape_was[a], self.at[a]) < 0:
                 # The nearest doubles to a point inside may lie beside a sliver, but not outside its box.
@@ -296,26 +314,21 @@ class Checker:
                 self.check_way("jump", a, b, shapes[b], at[a], (step[a][0] - step[b][0], step[a][1] - step[b][1]))
 
     def check_sides(self):
-        """Of features that no barrier cuts: there the plain anchor serves. Of the others it is not known."""
         lay = self.layers
         for a in self.moved & self.at.keys():
-            start, u = self.at[a], self.step[a]
+            start, u = self.side_at[a], self.step[a]
             way = (start, (start[0] + u[0], start[1] + u[1]))
-            corners = [p for e in self.shape_was[a].edges for p in e]
-            box = tuple(v // self.factor for v in plane.box_of([*way, *corners]))
+            box = tuple(v // self.factor for v in plane.box_of(way))
             for k, edges in lay.near_barriers(box, 1).items():
                 barrier = lay.barriers[k]
                 if barrier.side:
                     self.check_side(a, barrier, edges, way)
 
     def check_side(self, a, barrier, edges, way):
-        edges = [tuple((self.factor * x, self.factor * y) for x, y in e) for e in edges]
-        line = plane.Outline(lines=[list(e) for e in edges])
-        if edges and plane.interiors_meet(self.shape_was[a], line):
-            self.count["sides not asked (cut)"] += 1
-            return
+        """Lines on which the way begins say nothing, nor do points."""
+        edges = [tuple((self.factor * x, self.factor * y) for x, y in e) for e in edges if e[0] != e[1]]
         self.count["ways (side)"] += 1
-        if not any(plane.edges_meet(way, e) for e in edges):
+        if not any(plane.edges_meet(way, e) and not plane.on_edge(e, way[0]) for e in edges):
             return
         whole = barrier.shape.scaled(self.factor)
         if not barrier.shape.area or plane.locate(whole, way[0]) <= 0 or not leaves_once(whole, way):

@@ -147,4 +147,17 @@ case("out of a lake", [], [(box(-5, 0), 9, 0)], roads=[box(-29, -9, 31, 30)], wo
 horseshoe = "POLYGON ((-10 -10,10 -10,10 10,8 10,8 -2,2 -2,2 10,-10 10,-10 -10))"
 case("out of a lake and into its arm", ["side"], [(box(-5, 0), 16, 0)], roads=[horseshoe], words=sides)
 case("out of a lake's arm", ["unlisted"], [(box(-5, 0), 6, 0)], roads=[horseshoe], words=sides)
+free = ["barrier=ROADS,gap=0", "allow-jumps"]
+cut = [(box(0, 0), 3, 0)]
+case("cut, to where most of it is", [], cut, roads=["LINESTRING (1 -9,1 9)"], words=free)
+case("cut, to where little of it is", ["side"], [(box(0, 0), -3, 0)], roads=["LINESTRING (1 -9,1 9)"], words=free)
+case("cut in halves, to the right", ["side"], [(box(0, 0), 2, 0)], roads=road, words=free)
+case("cut in halves, to the left", [], [(box(0, 0), -2, 0)], roads=road, words=free)
+case("cut by two, out of the middle", ["side"], [(box(0, 0), 0, 9)], roads=["LINESTRING (1 -9,1 5,9 5)", "LINESTRING (3 -9,3 9)"],
+     words=free)
+case("in a ring", ["side"], [(box(0, 0), 9, 0)], roads=["LINESTRING (-9 2,0.5 0.5,3.5 0.5,3.5 3.5,0.5 3.5,0.5 0.5)"], words=free)
+case("an end that points at the anchor", [], [(box(0, 0), 3, 0)], roads=["LINESTRING (-9 2,1 2)"], words=free)
+case("an end beyond the anchor", ["side"], [(box(0, 0), 0, 5)], roads=["LINESTRING (-9 2.5,3 2.5)"], words=free)
+case("along an edge", [], [(box(0, 0), 3, 0)], roads=["LINESTRING (0 -9,0 9)"], words=free)
+case("along an edge, across", ["side"], [(box(0, 0), -4, 0)], roads=["LINESTRING (0 -9,0 9)"], words=free)
 sys.exit(1 if failed else 0)

@@ -12,7 +12,7 @@ export PYTHONDONTWRITEBYTECODE=1
 # asked NAME SOURCE LAYER GAP LIMIT [BARRIER]
 asked() {
     local -a barrier=() told=()
-    [ -z "${6:-}" ] || { barrier=(--barrier "$6") && told=("barrier=$6,side=no"); }
+    [ -z "${6:-}" ] || { barrier=(--barrier "$6") && told=("barrier=$6"); }
     "$SUNDER" separate "$2" o.gpkg --overwrite -q --input-layer "$3" --gap "$4" --max-shift "$5" --output-layer l \
         "${barrier[@]}" 2>err
     case $? in 0 | 3) ;; *) fail "$1: status $?" ;; esac
@@ -24,6 +24,7 @@ asked() {
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 asked town "$town" buildings 3 10 "$town,layer=roads,width=5"
 asked town "$town" buildings 3 3 "$town,layer=roads,width-field=width,gap=0"
+asked town "$town" buildings 3 10 "$town,layer=roads,width-field=width,gap=0,side=no"
 for limit in 0.5 2 10; do asked town "$town" buildings 3 $limit; done
 if [ "${SUNDER_LAWS:-}" = all ]; then
     for seed in 1 2 3 4; do

@@ -1,0 +1,132 @@
+"""The side anchor of a feature cut by lines, by the rule as it is documented (src/displacement/layer/side_anchor.c), in
+fractions and by other means: the plane in horizontal slabs between all corners, ends and crossings, cells between edges,
+cells that share a piece of a slab's border that no edge covers as one part.
+"""
+from fractions import Fraction
+
+import exact_plane as plane
+
+
+class Cell:
+    """Of one slab, between two edges that follow each other there."""
+
+    def __init__(self, low, high, left, right):
+        self.low, self.high, self.left, self.right, self.part = low, high, left, right, None
+
+    def interval(self, y):
+        return at_height(self.left, y), at_height(self.right, y)
+
+    def area(self):
+        (a, b), (c, d) = self.interval(self.low), self.interval(self.high)
+        return (self.high - self.low) * (b - a + d - c) / 2
+
+
+def at_height(e, y):
+    (ax, ay), (bx, by) = e
+    return ax + Fraction((bx - ax) * (y - ay)) / (by - ay)
+
+
+def levels_of(edges):
+    found = {Fraction(p[1]) for e in edges for p in e}
+    for i, e in enumerate(edges):
+        for f in edges[:i]:
+            if plane.boxes_near(plane.edge_box(e), plane.edge_box(f)):
+                p = plane.crossing(e, f)
+                if p is not None:
+                    found.add(Fraction(p[1]))
+    return sorted(found)
+
+
+class Parts:
+    """outline: the feature; lines: segments, of integers as it."""
+
+    def __init__(self, outline, lines):
+        self.edges = [(e, True) for e in outline.edges] + [(e, False) for e in lines]
+        self.levels = levels_of([e for e, _ in self.edges])
+        self.slabs = [self.cells(y, z) for y, z in zip(self.levels, self.levels[1:])]
+        self.borders = [self.border(k) for k in range(1, len(self.slabs))]
+        self.join()
+
+    def cells(self, low, high):
+        middle = (low + high) / 2
+        across = sorted((at_height(e, middle), own, e) for e, own in self.edges
+                        if min(e[0][1], e[1][1]) <= low and max(e[0][1], e[1][1]) >= high)
+        found, inside = [], False
+        for (x, own, e), (x1, _, f) in zip(across, across[1:]):
+            inside ^= own
+            if inside and x < x1:
+                found.append(Cell(low, high, e, f))
+        return found
+
+    def border(self, k):
+        """What slabs k - 1 and k have in common and no edge covers: intervals, with the two cells."""
+        y = self.levels[k]
+        flat = [sorted((e[0][0], e[1][0])) for e, _ in self.edges if e[0][1] == e[1][1] == y]
+        found = []
+        for below in self.slabs[k - 1]:
+            for above in self.slabs[k]:
+                (a, b), (c, d) = below.interval(y), above.interval(y)
+                free = [(max(a, c), min(b, d))]
+                for p, q in flat:
+                    free = [piece for u, v in free for piece in ((u, min(v, Fraction(p))), (max(u, Fraction(q)), v))]
+                    free = [(u, v) for u, v in free if u < v]
+                found += [(u, v, below, above) for u, v in free if u < v]
+        return found
+
+    def join(self):
+        every = [c for slab in self.slabs for c in slab]
+        near = {id(c): [] for c in every}
+        for border in self.borders:
+            for _, _, below, above in border:
+                near[id(below)].append(above)
+                near[id(above)].append(below)
+        self.parts = []
+        for c in every:
+            if c.part is not None:
+                continue
+            c.part, stack, members = len(self.parts), [c], []
+            while stack:
+                d = stack.pop()
+                members.append(d)
+                for other in near[id(d)]:
+                    if other.part is None:
+                        other.part = c.part
+                        stack.append(other)
+            self.parts.append(members)
+
+    def intervals(self, y):
+        """Of all parts at a height: (left, right, part)."""
+        if y in self.levels:
+            k = self.levels.index(y)
+            border = self.borders[k - 1] if 0 < k < len(self.slabs) else []
+            return [(a, b, below.part) for a, b, below, _ in border]
+        return [(*c.interval(y), c.part) for slab in self.slabs for c in slab if c.low < y < c.high]
+
+    def holder(self, x, y):
+        for a, b, part in self.intervals(y):
+            if a < x < b:
+                return part
+        return None
+
+    def largest(self):
+        areas = [sum(c.area() for c in part) for part in self.parts]
+        return [k for k, area in enumerate(areas) if area == max(areas)]
+
+    def point(self, k):
+        y = (min(c.low for c in self.parts[k]) + max(c.high for c in self.parts[k])) / 2
+        width, left, right = max((b - a, -a, b) for a, b, part in self.intervals(y) if part == k)
+        return (-left + right) / 2, y
+
+
+def side_anchor(outline, lines, plain, unit):
+    """plain: the anchor, as doubles; unit: of the integers, so many to one. None where no line cuts the feature."""
+    lines = [e for e in lines if e[0] != e[1]]
+    if not lines or not plane.interiors_meet(outline, plane.Outline(lines=[list(e) for e in lines])):
+        return None
+    parts = Parts(outline, lines)
+    largest = parts.largest()
+    if parts.holder(*(Fraction(v) * unit for v in plain)) in largest:
+        return plain
+    x, y, part = min((*parts.point(k), k) for k in largest)
+    near = float(x / unit), float(y / unit)
+    return near if parts.holder(*(Fraction(v) * unit for v in near)) == part else plain
