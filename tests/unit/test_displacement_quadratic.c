@@ -1,6 +1,7 @@
 /* The quadratic program on constraints that can and that cannot hold together: what is returned is a number, the moves
- * and forces are numbers, and what is missed is what the moves miss. */
-#include "displacement/programs/quadratic.h"
+ * and forces are numbers, and what is missed is what the moves miss. And the nearest place: its forces say that it is
+ * the nearest, or that there is none. */
+#include "displacement/programs/nearest.h"
 #include "random.h"
 
 #include <math.h>
@@ -87,9 +88,85 @@ static void check_programs(void **state)
     assert_true(solved > 0 && beyond > 0);
 }
 
+/* What the forces add up to, by bodies; returns the sum of what they demand. */
+static double sum_forces(const program *p, double net[2 * BODIES])
+{
+    double won = 0;
+    memset(net, 0, 2 * BODIES * sizeof *net);
+    for (size_t k = 0; k < p->q.n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        won += c->force * c->d;
+        for (size_t x = 0; x < 2; x++) {
+            if (c->j != SUNDER_I_GROUND) net[2 * c->j + x] += c->force * c->n[x];
+            if (c->i != SUNDER_I_GROUND) net[2 * c->i + x] -= c->force * c->n[x];
+        }
+    }
+    return won;
+}
+
+/* The optimality conditions: what acts holds with equality, and pushes by as much as was moved. Where walls all but
+ * oppose each other both are many times what is between them, and so is what rounding leaves. */
+static void check_found(const program *p, size_t trial, double size)
+{
+    double net[2 * BODIES], all = size, far = size;
+    sum_forces(p, net);
+    for (size_t k = 0; k < p->q.n; k++) all += p->constraint[k].force;
+    for (size_t k = 0; k < 2 * BODIES; k++) far = fmax(far, fabs(p->t[k]));
+    if (missed(p) > 1e-12 * size) fail_msg("trial %zu: %g is missed", trial, missed(p));
+    for (size_t k = 0; k < 2 * BODIES && far <= 100 * size; k++)
+        if (!(fabs(net[k] - p->t[k]) <= 1e-10 * all))
+            fail_msg("trial %zu: pushed by %g, moved by %g", trial, net[k], p->t[k]);
+    for (size_t k = 0; k < p->q.n; k++) {
+        const sunder_i_constraint *c = &p->constraint[k];
+        if (c->force < 0) fail_msg("trial %zu: a force of %g", trial, c->force);
+        if (c->force > 0 && !(fabs(c->d - sunder_i_stretch(c, p->t)) <= 1e-11 * far))
+            fail_msg("trial %zu: what acts is kept by %g more", trial, sunder_i_stretch(c, p->t) - c->d);
+    }
+}
+
+/* They demand more than bodies can give that may go that far. */
+static void check_none(const program *p, size_t trial, double limit)
+{
+    double net[2 * BODIES], lost = 0;
+    const double won = sum_forces(p, net);
+    for (size_t b = 0; b < BODIES; b++) lost += limit * hypot(net[2 * b], net[2 * b + 1]);
+    if (!(won > lost * (1 - 1e-9))) fail_msg("trial %zu: %g is demanded, and %g can be given", trial, won, lost);
+}
+
+static void check_nearest(void **state)
+{
+    (void)state;
+    size_t outcomes[3] = {0};
+    const double from[2 * BODIES] = {0};
+    sunder_i_nearest nearest = {0};
+    for (size_t trial = 0; trial < test_count(4000); trial++) {
+        rng r = rng_start(test_seed(), trial);
+        program p;
+        draw(&r, &p);
+        double size = 0, limit[BODIES];
+        for (size_t k = 0; k < p.q.n; k++) size = fmax(size, p.constraint[k].d);
+        for (size_t b = 0; b < BODIES; b++) limit[b] = 100 * size;
+        assert_true(sunder_i_nearest_begin(&nearest, &p.q));
+        const size_t all = p.q.n;
+        p.q.n = (size_t)rng_int(&r, 0, (int)all); /* some come later */
+        sunder_i_nearest_outcome outcome = sunder_i_nearest_go_on(&nearest, &p.q, from, limit, 1e-12 * size);
+        if (outcome == SUNDER_I_NEAREST_FOUND) {
+            check_found(&p, trial, size);
+            p.q.n = all;
+            outcome = sunder_i_nearest_go_on(&nearest, &p.q, from, limit, 1e-12 * size);
+        }
+        if (outcome == SUNDER_I_NEAREST_FOUND) check_found(&p, trial, size);
+        if (outcome == SUNDER_I_NEAREST_NONE) check_none(&p, trial, limit[0]);
+        outcomes[outcome]++;
+    }
+    sunder_i_nearest_free(&nearest);
+    printf("%zu found, %zu proved to be none, %zu not sure\n", outcomes[0], outcomes[1], outcomes[2]);
+    assert_true(outcomes[0] > 0 && outcomes[1] > 0 && outcomes[2] <= test_count(4000) / 100);
+}
+
 int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
