@@ -22,6 +22,8 @@
 #define FOUND 0.8
 /* What was given up is looked at again, each time with what the search ran into since. */
 #define RECONSIDERED 4
+/* Pairs are asked about one by one so often: each time one in a cluster is solved. */
+#define ASKED_ALONE 16
 /* Better sides are looked for so often, where clusters joined since the last time. */
 #define IMPROVED 3
 
@@ -80,6 +82,11 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
     for (int round = 0; round < IMPROVED && !status && !sunder_i_solver_is_improved(s); round++) {
         status = sunder_i_solver_improve(s, err);
         if (!status) status = sunder_i_solver_settle(s, from + (5 + round / 2.0) * step, to, err);
+    }
+    again = true;
+    for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
+        status = sunder_i_solver_ask_one_by_one(s, &again, err);
+        if (!status && again) status = sunder_i_solver_settle(s, from + 6 * step, to, err);
     }
     return status;
 }

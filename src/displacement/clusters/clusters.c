@@ -37,6 +37,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->widened);
     sunder_i_free(s->changed);
     sunder_i_free(s->reconsidered);
+    sunder_i_free(s->alone);
     sunder_i_free(s->improved);
     sunder_i_free(s->limit);
     sunder_i_free(s->aside);

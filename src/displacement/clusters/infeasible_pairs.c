@@ -42,13 +42,24 @@ static sunder_status judge(void *context, size_t begin, size_t end, sunder_error
     return status;
 }
 
+/* Of another part of the same barrier, just before. */
+static bool is_known(const sunder_i_relaxations *list, const sunder_i_relaxation *t)
+{
+    for (size_t k = list->n; k > 0 && list->item[k - 1].a == t->a; k--)
+        if (list->item[k - 1].b == t->b) return true;
+    return false;
+}
+
 /* Takes over what was found of pair r. */
 static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_relaxation *relaxation,
                           const sunder_i_resolution *resolution, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
+    if (relaxation->infeasible && is_known(&model->relaxations, relaxation)) return SUNDER_OK;
     if (relaxation->infeasible)
-        return sunder_i_relaxations_add(&model->relaxations, relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+        return sunder_i_relaxations_spread(&model->relaxations, model, relaxation, model->rules.gap)
+                   ? SUNDER_OK
+                   : sunder_i_no_memory(err);
     const sunder_i_body *p = &model->body[model->body_of[r->a]], *q = &model->body[model->body_of[r->b]];
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q);
     if (!resolution->apart_beyond || !resolution->inside || hypot(resolution->place[0], resolution->place[1]) > reach)

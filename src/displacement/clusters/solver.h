@@ -30,11 +30,13 @@ typedef struct sunder_i_solver {
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge;
     size_t edges, edge_capacity;
-    uint32_t *parent;                /* [bodies] union-find over edges */
-    bool *dirty;                     /* [bodies] to be solved (again) */
-    unsigned char *widened;          /* [bodies] how often the margin grew */
-    bool *changed;                   /* [things] moved in this round */
-    bool *reconsidered;              /* [bodies] of the least of a component of conflicts: no solution was found */
+    uint32_t *parent;        /* [bodies] union-find over edges */
+    bool *dirty;             /* [bodies] to be solved (again) */
+    unsigned char *widened;  /* [bodies] how often the margin grew */
+    bool *changed;           /* [things] moved in this round */
+    bool *reconsidered;      /* [bodies] of the least of a component of conflicts: no solution was found */
+    sunder_i_id_pair *alone; /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
+    size_t alone_n, alone_capacity;
     bool *improved;                  /* [bodies] better sides were looked for since the body's cluster was solved */
     double *limit;                   /* [bodies] the limits, while they are lifted */
     bool *aside;                     /* [bodies] left as they are while limits are lifted; NULL: they never were */

@@ -42,6 +42,11 @@ sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *e
 /* Looks again at what was given up. What has a solution after all is put there, which is to be settled: *changed. */
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
+/* ---- one_by_one.c ------------------------------------------------------------------------------------------------ */
+
+/* The same of single pairs, the others staying in conflict. */
+sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *changed, sunder_error *err);
+
 /* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
 
 /* Once nothing joins clusters any more: asks what was given up once more, a cluster at a time. */

@@ -17,6 +17,10 @@
 #define EFFORT 100000u
 #define MOST_BODIES 64
 
+/* How long for one pair, the others staying in conflict (one_by_one.c): some milliseconds. */
+#define EFFORT_ALONE 400000u
+#define MARGINS 4
+
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 
 /* Moves are alike that differ by no more than so many units: what a row that was pushed along gathers by rounding. */

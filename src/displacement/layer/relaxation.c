@@ -235,6 +235,27 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
     return SUNDER_OK;
 }
 
+bool sunder_i_relaxations_spread(sunder_i_relaxations *out, const sunder_i_model *model,
+                                 const sunder_i_relaxation *relaxation, double reach)
+{
+    sunder_i_relaxation of_part = *relaxation;
+    if (!sunder_i_is_barrier(model, of_part.b)) return sunder_i_relaxations_add(out, &of_part);
+    const uint32_t whole = sunder_i_whole_of(model, of_part.b),
+                   end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, of_part.b)];
+    const double limit = sunder_i_limit_of(&model->body[model->body_of[of_part.a]]);
+    double box[4];
+    sunder_i_list near = {0};
+    sunder_i_box_grow(model->box + 4 * (size_t)of_part.a, isfinite(limit) ? reach + limit : reach, box);
+    bool ok = sunder_i_rtree_query(&model->tree, box, &near);
+    for (size_t k = 0; k < near.n && ok; k++) {
+        if (near.item[k] < whole || near.item[k] >= end) continue;
+        of_part.b = near.item[k];
+        ok = sunder_i_relaxations_add(out, &of_part);
+    }
+    sunder_i_free(near.item);
+    return ok;
+}
+
 sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i, uint32_t j, double reach,
                                         sunder_i_relaxations *out, sunder_error *err)
 {
@@ -252,7 +273,7 @@ sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t i,
             if (sunder_i_is_included(model, f, g)) continue;
             status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
             if (!status && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap) &&
-                !sunder_i_relaxations_add(out, &relaxation))
+                !sunder_i_relaxations_spread(out, model, &relaxation, reach))
                 status = sunder_i_no_memory(err);
         }
     }

@@ -40,6 +40,10 @@ typedef struct sunder_i_relaxations {
 void sunder_i_relaxations_free(sunder_i_relaxations *relaxations);
 /* Appends one; to be indexed before anything is looked up. False if memory is out. */
 bool sunder_i_relaxations_add(sunder_i_relaxations *relaxations, const sunder_i_relaxation *relaxation);
+/* The same, of a barrier for all of its parts that the feature may come within reach of: what is demanded is of the
+ * whole, and a part that was far off would else ask for all that is owed. */
+bool sunder_i_relaxations_spread(sunder_i_relaxations *relaxations, const sunder_i_model *model,
+                                 const sunder_i_relaxation *relaxation, double reach);
 bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model);
 /* The relaxation of two features, or between members of two bodies; NULL: there is none. */
 const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations *relaxations, uint32_t f, uint32_t g);

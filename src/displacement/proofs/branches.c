@@ -46,13 +46,14 @@ static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
 {
     area room = {.n = DISC_SIDES};
     const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
-    const double reach = sunder_i_branching_limit(c, o->p) + sunder_i_branching_limit(c, o->q);
+    const double last = sunder_i_limit_of(&c->model->body[o->q]),
+                 reach = sunder_i_limit_of(&c->model->body[o->p]) + last;
     const double r = reach / cos(TURN / (2 * DISC_SIDES));
     for (int k = 0; k < DISC_SIDES; k++) {
         room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);
         room.xy[2 * k + 1] = r * sin(TURN * k / DISC_SIDES);
     }
-    const bool takes_part = j != SUNDER_I_GROUND || !(sunder_i_branching_limit(c, o->q) > 0);
+    const bool takes_part = j != SUNDER_I_GROUND || !(last > 0);
     for (size_t k = 0; k < c->claims && takes_part; k++) {
         const sunder_i_claim *s = &c->claim[k];
         const double behind[2] = {-s->n[0], -s->n[1]};

@@ -75,8 +75,6 @@ static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
 
 /* ---- participants.c ---------------------------------------------------------------------------------------------- */
 
-/* How far a body may go: 0 if it is fixed. */
-double sunder_i_branching_limit(const sunder_i_branching *branching, uint32_t body);
 /* The place of a body among those that take part; SUNDER_I_GROUND: it is none of them, or cannot move. */
 uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t body);
 /* The same, and it is taken in if it was not there; SUNDER_I_GROUND: it cannot move. */

@@ -31,6 +31,23 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->near.item);
 }
 
+/* The candidate, by ascending bodies. */
+static sunder_i_solution take_solution(sunder_i_branching *c)
+{
+    for (size_t k = 1; k < c->bodies; k++) {
+        const uint32_t body = c->body[k];
+        const double t[2] = {c->t[2 * k], c->t[2 * k + 1]};
+        size_t at = k;
+        for (; at && c->body[at - 1] > body; at--) {
+            c->body[at] = c->body[at - 1];
+            memcpy(c->t + 2 * at, c->t + 2 * (at - 1), sizeof t);
+        }
+        c->body[at] = body;
+        memcpy(c->t + 2 * at, t, sizeof t);
+    }
+    return (sunder_i_solution){c->body, c->t, c->bodies};
+}
+
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)
 {
     *decision = (sunder_i_decision){.verdict = SUNDER_I_UNKNOWN};
@@ -52,7 +69,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     }
     decision->work = sunder_i_branching_work(&c);
     if (!status && decision->verdict == SUNDER_I_FEASIBLE) {
-        decision->solution = (sunder_i_solution){c.body, c.t, c.bodies};
+        decision->solution = take_solution(&c);
     } else {
         sunder_i_free(c.body);
         sunder_i_free(c.t);

@@ -27,6 +27,7 @@ typedef struct sunder_i_subproblem {
     uint32_t a, b;   /* things likewise that owe each other all, whatever is listed; or SUNDER_I_NOBODY */
     const sunder_i_requirement *required; /* sorted */
     size_t required_n;
+    double margin;           /* to be kept beyond what is owed: 0 where a proof is looked for */
     const uint32_t *feature; /* NULL, or the only things to be heeded, likewise, ascending */
     size_t features;
     /* Lines between pairs may be short by this share of how far the two may go: then proofs are smaller, and a
@@ -39,7 +40,7 @@ typedef struct sunder_i_subproblem {
 } sunder_i_subproblem;
 
 typedef struct sunder_i_solution {
-    uint32_t *body; /* those asked about, and what they met */
+    uint32_t *body; /* ascending: those asked about that may move, and what they met */
     double *move;   /* [2 * bodies] */
     size_t bodies;
 } sunder_i_solution;

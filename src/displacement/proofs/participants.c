@@ -16,12 +16,6 @@ static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limi
     c->hair = fmax(c->hair, fmax(c->longest * 0x1p-40, (size + c->model->rules.gap) * 0x1p-47));
 }
 
-double sunder_i_branching_limit(const sunder_i_branching *c, uint32_t body)
-{
-    const sunder_i_body *b = &c->model->body[body];
-    return b->fixed ? 0 : b->limit;
-}
-
 uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
 {
     for (uint32_t k = 0; k < c->bodies; k++)
@@ -32,7 +26,7 @@ uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
 uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
 {
     const uint32_t known = sunder_i_branching_place(c, body);
-    const double limit = sunder_i_branching_limit(c, body);
+    const double limit = sunder_i_limit_of(&c->model->body[body]);
     if (known != SUNDER_I_GROUND) return known;
     set_scale(c, &c->model->body[body], limit);
     if (!(limit > 0)) return SUNDER_I_GROUND;
@@ -132,7 +126,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
         sunder_i_may_get_inside(&model->rules, model->box + 4 * (size_t)f, model->box + 4 * (size_t)g,
                                 nextafter(reach, INFINITY)))
         return false;
-    *clearance = sunder_i_owed_below(model, f, g);
+    *clearance = sunder_i_owed_below(model, f, g) + q->margin;
     const sunder_i_requirement key = {whole[f > g], whole[f < g], 0};
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =

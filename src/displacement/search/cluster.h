@@ -45,6 +45,14 @@ sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_clust
 /* Do the two features overlap now, and could limits let them be parted, if not to the gap? */
 bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 
+/* ---- resume.c ---------------------------------------------------------------------------------------------------- */
+
+/* The same from moves that are thought to be a solution without those relaxations, n of them, sorted: *done if it is
+ * one; else moves are as they were. */
+sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_cluster *cluster,
+                                      const sunder_i_restored *restored, size_t n, double *move, bool *done,
+                                      sunder_error *err);
+
 /* ---- improve.c --------------------------------------------------------------------------------------------------- */
 
 /* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
