@@ -117,17 +117,32 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     return status;
 }
 
-/* A question about a conflict: a small layer of its own, of which nothing is reported. What the first search does not
- * find is not asked again, and nothing is improved. */
+/* Is there a pair that limits leave no solution for? */
+static bool is_beyond_limits(const sunder_i_model *model)
+{
+    for (size_t k = 0; k < model->relaxations.n; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        if (sunder_i_may_move(&model->body[model->body_of[t->a]]) ||
+            sunder_i_may_move(&model->body[model->body_of[t->b]]))
+            return true;
+    }
+    return false;
+}
+
+/* A question about a conflict: a small layer of its own, of which nothing is reported. It is whether all of it has a
+ * solution: a pair or a cluster without one ends it, and nothing is given up or improved. (Only who has to leave what
+ * it lies in finds that out by a search in vain.) */
 static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options, sunder_i_solver *s,
                                   sunder_error *err)
 {
     sunder_report *report = NULL;
     sunder_status status = start(s, layer, options, false, &report, err);
     if (!status) status = prepare(s, err);
-    if (!status) status = sunder_i_solver_move_inside(s, err);
-    if (!status) status = sunder_i_solver_choose_holders(s, err);
-    if (!status) status = sunder_i_solver_settle(s, 0, 1, err);
+    s->brief = !status && s->model.inclusions == 0;
+    s->hopeless = s->brief && is_beyond_limits(&s->model);
+    if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
+    if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
+    if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);
     sunder_report_free(report);
     return status;
 }

@@ -189,6 +189,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
             c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY ||
                          sunder_i_forbids_ways(&s->model);
         }
+        c->brief = s->brief;
         c->body = s->body + first;
         c->n = end - first;
         c->margin = margin_of(s, s->member + first, c->n);

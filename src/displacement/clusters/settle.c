@@ -144,6 +144,13 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
     return find_jumps(s, any, err);
 }
 
+static bool is_hopeless(const sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->clusters; k++)
+        if (s->cluster[k].hopeless) return true;
+    return false;
+}
+
 sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to, sunder_error *err)
 {
     bool any;
@@ -156,7 +163,8 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *s, double from, double to,
         if (!status)
             status =
                 sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, solve_clusters, s, err);
-        if (status) return status;
+        s->hopeless = !status && is_hopeless(s);
+        if (status || s->hopeless) return status;
         sunder_i_solver_commit(s);
         note_solved(s);
         for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;

@@ -48,6 +48,8 @@ typedef struct sunder_i_solver {
     double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
     size_t clusters;
+    bool brief;    /* the first cluster without a solution ends it: nothing is given up */
+    bool hopeless; /* there was one */
 } sunder_i_solver;
 
 /* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */

@@ -169,6 +169,7 @@ static bool is_solved(const surroundings *a, const sunder_i_solver *x, double ga
 {
     const sunder_i_model *model = &x->model;
     *longest = 0;
+    if (x->hopeless) return false;
     gap = fmax(gap, x->barriers.farthest);
     for (size_t k = 0; k < model->features; k++) {
         const double *t = model->move + 2 * (size_t)model->body_of[k], *box = x->placement.box + 4 * k;

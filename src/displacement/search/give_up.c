@@ -45,6 +45,20 @@ static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
     return s->relaxations.n > before;
 }
 
+bool sunder_i_search_waive_margins(sunder_i_search *s)
+{
+    size_t n = 0;
+    sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
+    const size_t before = s->relaxations.n;
+    const double margin = s->gap - s->model->rules.gap;
+    if (!at_home) s->failed = true;
+    for (size_t k = 0; k < n && !s->failed; k++)
+        if (at_home[k].violation <= margin + s->tolerance) relax(s, at_home[k].i, at_home[k].j);
+    sunder_i_free(at_home);
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    return !s->failed && s->relaxations.n > before;
+}
+
 /* Who may stand near whom, each where it stands or where it came from: pairs, and of each body which they are. */
 typedef struct neighbours {
     sunder_i_id_pair *pair;

@@ -25,23 +25,41 @@ void sunder_i_search_hand_over(sunder_i_search *s, sunder_i_cluster *cluster)
     s->restored_n = s->restored_capacity = 0;
 }
 
+/* Descends, and where sides contradict each other jumps and descends again; as long as jumps help, or once more. */
+static bool find_free(sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    bool done = !s->failed && sunder_i_search_descend(s);
+    for (int k = 0; k < MOST_JUMPS && !done && !s->failed; k++) {
+        const bool stuck = !sunder_i_search_jump(s) && cluster->limited;
+        if (stuck && !cluster->brief) break;
+        done = sunder_i_search_descend(s);
+        if (stuck) break;
+    }
+    return done;
+}
+
+/* Begins anew from where all began, with pairs that stood apart there, but not by the margin, held to that. */
+static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster *cluster, const double *move)
+{
+    if (!sunder_i_search_waive_margins(s)) return false;
+    memcpy(s->t, move, 2 * s->n * sizeof *s->t);
+    s->program.n = 0;
+    return find_free(s, cluster);
+}
+
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     sunder_i_search s;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
-    bool done = !s.failed && sunder_i_search_descend(&s);
-    for (int k = 0; k < MOST_JUMPS && !done && !s.failed; k++) {
-        if (!sunder_i_search_jump(&s) && cluster->limited) break;
-        done = sunder_i_search_descend(&s);
-    }
+    bool done = find_free(&s, cluster);
+    if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
     if (!done && !s.failed) done = sunder_i_search_spread(&s);
-    if (!done && !s.failed && cluster->limited) {
-        sunder_i_search_give_up(&s);
-        sunder_i_search_hand_over(&s, cluster);
-    }
+    if (!done && !s.failed && cluster->limited && !cluster->brief) sunder_i_search_give_up(&s);
+    cluster->hopeless = !done && cluster->brief;
+    sunder_i_search_hand_over(&s, cluster);
     const bool failed = s.failed;
-    if (!failed) sunder_i_search_round(&s, move);
+    if (!failed && !cluster->hopeless) sunder_i_search_round(&s, move);
     sunder_i_search_free(&s);
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }

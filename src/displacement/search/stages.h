@@ -35,6 +35,9 @@ bool sunder_i_search_spread(sunder_i_search *search);
 /* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing
  * clashes; then down from there. The new relaxations are in search->relaxations. */
 void sunder_i_search_give_up(sunder_i_search *search);
+/* Relaxes pairs that, with all at home, miss no more than the margin, which is asked beyond what they owe. Returns
+ * whether there were any. */
+bool sunder_i_search_waive_margins(sunder_i_search *search);
 /* Down from a position without clashes, or stay there. */
 void sunder_i_search_lower(sunder_i_search *search);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
