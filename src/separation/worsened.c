@@ -130,7 +130,7 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
 
 static sunder_status compare_depths(const sunder_i_pair *was, const sunder_i_pair *is, bool *worse, sunder_error *err)
 {
-    sunder_separation before, now;
+    sunder_separation before, now = {.overlap = false};
     sunder_i_least_options o = {.tp = was->tp, .tq = was->tq, .upper = INFINITY, .texts = true};
     sunder_status status = sunder_i_least(was->p, was->q, &o, &before, NULL, err);
     if (status) return status;
@@ -144,7 +144,7 @@ static sunder_status compare_depths(const sunder_i_pair *was, const sunder_i_pai
         else
             status = compare_texts(before.distance_squared_text, now.distance_squared_text, worse, err);
     }
-    if (!status) sunder_separation_clear(&now);
+    sunder_separation_clear(&now);
     sunder_separation_clear(&before);
     return status;
 }

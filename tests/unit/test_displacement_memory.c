@@ -17,7 +17,7 @@ enum { HOUSES = 6 };
 
 typedef struct street {
     sunder_shape *shape[HOUSES];
-    bool check;
+    bool check, moves;
     double limit; /* of all: 1.1 is enough for each pair, and for all together not */
     bool barriers;
     sunder_layer_options options;
@@ -41,8 +41,8 @@ static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_e
 {
     static const double xy[] = {-5, 3, 5, 4, 15, -3, 40, 5};
     static const size_t line_end[] = {3, 4};
-    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 2}, 1, 0.5, false},
-                                       {{.shape = s->shape[5]}, 0, -1, false}};
+    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 2}, 1, 0.5, s->moves},
+                                       {{.shape = s->shape[5]}, 0, -1, s->moves}};
     return s->barriers ? sunder_layer_set_barriers(layer, barrier, 2, err) : SUNDER_OK;
 }
 
@@ -60,7 +60,9 @@ static bool attempt(void *context)
             .shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : s->limit, .block = -1, .fixed = k == 3};
     if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
     if (!status) status = set_barriers(s, layer, &err);
-    if (!status)
+    if (!status && s->moves)
+        status = sunder_layer_check_moves(layer, layer, &s->options, &report, &err);
+    else if (!status)
         status = s->check ? sunder_layer_check(layer, &s->options, &report, &err)
                           : sunder_layer_separate(layer, &s->options, &report, &err);
     if (status) {
@@ -69,7 +71,7 @@ static bool attempt(void *context)
     } else {
         sunder_layer_summary summary;
         sunder_report_summary(report, &summary);
-        assert_true(summary.before.overlap > 0);
+        assert_true(s->moves || summary.before.overlap > 0);
         assert_true(s->check || summary.moved > 0 || s->limit < INFINITY);
         assert_true(s->limit == INFINITY || summary.blocked > 0);
     }
@@ -98,6 +100,17 @@ static void check_separate_with_gap(void **state) { run(false, 1, INFINITY); }
 static void check_separate_without_room(void **state) { run(false, 0, 1.1); }
 static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
+/* Nobody moved; but the sides of what the road cuts are found. */
+static void check_moves_beside_barriers(void **state)
+{
+    street s = {.check = true, .moves = true, .limit = INFINITY, .barriers = true};
+    sunder_layer_options_init(&s.options);
+    failing_begin();
+    const bool sound = failing_loop(attempt, &s, true);
+    failing_end();
+    assert_true(sound);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -106,6 +119,7 @@ int main(void)
         cmocka_unit_test(check_separate_with_gap),
         cmocka_unit_test(check_separate_without_room),
         cmocka_unit_test(check_beside_barriers),
+        cmocka_unit_test(check_moves_beside_barriers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,6 +16,7 @@ enum { MOST = 4 };
 
 typedef struct scene {
     sunder_feature was[MOST], is[MOST];
+    sunder_barrier barrier; /* of the layer as it was, if it has one */
     size_t n;
     sunder_layer_options options;
     sunder_report *report;
@@ -47,6 +48,7 @@ static void run(scene *s)
     sunder_layer *before = NULL, *after = NULL;
     assert_int_equal(sunder_layer_new(s->was, s->n, &before, NULL), SUNDER_OK);
     assert_int_equal(sunder_layer_new(s->is, s->n, &after, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_set_barriers(before, &s->barrier, 1, NULL), SUNDER_OK);
     assert_int_equal(sunder_layer_check_moves(before, after, &s->options, &s->report, NULL), SUNDER_OK);
     s->found = sunder_report_conflicts(s->report, &s->found_n);
     sunder_layer_summary summary;
@@ -151,6 +153,111 @@ static void check_jumps(void **state)
     end(&s);
 }
 
+/* A house that goes 8 to the right, beside a line; its side anchor is at (2, 2) unless something cuts it. */
+static void check_sides(void **state)
+{
+    static const struct {
+        double xy[6];
+        size_t points;
+        bool side, crosses;
+        double from[2];
+    } line[] = {
+        {{5, -9, 5, 9}, 2, true, true, {2, 2}},         /* across */
+        {{5, -9, 5, 9}, 2, false, false, {0, 0}},       /* which is allowed */
+        {{5, 9, 5, 2}, 2, true, true, {2, 2}},          /* the way touches its end */
+        {{5, 9, 5, 3}, 2, true, false, {0, 0}},         /* passes below it */
+        {{12, -9, 12, 9}, 2, true, false, {0, 0}},      /* the house comes upon it, and its anchor does not */
+        {{1, -9, 1, 9}, 2, true, false, {0, 0}},        /* cuts off little */
+        {{3, -9, 3, 9}, 2, true, true, {2, 2}},         /* cuts off little on the other side */
+        {{2, -9, 2, 9}, 2, true, true, {1, 2}},         /* halves: the left one's middle */
+        {{2, -9, 2, 3, 6, 9}, 3, true, true, {2, 1.5}}, /* through the anchor: the larger part is beside it and below */
+        {{3, 2}, 1, true, false, {0, 0}},               /* points have no sides */
+    };
+    for (size_t k = 0; k < sizeof line / sizeof *line; k++) {
+        scene s;
+        begin(&s, 0);
+        add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
+        s.barrier = (sunder_barrier){{NULL, line[k].xy, &line[k].points, 1}, 0, 0, line[k].side};
+        run(&s);
+        size_t sides = 0;
+        for (size_t i = 0; i < s.found_n; i++) {
+            if (s.found[i].kind != SUNDER_CONFLICT_SIDE) continue;
+            sides++;
+            assert_true(s.found[i].a == 0 && s.found[i].b == 1);
+            if (k != 8) assert_true(s.found[i].from[0] == line[k].from[0] && s.found[i].from[1] == line[k].from[1]);
+            assert_true(s.found[i].to[0] == s.found[i].from[0] + 8);
+        }
+        assert_int_equal(sides, line[k].crosses);
+        end(&s);
+    }
+}
+
+/* The same of areas: in, out of it, out of it and in again, past it. */
+static void check_sides_of_areas(void **state)
+{
+    static const struct {
+        const char *area;
+        bool crosses;
+    } area[] = {
+        {"POLYGON ((6 -9, 20 -9, 20 9, 6 9, 6 -9))", true},
+        {"POLYGON ((-9 -9, 6 -9, 6 9, -9 9, -9 -9))", false},
+        {"POLYGON ((-9 -9, 20 -9, 20 9, 9 9, 9 -5, 6 -5, 6 9, -9 9, -9 -9))", true},
+        {"POLYGON ((-9 -9, 20 -9, 20 9, 12 9, 12 -5, 6 -5, 6 9, -9 9, -9 -9))", false},
+        {"POLYGON ((6 3, 8 3, 8 5, 6 5, 6 3))", false},
+        {"POLYGON ((6 1, 8 1, 8 5, 6 5, 6 1))", true},
+        {"POLYGON ((-9 -9, 20 -9, 20 9, -9 9, -9 -9), (-1 -1, -1 6, 6 6, 6 -1, -1 -1))", true},
+        {"POLYGON ((-9 -9, 20 -9, 20 9, -9 9, -9 -9), (6 1, 6 3, 8 3, 8 1, 6 1))", true},
+    };
+    for (size_t k = 0; k < sizeof area / sizeof *area; k++) {
+        scene s;
+        begin(&s, 0);
+        add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
+        sunder_shape *shape = polyset_shape_of_wkt(area[k].area);
+        assert_non_null(shape);
+        s.barrier = (sunder_barrier){{.shape = shape}, 0, 0, true};
+        run(&s);
+        size_t sides = 0;
+        for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
+        if (sides != area[k].crosses) print_error("area %zu\n", k);
+        assert_int_equal(sides, area[k].crosses);
+        sunder_shape_free(shape);
+        end(&s);
+    }
+}
+
+/* Areas that cross themselves, some of them where no doubles are. */
+static void check_sides_of_repaired_areas(void **state)
+{
+    static const struct {
+        double xy[8];
+        bool crosses;
+    } area[] = {
+        {{6, -6, 12, 12, 12, -6, 6, 12}, true},   /* in, by an edge that begins at the crossing */
+        {{7, 1, 8, 3, 8, 1, 7, 4}, true},         /* through both of its parts */
+        {{-1, -3, 11, 8, 11, -4, -1, 8}, true},   /* out of one part, and into the other */
+        {{-9, -9, 8, 2.125, 8, -9, -9, 9}, true}, /* out of one part, and into the other beyond the crossing */
+        {{7, 2.5, 8, 4, 8, 2.5, 7, 5}, false},    /* past it */
+    };
+    const size_t ring_end = 4, poly_end = 1;
+    for (size_t k = 0; k < sizeof area / sizeof *area; k++) {
+        scene s;
+        sunder_shape *shape = NULL;
+        begin(&s, 0);
+        add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
+        assert_int_equal(
+            sunder_shape_from_rings(area[k].xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &shape, NULL),
+            SUNDER_OK);
+        s.barrier = (sunder_barrier){{.shape = shape}, 0, 0, true};
+        run(&s);
+        size_t sides = 0;
+        for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
+        if (sides != area[k].crosses) print_error("area %zu\n", k);
+        assert_int_equal(sides, area[k].crosses);
+        sunder_shape_free(shape);
+        end(&s);
+    }
+}
+
 static void check_worse(void **state)
 {
     /* Two, one apart, with a gap of three: nearer, farther, into each other. */
@@ -194,8 +301,10 @@ static void check_sizes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_translates), cmocka_unit_test(check_limits), cmocka_unit_test(check_jumps),
-        cmocka_unit_test(check_worse),      cmocka_unit_test(check_sizes),
+        cmocka_unit_test(check_translates),     cmocka_unit_test(check_limits),
+        cmocka_unit_test(check_jumps),          cmocka_unit_test(check_sides),
+        cmocka_unit_test(check_sides_of_areas), cmocka_unit_test(check_sides_of_repaired_areas),
+        cmocka_unit_test(check_worse),          cmocka_unit_test(check_sizes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
