@@ -433,7 +433,8 @@ typedef struct sunder_layer_options {
     sunder_progress progress;
     void *progress_user;
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
-    double effort;    /* >= 0: how many questions are asked about what would free a conflict; 0: none */
+    double effort;    /* >= 0: how hard to look for better layouts, for proofs, and for what would free a
+                       * conflict; 0: not at all */
     uint64_t seed;    /* of what search is random; nothing is yet */
 } sunder_layer_options;
 
@@ -544,12 +545,14 @@ typedef struct sunder_report sunder_report;
 
 typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
+    size_t clusters_optimal; /* of the contact groups, those of which it is proved that nothing costs less */
     sunder_conflict_counts before, after; /* of check: both the same */
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t moved, blocked, skipped, rounded;
     double total, mean, max;  /* of the lengths of moves; mean over the moved */
     size_t max_feature;       /* whose move is longest; SIZE_MAX if nothing moved */
-    double cost, lower_bound; /* sum of weight * length^2; what no admissible displacement can beat */
+    double cost, lower_bound; /* sum of weight * length^2; no placement that solves every pair not listed costs less */
+    double pair_bound;        /* the part of that which bound pairs alone prove */
     bool verified;            /* every pair but those listed and those in blocks was proved apart (or
                                              inside, where that may overlap), and none listed stands worse */
     double seconds_solve, seconds_verify;
@@ -601,7 +604,7 @@ SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t featu
 /* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
  * and, with list_inside, every pair inside blocks. */
 SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
-/* The pairs that the lower bound stands on, so that it can be computed again: a feature of each of two blocks, or one
+/* The pairs that pair_bound stands on, so that it can be computed again: a feature of each of two blocks, or one
  * that stands alone, least separations rounded down, multipliers. */
 typedef struct sunder_bound_pair {
     size_t a, b; /* features, one of each block */

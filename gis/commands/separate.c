@@ -154,8 +154,7 @@ static void json_separate(gis_json *out, const separate_run *run)
     gis_json_put_size(out, "vertices", summary->vertices);
     gis_json_put_size(out, "blocks", summary->blocks);
     gis_json_put_size(out, "clusters", summary->clusters);
-    gis_json_key(out, "clusters_optimal"); /* nothing proves optimality yet */
-    gis_json_null(out);
+    gis_json_put_size(out, "clusters_optimal", summary->clusters_optimal);
     gis_json_line(out);
     gis_json_key(out, "conflicts");
     gis_json_open(out, '{');

@@ -102,6 +102,7 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
     if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
     if (!status && lifted) status = seek(s, !back, FOUND_WITHOUT_LIMITS, FOUND, err);
     if (!status) status = sunder_i_solver_uphold(s, err);
+    if (!status) status = sunder_i_solver_optimise(s, err);
     return status ? status : sunder_i_solver_gather(s, err);
 }
 
@@ -164,13 +165,13 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
     status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
+    if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_proofs(report, s, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
     if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
-    report->summary.clusters = s->clusters;
     return sunder_i_report_renumber(report, s->number, err);
 }
 

@@ -359,10 +359,10 @@ static void check_bound(const town *t, const sunder_report *report)
         mpq_mul(load, load, x);
         mpq_sub(value, value, load);
     }
-    mpq_set_d(x, s.lower_bound);
-    assert_true(s.lower_bound == 0 || mpq_cmp(x, value) <= 0);
-    assert_true(s.lower_bound <= s.cost * (1 + 1e-12));
-    assert_true(s.lower_bound >= mpq_get_d(value) - 1e-9 * (1 + fabs(mpq_get_d(value))));
+    mpq_set_d(x, s.pair_bound);
+    assert_true(s.pair_bound == 0 || mpq_cmp(x, value) <= 0);
+    assert_true(s.pair_bound <= s.lower_bound && s.lower_bound <= s.cost * (1 + 1e-12));
+    assert_true(s.pair_bound >= mpq_get_d(value) - 1e-9 * (1 + fabs(mpq_get_d(value))));
     mpq_clears(value, x, y, load, weight, NULL);
 }
 

@@ -3,7 +3,7 @@
  * An edge is a pair of bodies that came into conflict, or into each other's way, at some time. Clusters are the
  * components of the edges over bodies that are not fixed; a fixed body is a member of every cluster that has an edge to
  * it, and joins none. */
-#include "displacement/clusters/solver.h"
+#include "displacement/clusters/stages.h"
 
 #include "base/invariant.h"
 #include "base/union_find.h"
@@ -47,6 +47,7 @@ void sunder_i_solver_free(sunder_i_solver *s)
     sunder_i_free(s->body);
     sunder_i_free(s->move);
     free_clusters(s);
+    sunder_i_groups_free(&s->groups);
     sunder_i_free(s->layer.feature);
     sunder_i_barriers_free(&s->barriers);
     sunder_i_free(s->number);
@@ -121,15 +122,15 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *s, uint32_t root,
  * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
  * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
  * does the same. */
-static double margin_of(const sunder_i_solver *s, const sunder_i_cluster_member *m, size_t n)
+double sunder_i_solver_margin(const sunder_i_solver *s, const uint32_t *b, size_t n)
 {
     double largest = 0;
     unsigned widened = 0;
     for (size_t k = 0; k < n; k++) {
-        const sunder_i_body *body = &s->model.body[m[k].body];
+        const sunder_i_body *body = &s->model.body[b[k]];
         if (body->pieces == 0) continue;
         for (int c = 0; c < 4; c++) largest = fmax(largest, fabs(body->origin[c & 1]) + fabs(body->box[c]));
-        if (s->widened[m[k].body] > widened) widened = s->widened[m[k].body];
+        if (s->widened[b[k]] > widened) widened = s->widened[b[k]];
     }
     int exponent;
     frexp(largest + fmax(s->model.rules.gap, s->barriers.farthest), &exponent);
@@ -192,7 +193,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *s, sunder_error *err)
         c->brief = s->brief;
         c->body = s->body + first;
         c->n = end - first;
-        c->margin = margin_of(s, s->member + first, c->n);
+        c->margin = sunder_i_solver_margin(s, c->body, c->n);
     }
     SUNDER_I_CHECK(check(s), s->members);
     return SUNDER_OK;

@@ -5,6 +5,7 @@
 
 #include "displacement/layer/jumps.h"
 #include "displacement/layer/placement.h"
+#include "displacement/optimum/optimum.h"
 #include "displacement/search/cluster.h"
 
 typedef struct sunder_i_cluster_member {
@@ -17,6 +18,15 @@ typedef struct sunder_i_entry {
     bool a_inside;
     double place[2];
 } sunder_i_entry;
+
+/* The contact groups of the layout. */
+typedef struct sunder_i_groups {
+    sunder_i_group *group;
+    size_t n;
+    uint32_t *of;             /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
+    sunder_i_id_pair *waived; /* pairs of features that nothing was asked of; sorted */
+    size_t waived_n;
+} sunder_i_groups;
 
 typedef struct sunder_i_solver {
     sunder_i_barriers barriers;
@@ -50,6 +60,7 @@ typedef struct sunder_i_solver {
     size_t clusters;
     bool brief;    /* the first cluster without a solution ends it: nothing is given up */
     bool hopeless; /* there was one */
+    sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 none */
 } sunder_i_solver;
 
 /* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
@@ -66,6 +77,8 @@ bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
 /* The members of the cluster of that root, ascending; none if it is no cluster's. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
+/* What is asked of these bodies beyond the gap. */
+double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *body, size_t n);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
 /* Unites the blocks that clusters are made of. A fixed one may be a member of several clusters: each body once, so that

@@ -21,6 +21,18 @@
 #define EFFORT_ALONE 400000u
 #define MARGINS 4
 
+/* ---- Proofs of optimality (optimise.c) --------------------------------------------------------------------------- */
+
+/* Bodies are in contact that are farther apart than the gap by no more than this share of it; at gap 3 that is about
+ * what the interface says of clusters. */
+#define CONTACT 0x1p-21
+/* Rounds of proofs, in which groups join. */
+#define OPTIMISED 24
+/* A group's margin is widened no further for what is only cheaper. */
+#define MOST_MARGINS_AGAIN 3
+/* Steps for each body of a group at effort 1. */
+#define STEPS_EACH 1e6
+
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 
 /* Moves are alike that differ by no more than so many units: what a row that was pushed along gathers by rounding. */

@@ -37,9 +37,8 @@ static int by_place(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* The convex hull of n corners, counter-clockwise, in out (room for n + 1); Andrew's monotone chain. The corners are
- * sorted. */
-static size_t hull(double *p, size_t n, double *out)
+/* Andrew's monotone chain. */
+size_t sunder_i_convex_hull(double *p, size_t n, double *out)
 {
     qsort(p, n, 2 * sizeof *p, by_place);
     size_t m = 0;
@@ -70,7 +69,7 @@ static sunder_status outline_feature(sunder_i_model *model, const sunder_i_body 
     sunder_i_body_piece *piece = &model->outline[f];
     piece->feature = f;
     piece->corner = (uint32_t)*corner;
-    piece->corners = (uint32_t)hull(p, shape->vertices, model->corner + 2 * *corner);
+    piece->corners = (uint32_t)sunder_i_convex_hull(p, shape->vertices, model->corner + 2 * *corner);
     sunder_i_free(p);
     sunder_i_box_clear(piece->box);
     for (uint32_t k = 0; k < piece->corners; k++, ++*corner)

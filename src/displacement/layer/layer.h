@@ -31,6 +31,7 @@ typedef struct sunder_i_rules {
     bool jumps;  /* features may jump over others */
     sunder_containment contained;
     unsigned threads;
+    double effort; /* >= 0 */
     sunder_progress progress; /* NULL: nobody asks how far it is */
     void *progress_user;
 } sunder_i_rules;

@@ -160,6 +160,8 @@ void sunder_i_model_free(sunder_i_model *model);
 
 /* The convex pieces, for the search. */
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
+/* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
+size_t sunder_i_convex_hull(double *point, size_t n, double *out);
 /* Unites the members of these bodies, those that are blocks and have not been. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */

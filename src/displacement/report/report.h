@@ -59,6 +59,11 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
 /* Fills the report's pairs for the lower bound, and the bound. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
+/* ---- optimality.c ------------------------------------------------------------------------------------------------ */
+
+/* Contact groups, those of them that are optimal, and what is proved of them added to the bound. */
+sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
+
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 
 /* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */

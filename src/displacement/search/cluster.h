@@ -61,6 +61,11 @@ sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_clus
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
 
+/* From moves that need not be free down to such as are, neighbours outside the cluster staying where they are: *found,
+ * if they cost less than `cost`; rounded. */
+sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
+                                       double *move, bool *found, sunder_error *err);
+
 /* ---- invite.c ---------------------------------------------------------------------------------------------------- */
 
 /* Bodies of the cluster that would have a nearer place but for others who might move: pairs of the two go to

@@ -246,3 +246,20 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
     sunder_i_free(order);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
+
+sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
+                                       double *move, bool *found, sunder_error *err)
+{
+    sunder_i_search s;
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move);
+    *found = false;
+    if (ok) {
+        s.settled = SETTLED_BEST;
+        *found = sunder_i_search_descend(&s) && sunder_i_search_cost(&s, s.t) < cost;
+        s.n = cluster->n;
+        if (*found && !s.failed) sunder_i_search_round(&s, move);
+    }
+    ok = ok && !s.failed;
+    sunder_i_search_free(&s);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}

@@ -46,9 +46,11 @@
 /* The next round looks so many times as far as the longest step of this one, and this part of the gap at least. */
 #define STEPS_AHEAD 1.5
 #define LEAST_REACH 8
-/* A round that gains less than this share of the cost is the last; in search of better sides less will do. */
+/* A round that gains less than this share of the cost is the last; in search of better sides less will do, and less yet
+ * where it is to be proved that nothing is cheaper. */
 #define SETTLED 1e-3
 #define SETTLED_BETTER 1e-5
+#define SETTLED_BEST 1e-9
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
 

@@ -1,0 +1,280 @@
+/* The forbidden set of a pair, piece by piece.
+ *
+ * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
+ * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
+ * all. Nothing is asked of pairs that are listed in the report, nor of those of which one lies in the other, or could
+ * get there, with leave to overlap it: leaving them out makes the set smaller, and a bound no more than weaker.
+ * Courtyards are no matter: the pieces of a feature fill it, and nothing else.
+ *
+ * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
+ * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so that 8 e S = 2^-50
+ * S is enough for a corner, S the sum over both coordinates of the greatest |a| + |b| + |offset|. Every corner of K so
+ * is near the difference of a corner of A and one of B, in whatever order edges were merged: K lies in the true polygon
+ * grown by that. By the cancellation law for convex sets, what is in K by as much, or nearer to K than the radius less
+ * as much, is in the true piece. */
+#include "displacement/optimum/forbidden.h"
+#include "displacement/layer/resolution.h"
+
+#include "base/watch.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void sunder_i_forbidden_free(sunder_i_forbidden *f)
+{
+    sunder_i_free(f->piece);
+    sunder_i_free(f->edge);
+    *f = (sunder_i_forbidden){0};
+}
+
+typedef struct listing {
+    sunder_i_forbidden *out;
+    const sunder_i_model *model;
+    const sunder_i_waived *waived;
+    const sunder_i_body *p, *q;
+    double offset[2], reach;
+    sunder_i_scratch scratch;
+    double *drawn, *hull; /* scratch of shadows */
+    size_t drawn_capacity, hull_capacity;
+} listing;
+
+static bool owe(const listing *l, uint32_t f, uint32_t g)
+{
+    const sunder_i_id_pair key = f < g ? (sunder_i_id_pair){f, g} : (sunder_i_id_pair){g, f};
+    const sunder_i_waived *w = l->waived;
+    if (w->n && bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair)) return false;
+    if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
+    return !sunder_i_may_get_inside(&l->model->rules, l->model->box + 4 * (size_t)f, l->model->box + 4 * (size_t)g,
+                                    nextafter(l->reach, INFINITY));
+}
+
+/* S of one coordinate sum: of a piece, and what its coordinates were before they were reckoned from the origin. */
+static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
+{
+    const sunder_shape *shape = l->model->layer->feature[piece->feature].shape;
+    const bool rational = shape && shape->rational;
+    double size = 0;
+    for (size_t c = 0; c < 2; c++) {
+        size += fmax(fabs(piece->box[c]), fabs(piece->box[c + 2]));
+        if (rational) size += 4 * (fabs(body->origin[c]) + fabs(piece->box[c]) + fabs(piece->box[c + 2]));
+    }
+    return size;
+}
+
+static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    sunder_i_forbidden *f = l->out;
+    const double *corner = l->model->corner;
+    const size_t most = (size_t)a->corners + b->corners;
+    if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
+        !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
+        return false;
+    const size_t n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners,
+                                               corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
+    if (n == 0) return false;
+    sunder_i_forbidden_piece *piece = &f->piece[f->pieces];
+    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges,
+                                        .a = (uint32_t)(a - l->model->piece),
+                                        .b = (uint32_t)(b - l->model->piece),
+                                        .radius = sunder_i_owed_below(l->model, a->feature, b->feature)};
+    piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
+    piece->vague = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
+    sunder_i_box_clear(piece->box);
+    for (size_t k = 0; k < n; k++) sunder_i_box_include(piece->box, l->scratch.xy + 2 * k);
+    sunder_i_box_grow(piece->box, piece->radius, piece->box);
+    if (piece->edges < 2) return true;
+    f->edges += piece->edges;
+    f->pieces++;
+    return true;
+}
+
+static bool add_pieces(listing *l)
+{
+    const sunder_i_model *model = l->model;
+    const double reach = l->reach + model->rules.gap;
+    for (uint32_t k = l->p->piece; k < l->p->piece + l->p->pieces; k++) {
+        const sunder_i_body_piece *a = &model->piece[k];
+        const double box[4] = {a->box[0] - l->offset[0] - reach, a->box[1] - l->offset[1] - reach,
+                               a->box[2] - l->offset[0] + reach, a->box[3] - l->offset[1] + reach};
+        if (!sunder_i_steps(1 + l->q->pieces / 8)) return false;
+        if (!sunder_i_box_meet(box, l->q->box)) continue;
+        for (uint32_t m = l->q->piece; m < l->q->piece + l->q->pieces; m++) {
+            const sunder_i_body_piece *b = &model->piece[m];
+            if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature)) continue;
+            if (!add_piece(l, a, b)) return false;
+        }
+    }
+    return true;
+}
+
+/* The shadow of K = a + (-B) from u = 0, where a is an anchor of the one body and B a piece of the other, as far as it
+ * matters: the hull of K and of K drawn out so far that it is out of reach. That lies in the shadow, which is convex;
+ * its corners are off by as many times more. What K's own rounding could bring to 0 has no shadow here. */
+static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    sunder_i_forbidden *f = l->out;
+    const double *corner = l->model->corner, home[2] = {0, 0};
+    const size_t most = 2 * ((size_t)a->corners + b->corners);
+    if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
+        !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
+        return false;
+    const size_t n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners,
+                                               corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
+    if (n == 0) return false;
+    sunder_i_forbidden_piece piece = {.edge = (uint32_t)f->edges};
+    piece.edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
+    const double off = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
+    const double distance = piece.edges > 1 ? sunder_i_forbidden_distance(f, &piece, home) : 0;
+    if (!(distance > 4 * off) || distance > l->reach) return true;
+    const double far = 1 + 2 * l->reach / distance;
+    if (!sunder_i_reserve(&l->drawn, &l->drawn_capacity, 4 * n + 2, sizeof *l->drawn)) return false;
+    double *xy = l->drawn;
+    for (size_t k = 0; k < 2 * n; k++) {
+        xy[k] = l->scratch.xy[k];
+        xy[2 * n + k] = far * l->scratch.xy[k];
+    }
+    if (!sunder_i_reserve(&l->hull, &l->hull_capacity, 4 * n + 2, sizeof *l->hull)) return false;
+    const size_t corners = sunder_i_convex_hull(xy, 2 * n, l->hull);
+    if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + corners, sizeof *f->edge)) return false;
+    piece.edges = (uint32_t)sunder_i_obstacle_edges(l->hull, corners, f->edge + f->edges);
+    piece.vague = 2 * far * off;
+    sunder_i_box_clear(piece.box);
+    for (size_t k = 0; k < corners; k++) sunder_i_box_include(piece.box, l->hull + 2 * k);
+    if (piece.edges < 3) return true;
+    f->edges += piece.edges;
+    f->piece[f->pieces++] = piece;
+    return true;
+}
+
+/* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
+static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    if (sunder_i_is_barrier_body(model, other)) return true;
+    for (uint32_t m = 0; m < p->members; m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->anchor[f];
+        if (!anchor->corners) continue;
+        for (uint32_t k = other->piece; k < other->piece + other->pieces; k++) {
+            const sunder_i_body_piece *piece = &model->piece[k];
+            if (sunder_i_is_held(model, f, piece->feature)) continue;
+            if (!add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece)) return false;
+        }
+    }
+    return true;
+}
+
+bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
+                             uint32_t p, uint32_t q, double reach)
+{
+    *f = (sunder_i_forbidden){0};
+    listing l = {
+        .out = f, .model = model, .waived = waived, .p = &model->body[p], .q = &model->body[q], .reach = reach};
+    for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
+    bool ok = add_pieces(&l);
+    if (ok && !model->rules.jumps) ok = add_shadows_from(&l, l.p, l.q, false) && add_shadows_from(&l, l.q, l.p, true);
+    sunder_i_free(l.scratch.xy);
+    sunder_i_free(l.drawn);
+    sunder_i_free(l.hull);
+    f->size = 2 * reach;
+    for (size_t k = 0; k < f->pieces; k++)
+        for (size_t c = 0; c < 4; c++) f->size = fmax(f->size, fabs(f->piece[k].box[c]));
+    f->grain = 0x1p-46 * f->size;
+    return ok;
+}
+
+double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece,
+                                   const double u[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    double inside = -INFINITY, nearest = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        if (s > inside) inside = s;
+        if (s <= 0) continue;
+        const double along = wy * e->n[0] - wx * e->n[1];
+        double far = s;
+        if (along < 0) {
+            far = sqrt(wx * wx + wy * wy);
+        } else if (along > e->length) {
+            const double past = along - e->length;
+            far = sqrt(s * s + past * past);
+        }
+        if (far < nearest) nearest = far;
+    }
+    return inside <= 0 ? inside : nearest;
+}
+
+/* Where the line is in the disc about c. */
+static void span_disc(const double c[2], double radius, const double from[2], const double dir[2], double span[2])
+{
+    const double wx = c[0] - from[0], wy = c[1] - from[1], mid = wx * dir[0] + wy * dir[1],
+                 off = wx * dir[1] - wy * dir[0], under = radius * radius - off * off;
+    if (!(under >= 0)) return;
+    const double half = sqrt(under);
+    span[0] = fmin(span[0], mid - half);
+    span[1] = fmax(span[1], mid + half);
+}
+
+bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
+                             const double dir[2], double span[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    span[0] = INFINITY;
+    span[1] = -INFINITY;
+    /* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about
+     * corners, and all that is there is in the piece. */
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double across = e->n[0] * dir[0] + e->n[1] * dir[1];
+        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1];
+        if (piece->radius > 0) span_disc(e->from, piece->radius, from, dir, span);
+        if (fabs(across) < 1e-14) continue;
+        const double s = (e->n[0] * wx + e->n[1] * wy + piece->radius) / across;
+        const double x = s * dir[0] - wx, y = s * dir[1] - wy, along = y * e->n[0] - x * e->n[1];
+        if (along < -f->grain || along > e->length + f->grain) continue;
+        span[0] = fmin(span[0], s);
+        span[1] = fmax(span[1], s);
+    }
+    return span[0] < span[1];
+}
+
+double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
+{
+    double depth = 0;
+    for (size_t k = 0; k < f->pieces; k++) {
+        const sunder_i_forbidden_piece *p = &f->piece[k];
+        if (u[0] <= p->box[0] || u[0] >= p->box[2] || u[1] <= p->box[1] || u[1] >= p->box[3]) continue;
+        depth = fmax(depth, p->radius - sunder_i_forbidden_distance(f, p, u));
+    }
+    return depth;
+}
+
+bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], double hair)
+{
+    for (size_t k = 0; k < f->pieces; k++)
+        if (sunder_i_box_near_point(f->piece[k].box, u[0], u[1], hair) &&
+            sunder_i_forbidden_distance(f, &f->piece[k], u) < f->piece[k].radius + hair)
+            return true;
+    return false;
+}
+
+double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2])
+{
+    double s = 0;
+    for (bool again = true; again;) {
+        again = false;
+        const double at[2] = {u[0] + s * dir[0], u[1] + s * dir[1]};
+        for (size_t k = 0; k < f->pieces; k++) {
+            const sunder_i_forbidden_piece *p = &f->piece[k];
+            double span[2];
+            if (at[0] < p->box[0] || at[0] > p->box[2] || at[1] < p->box[1] || at[1] > p->box[3]) continue;
+            if (!sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s) continue;
+            if (span[1] > s + f->grain) again = true;
+            s = span[1];
+        }
+    }
+    return s;
+}

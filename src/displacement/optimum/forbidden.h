@@ -1,0 +1,53 @@
+/* What a pair of bodies may not do: the forbidden set of its relative moves, as a union of convex pieces. */
+#ifndef SUNDER_I_FORBIDDEN_H
+#define SUNDER_I_FORBIDDEN_H
+
+#include "displacement/layer/model.h"
+#include "displacement/obstacles/obstacle.h"
+
+/* A convex polygon K grown by an open disc of that radius; with radius 0 its interior. The true piece is that of some
+ * true polygon; every corner of K is within `vague` of a point of it. */
+typedef struct sunder_i_forbidden_piece {
+    uint32_t edge, edges; /* of K, in sunder_i_forbidden.edge */
+    uint32_t a, b;        /* the pieces of the two bodies, in sunder_i_model.piece */
+    double radius, vague;
+    double box[4]; /* of K grown */
+} sunder_i_forbidden_piece;
+
+typedef struct sunder_i_forbidden {
+    sunder_i_forbidden_piece *piece;
+    size_t pieces, piece_capacity;
+    sunder_i_obstacle_edge *edge;
+    size_t edges, edge_capacity;
+    double size;  /* no coordinate of the pieces grown, or of what is asked of them, is larger */
+    double grain; /* more than rounding does to any point, distance or product of that size */
+} sunder_i_forbidden;
+
+/* What is not asked of pairs: features a < b that are listed in the report, sorted. */
+typedef struct sunder_i_waived {
+    const sunder_i_id_pair *pair;
+    size_t n;
+} sunder_i_waived;
+
+/* ---- forbidden.c ------------------------------------------------------------------------------------------------- */
+
+/* The pieces of bodies p and q that meet the disc of radius reach around u = 0 (u: the move of q less that of p).
+ * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
+bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
+                             uint32_t p, uint32_t q, double reach);
+void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
+/* The distance of u from K: negative inside, then of the nearest line of an edge. */
+double sunder_i_forbidden_distance(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
+                                   const double u[2]);
+/* Where the line from + s dir is in the piece grown: span[0] <= s <= span[1], up to rounding; false: nowhere. |dir| is
+ * 1. */
+bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
+                             const double from[2], const double dir[2], double span[2]);
+/* How deep u is in the union, in doubles: the most of radius less distance; 0 where it is in none. */
+double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const double u[2]);
+/* Is u within `hair` of the union? */
+bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const double u[2], double hair);
+/* The first place on the ray from u, from which it is in none of the pieces. */
+double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2]);
+
+#endif

@@ -1,0 +1,226 @@
+/* The hull of what a forbidden set leaves of a region: where a cut may go.
+ *
+ * Arcs of the pieces bulge into the free side, so the extreme points of that hull are among finitely many: corners of
+ * the region outside the pieces, places where its sides enter or leave them, and reflex corners, where the boundaries
+ * of two pieces cross outside of all others. All in doubles, and pieces count as a hair smaller than they are: what is
+ * found here only proposes a cut, which is proved by covered.c or not made. */
+#include "displacement/optimum/region.h"
+#include "displacement/optimum/tuning.h"
+
+#include <math.h>
+
+/* ---- Reflex corners ---------------------------------------------------------------------------------------------- */
+
+static bool is_free(const sunder_i_forbidden *f, const double u[2], uint64_t *steps)
+{
+    *steps += 1 + f->pieces / 4;
+    return sunder_i_forbidden_depth(f, u) <= FREE_HAIR * f->size;
+}
+
+static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
+{
+    const double u[2] = {x, y};
+    if (!is_free(f, u, steps)) return true;
+    if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
+    out->place[out->n][0] = x;
+    out->place[out->n++][1] = y;
+    return true;
+}
+
+/* Where the edges of p, moved out, cross the boundary of q. */
+static bool cross_edges(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p,
+                        const sunder_i_forbidden_piece *q, uint64_t *steps)
+{
+    for (uint32_t k = 0; k < p->edges; k++) {
+        const sunder_i_obstacle_edge *e = &f->edge[p->edge + k];
+        const double from[2] = {e->from[0] + p->radius * e->n[0], e->from[1] + p->radius * e->n[1]};
+        const double dir[2] = {-e->n[1], e->n[0]}, to[2] = {from[0] + e->length * dir[0], from[1] + e->length * dir[1]};
+        double box[4], span[2];
+        sunder_i_box_of_segment(from, to, box);
+        *steps += 1;
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        *steps += q->edges;
+        if (!sunder_i_forbidden_span(f, q, from, dir, span)) continue;
+        for (int s = 0; s < 2; s++)
+            if (span[s] >= 0 && span[s] <= e->length &&
+                !note(out, f, from[0] + span[s] * dir[0], from[1] + span[s] * dir[1], steps))
+                return false;
+    }
+    return true;
+}
+
+/* Where the discs about corners of the two cross; what is inside of either is not free. */
+static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p,
+                       const sunder_i_forbidden_piece *q, uint64_t *steps)
+{
+    const double r = p->radius, s = q->radius;
+    if (!(r > 0) || !(s > 0)) return true;
+    *steps += (uint64_t)p->edges * q->edges / 4;
+    for (uint32_t k = 0; k < p->edges; k++)
+        for (uint32_t l = 0; l < q->edges; l++) {
+            const double *a = f->edge[p->edge + k].from, *b = f->edge[q->edge + l].from;
+            const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+            if (!(square > 0) || square > (r + s) * (r + s)) continue;
+            const double x = (square + r * r - s * s) / (2 * square), h = r * r / square - x * x;
+            if (!(h >= 0)) continue;
+            const double y = sqrt(h);
+            if (!note(out, f, a[0] + x * dx - y * dy, a[1] + x * dy + y * dx, steps) ||
+                !note(out, f, a[0] + x * dx + y * dy, a[1] + x * dy - y * dx, steps))
+                return false;
+        }
+    return true;
+}
+
+bool sunder_i_reflex_find(sunder_i_reflex *out, const sunder_i_forbidden *f, uint64_t *steps)
+{
+    for (size_t k = 0; k < f->pieces; k++)
+        for (size_t l = k + 1; l < f->pieces; l++) {
+            const sunder_i_forbidden_piece *p = &f->piece[k], *q = &f->piece[l];
+            *steps += 1;
+            if (!sunder_i_box_meet(p->box, q->box)) continue;
+            if (!cross_edges(out, f, p, q, steps) || !cross_edges(out, f, q, p, steps) ||
+                !cross_arcs(out, f, p, q, steps))
+                return false;
+        }
+    return true;
+}
+
+/* ---- The hull ---------------------------------------------------------------------------------------------------- */
+
+typedef struct gathering {
+    double (*at)[2];
+    size_t n;
+} gathering;
+
+static void gather(gathering *g, double x, double y)
+{
+    if (g->n == MOST_EXTREME) return;
+    g->at[g->n][0] = x;
+    g->at[g->n++][1] = y;
+}
+
+/* Where side k of the region enters and leaves the union. */
+static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, const sunder_i_forbidden *f,
+                        uint64_t *steps)
+{
+    const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+    double dir[2] = {q[0] - p[0], q[1] - p[1]}, box[4];
+    const double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1]);
+    double span[MOST_SPANS][2];
+    size_t spans = 0;
+    if (!(length > 0)) return;
+    dir[0] /= length;
+    dir[1] /= length;
+    sunder_i_box_of_segment(p, q, box);
+    for (size_t m = 0; m < f->pieces; m++) {
+        const sunder_i_forbidden_piece *piece = &f->piece[m];
+        *steps += 1;
+        if (!sunder_i_box_meet(box, piece->box)) continue;
+        *steps += piece->edges;
+        double in[2];
+        if (!sunder_i_forbidden_span(f, piece, p, dir, in) || in[1] <= 0 || in[0] >= length) continue;
+        if (spans == MOST_SPANS) {
+            /* Too many to tell: as if nothing were covered. */
+            gather(g, p[0], p[1]);
+            gather(g, q[0], q[1]);
+            return;
+        }
+        /* Sorted by where they begin. */
+        size_t at = spans++;
+        for (; at > 0 && span[at - 1][0] > in[0]; at--) {
+            span[at][0] = span[at - 1][0];
+            span[at][1] = span[at - 1][1];
+        }
+        span[at][0] = in[0];
+        span[at][1] = in[1];
+    }
+    const double hair = FREE_HAIR * f->size;
+    double free_from = 0;
+    for (size_t m = 0; m <= spans; m++) {
+        const double begin = m < spans ? span[m][0] : length;
+        if (begin >= free_from - (m < spans ? 0 : hair) && free_from <= length) {
+            const double to = fmin(begin, length);
+            gather(g, p[0] + free_from * dir[0], p[1] + free_from * dir[1]);
+            gather(g, p[0] + to * dir[0], p[1] + to * dir[1]);
+        }
+        if (m < spans) free_from = fmax(free_from, span[m][1]);
+    }
+}
+
+static bool holds(const sunder_i_region *r, const double u[2], double hair)
+{
+    for (uint32_t k = 0; k < r->n; k++) {
+        const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        const double ex = q[0] - p[0], ey = q[1] - p[1];
+        if ((u[0] - p[0]) * ey - (u[1] - p[1]) * ex > hair * (fabs(ex) + fabs(ey))) return false;
+    }
+    return true;
+}
+
+/* The nearest to 0 of the segment from a to b; `share` of the way. */
+static double nearest_of(const double a[2], const double b[2], double out[2])
+{
+    const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+    double share = square > 0 ? -(a[0] * dx + a[1] * dy) / square : 0;
+    share = fmin(1, fmax(0, share));
+    out[0] = a[0] + share * dx;
+    out[1] = a[1] + share * dy;
+    return share;
+}
+
+/* The nearest point of a hull, in the plane: the farthest towards where we look from joins, and of the
+ * two segments that it makes with the last one the nearer stays. Ends when no point lies nearer. */
+static void nearest_of_hull(const gathering *g, const double u[2], double out[2])
+{
+    double a[2], b[2], at[2];
+    size_t first = 0;
+    for (size_t k = 1; k < g->n; k++)
+        if (hypot(g->at[k][0] - u[0], g->at[k][1] - u[1]) < hypot(g->at[first][0] - u[0], g->at[first][1] - u[1]))
+            first = k;
+    for (int c = 0; c < 2; c++) a[c] = b[c] = at[c] = g->at[first][c] - u[c];
+    for (size_t round = 0; round < g->n + 8; round++) {
+        const double square = at[0] * at[0] + at[1] * at[1];
+        double least = square * (1 - 1e-12), p[2] = {0, 0}, to_a[2], to_b[2];
+        bool any = false;
+        for (size_t k = 0; k < g->n; k++) {
+            const double x = g->at[k][0] - u[0], y = g->at[k][1] - u[1], v = x * at[0] + y * at[1];
+            if (v >= least) continue;
+            least = v;
+            p[0] = x;
+            p[1] = y;
+            any = true;
+        }
+        if (!any) break;
+        /* u within the triangle: no way out. */
+        const double s1 = a[0] * b[1] - a[1] * b[0], s2 = b[0] * p[1] - b[1] * p[0], s3 = p[0] * a[1] - p[1] * a[0];
+        if ((s1 > 0 && s2 > 0 && s3 > 0) || (s1 < 0 && s2 < 0 && s3 < 0)) {
+            at[0] = at[1] = 0;
+            break;
+        }
+        nearest_of(a, p, to_a);
+        nearest_of(b, p, to_b);
+        const bool by_a = hypot(to_a[0], to_a[1]) <= hypot(to_b[0], to_b[1]);
+        const double *nearer = by_a ? to_a : to_b;
+        if (!(hypot(nearer[0], nearer[1]) < sqrt(square))) break;
+        for (int c = 0; c < 2; c++) {
+            at[c] = nearer[c];
+            if (!by_a) a[c] = b[c];
+            b[c] = p[c];
+        }
+    }
+    for (int c = 0; c < 2; c++) out[c] = u[c] + at[c];
+}
+
+bool sunder_i_free_hull_nearest(const sunder_i_region *r, const sunder_i_forbidden *f, const sunder_i_reflex *reflex,
+                                const double u[2], double place[2], uint64_t *steps)
+{
+    double at[MOST_EXTREME][2];
+    gathering g = {at, 0};
+    for (uint32_t k = 0; k < r->n; k++) gather_side(&g, r, k, f, steps);
+    *steps += reflex->n;
+    for (size_t k = 0; k < reflex->n; k++)
+        if (holds(r, reflex->place[k], FREE_HAIR * f->size)) gather(&g, reflex->place[k][0], reflex->place[k][1]);
+    if (g.n == 0) return false;
+    nearest_of_hull(&g, u, place);
+    return true;
+}

@@ -1,0 +1,149 @@
+/* A contact group: what is proved of it, and what its branching finds.
+ *
+ * Any layout costs at least the sum over disjoint groups of what each alone cannot do without. So a group whose layout
+ * costs what is proved of it cannot be bettered, wherever the others go; and what a branching finds that is cheaper
+ * goes down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
+ * belong together. */
+#include "displacement/optimum/optimum.h"
+#include "displacement/optimum/tree.h"
+#include "displacement/optimum/tuning.h"
+#include "displacement/search/cluster.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool sunder_i_group_is_optimal(const sunder_i_group *g)
+{
+    return g->cost - g->bound <= OPTIMAL_SHARE * g->cost + OPTIMAL_MORE;
+}
+
+void sunder_i_group_free(sunder_i_group *g)
+{
+    sunder_i_free(g->body);
+    sunder_i_free(g->move);
+    sunder_i_free(g->guests.item);
+    sunder_i_free(g->joins.item);
+    *g = (sunder_i_group){0};
+}
+
+/* Upwards. */
+static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
+{
+    double cost = 0;
+    for (size_t k = 0; k < n; k++)
+        cost += model->body[body[k]].weight * (move[2 * k] * move[2 * k] + move[2 * k + 1] * move[2 * k + 1]);
+    return cost * (1 + ((double)n + 8) * 0x1p-50);
+}
+
+/* What is to be proved of a group that costs so much: less than that by half of what still counts as optimal, and by
+ * what a small part of the sizes about amounts to. No length that is not the layer's own takes part, so that a layer on
+ * another scale gets the same moves. */
+static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
+{
+    double length = model->rules.gap, weight = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const sunder_i_body *b = &model->body[g->body[k]];
+        if (!b->fixed) weight = fmax(weight, b->weight);
+        if (model->rules.gap == 0) length = fmax(length, b->box[2] - b->box[0]);
+    }
+    return g->cost * (1 - OPTIMAL_SHARE / 2) - weight * (SMALL_LENGTH * length) * (SMALL_LENGTH * length);
+}
+
+typedef struct standing {
+    uint32_t body;
+    double t[2];
+} standing;
+
+/* Goes down from where the bodies stand; takes what is cheaper, with the guests that moved. */
+static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, const uint32_t *body, const double *t,
+                             size_t n, bool *better, sunder_error *err)
+{
+    standing *at = sunder_i_alloc(n, sizeof *at);
+    uint32_t *list = sunder_i_alloc(n, sizeof *list);
+    double *move = sunder_i_alloc(2 * n, sizeof *move);
+    sunder_status status = at && list && move ? SUNDER_OK : sunder_i_no_memory(err);
+    *better = false;
+    if (!status && !g->held) {
+        for (size_t k = 0; k < n; k++) at[k] = (standing){body[k], {t[2 * k], t[2 * k + 1]}};
+        qsort(at, n, sizeof *at, sunder_i_by_number);
+        for (size_t k = 0; k < n; k++) {
+            list[k] = at[k].body;
+            memcpy(move + 2 * k, at[k].t, sizeof at[k].t);
+        }
+        const sunder_i_cluster cluster = {.body = list, .n = n, .margin = g->margin};
+        bool found;
+        status = sunder_i_cluster_descend(model, &cluster, g->cost, move, &found, err);
+        const double cost = found ? cost_of(model, list, n, move) : INFINITY;
+        if (!status && cost < g->cost) {
+            sunder_i_free(g->body);
+            sunder_i_free(g->move);
+            g->body = list;
+            g->move = move;
+            g->n = n;
+            g->cost = cost;
+            g->improved = *better = true;
+            list = NULL;
+            move = NULL;
+        }
+    }
+    sunder_i_free(at);
+    sunder_i_free(list);
+    sunder_i_free(move);
+    return status;
+}
+
+static sunder_status branch(const sunder_i_model *model, sunder_i_group *g, sunder_i_tree *tree, uint64_t steps,
+                            sunder_error *err)
+{
+    for (;;) {
+        bool better;
+        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, steps);
+        if (tree->failed) return sunder_i_no_memory(err);
+        if (outcome != SUNDER_I_TREE_FOUND) break;
+        const sunder_status status = attempt(model, g, tree->body, tree->program.t, tree->task.n, &better, err);
+        if (status) return status;
+        if (better) sunder_i_tree_lower_goal(tree, goal_of(model, g));
+    }
+    g->bound = fmax(g->bound, sunder_i_tree_bound(tree));
+    g->steps += tree->steps;
+    sunder_i_free(g->joins.item);
+    g->joins = tree->joins;
+    tree->joins = (sunder_i_list){0};
+    return SUNDER_OK;
+}
+
+/* The guests are the group's from now on. */
+static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t from)
+{
+    for (size_t k = from; k < tree->task.n; k++)
+        if (!sunder_i_list_push(&g->guests, tree->body[k])) return false;
+    g->guests.n = sunder_i_set_make(g->guests.item, g->guests.n);
+    return true;
+}
+
+sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                   sunder_i_group *g, uint64_t steps, sunder_error *err)
+{
+    bool better;
+    g->bound = 0;
+    g->done = true;
+    g->cost = cost_of(model, g->body, g->n, g->move);
+    if (!isfinite(g->cost)) return SUNDER_OK;
+    const sunder_status polished = attempt(model, g, g->body, g->move, g->n, &better, err);
+    if (polished) return polished;
+    const size_t n = g->n;
+    const sunder_i_task task = {.model = model,
+                                .waived = waived,
+                                .group_of = group_of,
+                                .group = g->number,
+                                .body = g->body,
+                                .n = n,
+                                .goal = goal_of(model, g)};
+    sunder_i_tree tree;
+    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = branch(model, g, &tree, steps, err);
+    if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
+    sunder_i_tree_free(&tree);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* How little could the moves of a contact group cost? Branch and bound: a proved bound, and better moves. */
+#ifndef SUNDER_I_OPTIMUM_H
+#define SUNDER_I_OPTIMUM_H
+
+#include "displacement/optimum/forbidden.h"
+
+/* Bodies that are in contact in a layout, and what is proved of them. No other group has a body of it that may move, so
+ * that the bounds of all groups add up. */
+typedef struct sunder_i_group {
+    uint32_t *body; /* [n] ascending; fixed ones that are touched too; owned */
+    size_t n;
+    uint32_t number;
+    double margin;        /* what is demanded of a layout beyond the gap, to cover rounding */
+    double *move;         /* [2 * n] as they stand; better ones, rounded, where such are found; owned */
+    double cost, bound;   /* of the moves, rounded upwards; what no layout beats, rounded downwards */
+    bool held;            /* its moves are to stay */
+    bool done, improved;  /* it was looked into; the moves are not what they were */
+    sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
+    sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
+    uint64_t steps;
+} sunder_i_group;
+
+void sunder_i_group_free(sunder_i_group *group);
+/* Is its cost proved to be the least, up to what the program prints of it? */
+bool sunder_i_group_is_optimal(const sunder_i_group *group);
+/* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. group_of: of all
+ * bodies, the number of their group, or SUNDER_I_NOBODY. */
+sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                   sunder_i_group *group, uint64_t steps, sunder_error *err);
+
+#endif

@@ -1,0 +1,49 @@
+/* Convex regions of relative moves: what the cuts of a node leave to a pair; see region.c. */
+#ifndef SUNDER_I_REGION_H
+#define SUNDER_I_REGION_H
+
+#include "displacement/optimum/forbidden.h"
+
+#define SUNDER_I_REGION_CORNERS 40
+/* The side of a region that no cut made. */
+#define SUNDER_I_NO_CUT UINT32_MAX
+
+/* A convex polygon, counter-clockwise, that with all within `blur` of it holds the true region: that of all u that keep
+ * the cuts made so far, exactly. n = 0: the region is empty. */
+typedef struct sunder_i_region {
+    uint32_t n;
+    double xy[2 * SUNDER_I_REGION_CORNERS];
+    uint32_t cut[SUNDER_I_REGION_CORNERS]; /* that made the side from corner k */
+    double blur;
+} sunder_i_region;
+
+/* ---- region.c ---------------------------------------------------------------------------------------------------- */
+
+/* The square of half side `reach` about a place. */
+void sunder_i_region_init(sunder_i_region *region, const double centre[2], double reach);
+/* Keeps what has n.u >= d; |n| is 1 up to rounding. */
+void sunder_i_region_clip(sunder_i_region *region, const double n[2], double d, uint32_t cut, double grain);
+/* The side that u is farthest beyond: its cut, and how far. Sides that no cut made do not count. */
+double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], uint32_t *cut);
+
+/* ---- covered.c --------------------------------------------------------------------------------------------------- */
+
+/* Is the true region within the forbidden set? Only if that is proved. steps: grows by the work done. */
+bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps);
+
+/* ---- free_hull.c ------------------------------------------------------------------------------------------------- */
+
+/* Places where the boundaries of two pieces cross outside of all others, in doubles. */
+typedef struct sunder_i_reflex {
+    double (*place)[2];
+    size_t n, capacity;
+} sunder_i_reflex;
+
+bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, uint64_t *steps);
+
+/* The place nearest to u of the convex hull of what the forbidden set leaves of the region, in doubles. False: it
+ * leaves nothing. */
+bool sunder_i_free_hull_nearest(const sunder_i_region *region, const sunder_i_forbidden *forbidden,
+                                const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps);
+
+#endif

@@ -1,0 +1,100 @@
+/* Cuts at a node: what they take away is forbidden, or too dear.
+ *
+ * Disc. With D what the node's forces f prove and t* their least, every t that keeps the cuts to the node costs at
+ * least D + sum w |t - t*|^2 (dual_program.c). So one that costs less than the goal has
+ *     |u_ij - u*_ij|  <=  |t_i - t*_i| + |t_j - t*_j|  <=  sqrt((goal - D) (1 / w_i + 1 / w_j))
+ * by Cauchy and Schwarz: lines about that disc are cuts.
+ *
+ * Hull. What is forbidden of a region is no loss: a line beyond which all of the region is forbidden is a cut. It is
+ * proposed by the hull of what is left, in doubles, and made a hair farther out, if it is then proved that what it
+ * takes away is covered. */
+#include "displacement/optimum/tree.h"
+#include "displacement/optimum/tuning.h"
+
+#include <math.h>
+
+/* How far t* may be from the least of the forces as they are: rounding of the sum of pushes on a body (the size of
+ * which dual_value() leaves), and of the anchor. */
+static double doubt(const sunder_i_tree *t, uint32_t b)
+{
+    const double size =
+        t->program.net[3 * b + 2] * t->mass[b] + fabs(t->task.anchor[2 * b]) + fabs(t->task.anchor[2 * b + 1]);
+    return (double)(t->program.acting_n + 16) * 0x1p-51 * size;
+}
+
+/* Keeps the region of the pair in the disc about u. value: what the forces prove. */
+static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], double value)
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    const double radius = sqrt((t->task.goal - value) * p->slackness) * (1 + 0x1p-40) + doubt(t, p->i) +
+                          doubt(t, p->j) + p->forbidden.grain;
+    size_t made = 0;
+    for (int k = 0; k < DISC_SIDES && !t->failed; k++) {
+        const double angle = 6.283185307179586 * k / DISC_SIDES, n[2] = {cos(angle), sin(angle)};
+        const double d = n[0] * u[0] + n[1] * u[1] - radius * (1 + 0x1p-48);
+        double least = INFINITY;
+        p = &t->pair[pair];
+        for (uint32_t c = 0; c < p->region.n; c++)
+            least = fmin(least, n[0] * p->region.xy[2 * c] + n[1] * p->region.xy[2 * c + 1]);
+        if (!(least < d - DISC_SHARE * radius)) continue;
+        sunder_i_tree_cut(t, SUNDER_I_CUT_DISC, pair, n, d);
+        made++;
+    }
+    return made;
+}
+
+bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_region *region, const double u[2],
+                           double n[2], double *d, bool *none)
+{
+    sunder_i_tree_pair *p = &t->pair[pair];
+    double place[2];
+    *none = false;
+    if (!p->has_reflex && !sunder_i_reflex_find(&p->reflex, &p->forbidden, &t->steps)) t->failed = true;
+    p->has_reflex = true;
+    if (t->failed) return false;
+    if (region->n == 0 || !sunder_i_free_hull_nearest(region, &p->forbidden, &p->reflex, u, place, &t->steps)) {
+        *none = true;
+        return false;
+    }
+    n[0] = place[0] - u[0];
+    n[1] = place[1] - u[1];
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
+    if (!(length > IN_HULL * p->forbidden.size)) return false;
+    for (int c = 0; c < 2; c++) n[c] /= length;
+    *d = n[0] * place[0] + n[1] * place[1];
+    return true;
+}
+
+bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
+{
+    double n[2], d;
+    if (!sunder_i_tree_propose(t, pair, &t->pair[pair].region, u, n, &d, none)) return false;
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    const double back[2] = {-n[0], -n[1]}, far = d - (n[0] * u[0] + n[1] * u[1]), size = p->forbidden.size;
+    const double room[] = {CUT_ROOM * size, CUT_MORE_ROOM * size, CUT_FAR_ROOM * far};
+    for (size_t attempt = 0; attempt < sizeof room / sizeof *room; attempt++) {
+        sunder_i_region cap = p->region;
+        sunder_i_region_clip(&cap, back, room[attempt] - d, SUNDER_I_NO_CUT, p->forbidden.grain);
+        if (!sunder_i_region_is_covered(&cap, &p->forbidden, &t->steps)) continue;
+        sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room[attempt]);
+        return true;
+    }
+    return false;
+}
+
+size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
+{
+    size_t made = 0;
+    *empty = false;
+    for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
+        const sunder_i_tree_conflict c = t->conflict[k];
+        bool none;
+        cut_disc(t, c.pair, c.u, value);
+        made += sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
+        if (!none || t->failed) continue;
+        const sunder_i_tree_pair *p = &t->pair[c.pair];
+        *empty = sunder_i_region_is_covered(&p->region, &p->forbidden, &t->steps);
+        if (*empty) t->node[t->nodes - 1].pair = c.pair;
+    }
+    return made;
+}

@@ -1,0 +1,63 @@
+/* Numbers of this room that are no error bounds: they decide how near a bound comes to the cost and how long it takes,
+ * never whether it holds. */
+#ifndef SUNDER_I_OPTIMUM_TUNING_H
+#define SUNDER_I_OPTIMUM_TUNING_H
+
+/* ---- Groups (optimum.c) ------------------------------------------------------------------------------------------ */
+
+/* A group is optimal whose cost is no more than its bound and this share of it and this much; as the interface says. */
+#define OPTIMAL_SHARE 1e-6
+#define OPTIMAL_MORE 1e-7
+/* A length that does not count, as a share of the gap or, where that is 0, of the bodies. */
+#define SMALL_LENGTH 0x1p-17
+/* So many bodies that stand in the way may take part besides. */
+#define MOST_GUESTS 24
+
+/* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
+
+/* What is this little within it counts as free where cuts are proposed. */
+#define FREE_HAIR 0x1p-37
+/* A cut leaves so much beyond the hull, so that it can be proved, and so much at the second attempt; at the third this
+ * share of how far it is from the place that it cuts off. */
+#define CUT_ROOM 0x1p-34
+#define CUT_MORE_ROOM 0x1p-32
+#define CUT_FAR_ROOM 0.04
+/* Deeper in it than this, a pair is in conflict. */
+#define IN_CONFLICT 0x1p-31
+
+/* A cut holds that is missed by no more than this; a limit that is overstepped by no more than this share of it. */
+#define HOLDS 0x1p-40
+#define OVERSTEPPED 0x1p-36
+
+/* ---- A node (tree_node.c, tree_cuts.c, tree.c) ------------------------------------------------------------------- */
+
+/* Cuts that are brought into a program one after the other. */
+#define MOST_ADDED 4000
+/* Rounds of cuts at one node; a cut by a disc that takes away less than this share of its radius is not made. */
+#define MOST_REFINED 12
+#define DISC_SHARE 0.05
+#define DISC_SIDES 16
+/* A hull that is no farther from u than this, of the pair's size, has it. */
+#define IN_HULL 0x1p-31
+
+/* ---- Branches (tree_branch.c) ------------------------------------------------------------------------------------ */
+
+/* Conflicts that are tried as branches. */
+#define TRIED 6
+/* Rays on which the nearest way out of the forbidden set is looked for; and the line on which its other two are: so
+ * much nearer, of the way. */
+#define RAYS 32
+#define NEARER 0.2
+
+/* ---- Proofs that a region is covered (covered.c) ----------------------------------------------------------------- */
+
+#define COVER_DEPTH 60
+#define COVER_STEPS 20000u
+
+/* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
+
+/* Places that are looked at, and pieces on one side of a region; with more it is a guess. */
+#define MOST_EXTREME 512
+#define MOST_SPANS 128
+
+#endif

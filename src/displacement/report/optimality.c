@@ -1,0 +1,83 @@
+/* The lower bound of the layer: what is proved of its contact groups, added up.
+ *
+ * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
+ * what all pairs of its bodies owe that were not listed when it was proved: so it counts if no other pair of them is
+ * listed now, and if no body of it that may move was counted with another group. */
+#include "displacement/layer/resolution.h"
+#include "displacement/report/report.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The bodies of a group that may move, its guests among them, are its own from here on. False: one was another's. */
+static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
+{
+    bool own = true;
+    for (size_t k = 0; k < g->n + g->guests.n; k++) {
+        const uint32_t b = k < g->n ? g->body[k] : g->guests.item[k - g->n];
+        if (model->body[b].fixed || owner[b] == g->number) continue;
+        if (owner[b] != SUNDER_I_NOBODY) own = false;
+        owner[b] = g->number;
+    }
+    return own;
+}
+
+/* Groups of whose pairs one is listed that was not when they were proved: their bound is for nothing. listed: [bodies]
+ * scratch, by the numbers of groups. */
+static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
+{
+    sunder_i_groups *groups = &s->groups;
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        const sunder_i_id_pair key = {r->a, r->b};
+        if (!sunder_i_is_conflict(r) ||
+            (groups->waived_n && bsearch(&key, groups->waived, groups->waived_n, sizeof key, sunder_i_by_id_pair)))
+            continue;
+        for (int e = 0; e < 2; e++) {
+            const uint32_t number = owner[s->model.body_of[e ? r->b : r->a]];
+            if (number != SUNDER_I_NOBODY) listed[number] = true;
+        }
+    }
+    for (size_t k = 0; k < groups->n; k++)
+        if (listed[groups->group[k].number]) groups->group[k].bound = 0;
+}
+
+/* What the group costs as it stands in the end; upwards. */
+static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
+{
+    double cost = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        const double *t = model->move + 2 * (size_t)g->body[k];
+        cost += model->body[g->body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
+    }
+    return cost * (1 + ((double)g->n + 8) * 0x1p-50);
+}
+
+sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
+{
+    sunder_layer_summary *summary = &report->summary;
+    double sum = 0;
+    summary->clusters = s->model.rules.effort > 0 ? s->groups.n : s->clusters;
+    if (s->groups.n == 0) return SUNDER_OK;
+    uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
+    bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
+    if (!owner || !listed) {
+        sunder_i_free(owner);
+        sunder_i_free(listed);
+        return sunder_i_no_memory(err);
+    }
+    for (size_t b = 0; b < s->model.bodies; b++) owner[b] = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < s->groups.n; k++)
+        if (!claim(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
+    void_bounds(s, owner, listed);
+    sunder_i_free(owner);
+    sunder_i_free(listed);
+    for (size_t k = 0; k < s->groups.n; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        g->cost = cost_of(&s->model, g);
+        summary->clusters_optimal += sunder_i_group_is_optimal(g);
+        sum = nextafter(sum + g->bound, -INFINITY);
+    }
+    if (isfinite(sum)) summary->lower_bound = fmax(summary->lower_bound, sum);
+    return SUNDER_OK;
+}
