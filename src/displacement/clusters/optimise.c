@@ -422,9 +422,10 @@ static bool join(const sunder_i_solver *s, joining *j, bool *any)
     return ok;
 }
 
-static sunder_status run_rounds(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
 {
     joining j = {0};
+    if (!(s->model.rules.effort > 0)) return SUNDER_OK;
     bool again = true;
     sunder_status status = SUNDER_OK;
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
@@ -438,45 +439,5 @@ static sunder_status run_rounds(sunder_i_solver *s, sunder_error *err)
         again = again || moved;
     }
     sunder_i_free(j.pair);
-    return status;
-}
-
-/* ---- Limits ------------------------------------------------------------------------------------------------------ */
-
-/* If a body went beyond its limit all go back to where they were before: *any. */
-static sunder_status return_to_limits(sunder_i_solver *s, const double *before, bool *any, sunder_error *err)
-{
-    *any = false;
-    for (size_t b = 0; b < s->model.bodies; b++)
-        *any = *any || !sunder_i_is_within_limit(s->model.move + 2 * b, s->model.body[b].limit);
-    if (!*any) return SUNDER_OK;
-    memset(s->changed, 0, s->model.features * sizeof *s->changed);
-    for (uint32_t b = 0; b < s->model.bodies; b++) sunder_i_solver_place(s, b, before + 2 * (size_t)b);
-    sunder_i_groups_free(&s->groups);
-    return sunder_i_solver_relate(s, err);
-}
-
-/* Without limits first, so that one that nothing oversteps changes nothing; where one does all is done once more within
- * them. */
-sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
-{
-    const size_t n = s->model.bodies;
-    if (!(s->model.rules.effort > 0)) return SUNDER_OK;
-    double *limit = sunder_i_alloc(n, sizeof *limit), *before = sunder_i_alloc(2 * n, sizeof *before);
-    sunder_status status = limit && before ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) {
-        if (n) memcpy(before, s->model.move, 2 * n * sizeof *before);
-        for (size_t b = 0; b < n; b++) {
-            limit[b] = s->model.body[b].limit;
-            if (!s->model.body[b].fixed) s->model.body[b].limit = INFINITY;
-        }
-        status = run_rounds(s, err);
-        for (size_t b = 0; b < n; b++) s->model.body[b].limit = limit[b];
-        bool beyond = false;
-        if (!status) status = return_to_limits(s, before, &beyond, err);
-        if (!status && beyond) status = run_rounds(s, err);
-    }
-    sunder_i_free(limit);
-    sunder_i_free(before);
     return status;
 }
