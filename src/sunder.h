@@ -433,8 +433,8 @@ typedef struct sunder_layer_options {
     sunder_progress progress;
     void *progress_user;
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
-    double effort;    /* >= 0: how hard to look for better layouts, for proofs, and for what would free a
-                       * conflict; 0: not at all */
+    double effort;    /* >= 0: how hard to look for better sides, for proofs, and for what would free a
+                       * conflict, in steps and not in time; 0: not at all */
     uint64_t seed;    /* of what search is random; nothing is yet */
 } sunder_layer_options;
 

@@ -43,7 +43,7 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_BEFORE] = {OPT_BEFORE, "--before", GIS_TYPE_TEXT, GIS_CHECK, OWN, "ORIGINAL", NULL,
                     "also list what broke a rule since then"},
     [OPT_EFFORT] = {OPT_EFFORT, "--effort", GIS_TYPE_NUMBER, GIS_SEPARATE, OWN, "N", "1",
-                    "how hard to ask what would free a conflict; 0: not at all"},
+                    "how hard to look for better sides and for proofs; 0: not at all"},
     [OPT_SCALE] = {OPT_SCALE, "--scale", GIS_TYPE_SCALE, GIS_ALL, OWN, "N", NULL,
                    "the map is 1:N; lengths may be mm on the sheet"},
     [OPT_REFLECT] = {OPT_REFLECT, "--reflect", GIS_TYPE_FLAG, GIS_SUM, OWN, NULL, NULL,

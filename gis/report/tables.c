@@ -196,6 +196,10 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     gis_report_count(to, summary->clusters);
     gis_text_add(to, " <span class=\"aside\">of features that had to be placed together</span>");
     close_term(to);
+    open_term(to, "proved optimal");
+    gis_report_count(to, summary->clusters_optimal);
+    gis_text_add(to, " <span class=\"aside\">of the groups: nothing costs less</span>");
+    close_term(to);
     open_term(to, "verified");
     gis_text_print(to, "%s <span class=\"aside\">%s</span>", request->verified ? "yes" : "no",
                    request->verified ? "every pair not listed was proved apart, on the coordinates as written"

@@ -91,20 +91,20 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
     return status;
 }
 
-/* Without limits first, and then, if one was overstepped, within them: what nothing oversteps changes nothing. */
+/* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
 static sunder_status solve(sunder_i_solver *s, sunder_error *err)
 {
     bool lifted = false, back = false;
     sunder_status status = sunder_i_solver_lift_limits(s, &lifted, err);
     if (!status && !lifted) status = sunder_i_solver_move_inside(s, err);
     if (!status) status = seek(s, false, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
-    if (!status) status = sunder_i_solver_uphold(s, err);
     if (!status) status = sunder_i_solver_optimise(s, err);
     if (!status && lifted) status = sunder_i_solver_restore_limits(s, &back, err);
     if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
     if (!status && lifted) status = seek(s, !back, FOUND_WITHOUT_LIMITS, FOUND, err);
-    if (!status && lifted) status = sunder_i_solver_uphold(s, err);
-    if (!status && lifted && back) status = sunder_i_solver_optimise(s, err);
+    if (!status && back) status = sunder_i_solver_optimise(s, err);
+    if (!status) status = sunder_i_solver_uphold(s, err);
+    if (!status) status = sunder_i_solver_gather_groups(s, err);
     return status ? status : sunder_i_solver_gather(s, err);
 }
 

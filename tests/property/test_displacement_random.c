@@ -474,6 +474,7 @@ static void check_towns(void **state)
         o.contained = (sunder_containment)rng_int(&r, 0, 2);
         o.no_blocks = o.gap > 0 && rng_once_in(&r, 3);
         o.allow_jumps = rng_once_in(&r, 2);
+        o.effort = rng_once_in(&r, 4) ? 1 : 0.1;
         print_message("town %zu of seed %llu: %zu houses, gap %g\n", k, (unsigned long long)seed, t.n, o.gap);
         sunder_report *one = separate(&t, &o, 1), *two = separate(&t, &o, 2), *three = separate(&t, &o, 3);
         house now[MOST];

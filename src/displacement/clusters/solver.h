@@ -26,6 +26,9 @@ typedef struct sunder_i_groups {
     uint32_t *of;             /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
     sunder_i_id_pair *waived; /* pairs of features that nothing was asked of; sorted */
     size_t waived_n;
+    sunder_i_id_pair *joined; /* bodies that proofs take together */
+    size_t joins, capacity;
+    double *spent; /* [bodies] steps of proofs */
 } sunder_i_groups;
 
 typedef struct sunder_i_solver {
@@ -58,9 +61,9 @@ typedef struct sunder_i_solver {
     double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
     size_t clusters;
-    bool brief;    /* the first cluster without a solution ends it: nothing is given up */
-    bool hopeless; /* there was one */
-    sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 none */
+    bool brief;             /* the first cluster without a solution ends it: nothing is given up */
+    bool hopeless;          /* there was one */
+    sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 nothing */
 } sunder_i_solver;
 
 /* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */

@@ -59,11 +59,16 @@ bool sunder_i_solver_is_improved(const sunder_i_solver *solver);
 /* Better sides, for every cluster that was solved since they were last looked for. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- contact_groups.c -------------------------------------------------------------------------------------------- */
+
+/* The contact groups as they stand. One that is as it was keeps its proof. */
+sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_error *err);
+void sunder_i_groups_free(sunder_i_groups *groups);
+
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
-void sunder_i_groups_free(sunder_i_groups *groups);
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 

@@ -14,6 +14,7 @@
  * as much, is in the true piece. */
 #include "displacement/optimum/forbidden.h"
 #include "displacement/layer/resolution.h"
+#include "displacement/optimum/tuning.h"
 
 #include "base/watch.h"
 #include "shape/shape.h"
@@ -89,11 +90,13 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     return true;
 }
 
+static bool is_full(const listing *l) { return l->out->pieces > MOST_PIECES; }
+
 static bool add_pieces(listing *l)
 {
     const sunder_i_model *model = l->model;
     const double reach = l->reach + model->rules.gap;
-    for (uint32_t k = l->p->piece; k < l->p->piece + l->p->pieces; k++) {
+    for (uint32_t k = l->p->piece; k < l->p->piece + l->p->pieces && !is_full(l); k++) {
         const sunder_i_body_piece *a = &model->piece[k];
         const double box[4] = {a->box[0] - l->offset[0] - reach, a->box[1] - l->offset[1] - reach,
                                a->box[2] - l->offset[0] + reach, a->box[3] - l->offset[1] + reach};
@@ -152,7 +155,7 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
 {
     const sunder_i_model *model = l->model;
     if (sunder_i_is_barrier_body(model, other)) return true;
-    for (uint32_t m = 0; m < p->members; m++) {
+    for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->anchor[f];
         if (!anchor->corners) continue;
@@ -165,6 +168,12 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
     return true;
 }
 
+static bool add_all(listing *l)
+{
+    if (!add_pieces(l)) return false;
+    return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
+}
+
 bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach)
 {
@@ -172,8 +181,12 @@ bool sunder_i_forbidden_init(sunder_i_forbidden *f, const sunder_i_model *model,
     listing l = {
         .out = f, .model = model, .waived = waived, .p = &model->body[p], .q = &model->body[q], .reach = reach};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
-    bool ok = add_pieces(&l);
-    if (ok && !model->rules.jumps) ok = add_shadows_from(&l, l.p, l.q, false) && add_shadows_from(&l, l.q, l.p, true);
+    bool ok = add_all(&l);
+    while (ok && is_full(&l) && l.reach > model->rules.gap) {
+        f->pieces = f->edges = 0;
+        l.reach /= 2;
+        ok = add_all(&l);
+    }
     sunder_i_free(l.scratch.xy);
     sunder_i_free(l.drawn);
     sunder_i_free(l.hull);

@@ -7,6 +7,8 @@
 #include "displacement/optimum/region.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/watch.h"
+
 #include <math.h>
 
 /* ---- Reflex corners ---------------------------------------------------------------------------------------------- */
@@ -75,11 +77,12 @@ bool sunder_i_reflex_find(sunder_i_reflex *out, const sunder_i_forbidden *f, uin
 {
     for (size_t k = 0; k < f->pieces; k++)
         for (size_t l = k + 1; l < f->pieces; l++) {
+            const uint64_t before = *steps;
             const sunder_i_forbidden_piece *p = &f->piece[k], *q = &f->piece[l];
             *steps += 1;
             if (!sunder_i_box_meet(p->box, q->box)) continue;
             if (!cross_edges(out, f, p, q, steps) || !cross_edges(out, f, q, p, steps) ||
-                !cross_arcs(out, f, p, q, steps))
+                !cross_arcs(out, f, p, q, steps) || !sunder_i_steps(1 + (size_t)(*steps - before) / 64))
                 return false;
         }
     return true;

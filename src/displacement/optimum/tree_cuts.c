@@ -11,6 +11,8 @@
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
+#include "base/watch.h"
+
 #include <math.h>
 
 /* How far t* may be from the least of the forces as they are: rounding of the sum of pushes on a body (the size of
@@ -43,16 +45,42 @@ static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], doubl
     return made;
 }
 
+/* The pieces that meet the region: those of a small set once and for all. False: too many, or memory is out. */
+static bool look_about(sunder_i_tree *t, sunder_i_tree_pair *p, const sunder_i_region *region,
+                       sunder_i_forbidden_piece local[MOST_LOCAL], sunder_i_forbidden *near)
+{
+    double box[4];
+    *near = p->forbidden;
+    if (near->pieces <= MOST_LOCAL) {
+        if (!p->has_reflex && !sunder_i_reflex_find(&p->reflex, near, &t->steps)) t->failed = true;
+        p->has_reflex = true;
+        return !t->failed;
+    }
+    sunder_i_box_clear(box);
+    for (uint32_t k = 0; k < region->n; k++) sunder_i_box_include(box, region->xy + 2 * k);
+    near->piece = local;
+    near->pieces = 0;
+    t->steps += p->forbidden.pieces / 4;
+    for (size_t k = 0; k < p->forbidden.pieces; k++) {
+        if (!sunder_i_box_meet(box, p->forbidden.piece[k].box)) continue;
+        if (near->pieces == MOST_LOCAL) return false;
+        local[near->pieces++] = p->forbidden.piece[k];
+    }
+    p->reflex.n = 0;
+    if (!sunder_i_reflex_find(&p->reflex, near, &t->steps)) t->failed = true;
+    return !t->failed;
+}
+
 bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_region *region, const double u[2],
                            double n[2], double *d, bool *none)
 {
     sunder_i_tree_pair *p = &t->pair[pair];
+    sunder_i_forbidden_piece local[MOST_LOCAL];
+    sunder_i_forbidden near;
     double place[2];
-    *none = false;
-    if (!p->has_reflex && !sunder_i_reflex_find(&p->reflex, &p->forbidden, &t->steps)) t->failed = true;
-    p->has_reflex = true;
-    if (t->failed) return false;
-    if (region->n == 0 || !sunder_i_free_hull_nearest(region, &p->forbidden, &p->reflex, u, place, &t->steps)) {
+    *none = region->n == 0;
+    if (*none || !look_about(t, p, region, local, &near)) return false;
+    if (!sunder_i_free_hull_nearest(region, &near, &p->reflex, u, place, &t->steps)) {
         *none = true;
         return false;
     }
@@ -88,9 +116,11 @@ size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
     *empty = false;
     for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
         const sunder_i_tree_conflict c = t->conflict[k];
+        const uint64_t before = t->steps;
         bool none;
         cut_disc(t, c.pair, c.u, value);
         made += sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
+        if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
         if (!none || t->failed) continue;
         const sunder_i_tree_pair *p = &t->pair[c.pair];
         *empty = sunder_i_region_is_covered(&p->region, &p->forbidden, &t->steps);

@@ -13,6 +13,13 @@
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
 
+/* ---- Pairs (forbidden.c, tree_cuts.c) ---------------------------------------------------------------------------- */
+
+/* Of a pair with more pieces within reach only nearer ones are heeded; and where more than these meet a region no cut
+ * is looked for. */
+#define MOST_PIECES 4096
+#define MOST_LOCAL 96
+
 /* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
 
 /* What is this little within it counts as free where cuts are proposed. */

@@ -57,8 +57,8 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 {
     sunder_layer_summary *summary = &report->summary;
     double sum = 0;
-    summary->clusters = s->model.rules.effort > 0 ? s->groups.n : s->clusters;
-    if (s->groups.n == 0) return SUNDER_OK;
+    summary->clusters = s->groups.n;
+    if (s->groups.n == 0 || !(s->model.rules.effort > 0)) return SUNDER_OK;
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
     bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
     if (!owner || !listed) {

@@ -1,0 +1,239 @@
+/* Contact groups: what hangs together by contact in the layout, of what moved or is in conflict, and what stands in
+ * contact with such; or what a proof takes together.
+ *
+ * Fixed bodies join none, and are members of all that they are in contact with: they stand in the way of these. A group
+ * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
+ * change from one round to the next keeps its proof. */
+#include "displacement/clusters/stages.h"
+#include "displacement/clusters/tuning.h"
+#include "displacement/layer/resolution.h"
+
+#include "base/union_find.h"
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void sunder_i_groups_free(sunder_i_groups *g)
+{
+    for (size_t k = 0; k < g->n; k++) sunder_i_group_free(&g->group[k]);
+    sunder_i_free(g->group);
+    sunder_i_free(g->of);
+    sunder_i_free(g->waived);
+    sunder_i_free(g->joined);
+    sunder_i_free(g->spent);
+    memset(g, 0, sizeof *g);
+}
+
+typedef struct gathering {
+    const sunder_i_solver *solver;
+    uint32_t *parent;
+    bool *counts;        /* [bodies] what moved, or is in conflict, and what is in contact with such */
+    sunder_i_list queue; /* of these, those whose contacts are to be looked for */
+    sunder_i_list near;
+    sunder_i_id_pair *touch; /* a body that may move, and a fixed one in contact */
+    size_t touches, touch_capacity;
+    sunder_i_id_pair *member;
+    size_t members, capacity;
+} gathering;
+
+static bool is_fixed(const gathering *g, uint32_t body) { return g->solver->model.body[body].fixed; }
+
+static bool count(gathering *g, uint32_t body)
+{
+    if (g->counts[body] || is_fixed(g, body)) return true;
+    g->counts[body] = true;
+    return sunder_i_list_push(&g->queue, body);
+}
+
+/* What moved, and what is in conflict. */
+static bool count_all(gathering *g)
+{
+    const sunder_i_solver *s = g->solver;
+    bool ok = true;
+    for (uint32_t b = 0; b < s->model.bodies && ok; b++)
+        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = count(g, b);
+    for (size_t k = 0; k < s->now.n && ok; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        if (sunder_i_is_conflict_of_bodies(&s->model, r))
+            ok = count(g, s->model.body_of[r->a]) && count(g, s->model.body_of[r->b]);
+    }
+    return ok;
+}
+
+/* The gap, or a length of the smaller body where that is 0: what is a small share of it is none. So a layer on another
+ * scale has the same contacts. */
+static double length_of(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
+{
+    if (model->rules.gap > 0) return model->rules.gap;
+    return fmin(p->box[2] - p->box[0] + p->box[3] - p->box[1], q->box[2] - q->box[0] + q->box[3] - q->box[1]);
+}
+
+static bool are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, bool *contact)
+{
+    const sunder_i_waived none = {0};
+    const double *t = model->move + 2 * (size_t)i, *v = model->move + 2 * (size_t)j, u[2] = {v[0] - t[0], v[1] - t[1]};
+    const double hair = CONTACT * length_of(model, &model->body[i], &model->body[j]);
+    sunder_i_forbidden f;
+    const bool ok = sunder_i_forbidden_init(&f, model, &none, i, j, fabs(u[0]) + fabs(u[1]) + hair);
+    *contact = ok && sunder_i_forbidden_is_near(&f, u, hair);
+    sunder_i_forbidden_free(&f);
+    return ok;
+}
+
+/* Joins a body with those it is in contact with. Fixed ones join none. */
+static bool join_contacts(gathering *g, uint32_t b)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_i_body *body = &model->body[b];
+    double box[4];
+    g->near.n = 0;
+    if (body->pieces == 0) return true;
+    sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + CONTACT * length_of(model, body, body),
+                      box);
+    if (!sunder_i_rtree_query(model->standing, box, &g->near)) return false;
+    for (size_t k = 0; k < g->near.n; k++) g->near.item[k] = model->body_of[g->near.item[k]];
+    g->near.n = sunder_i_set_make(g->near.item, g->near.n);
+    for (size_t k = 0; k < g->near.n; k++) {
+        const uint32_t other = g->near.item[k];
+        bool contact;
+        if (other == b ||
+            (!is_fixed(g, other) && sunder_i_union_find(g->parent, other) == sunder_i_union_find(g->parent, b)))
+            continue;
+        if (!are_in_contact(model, b, other, &contact)) return false;
+        if (!contact) continue;
+        if (is_fixed(g, other)) {
+            if (!sunder_i_reserve(&g->touch, &g->touch_capacity, g->touches + 1, sizeof *g->touch)) return false;
+            g->touch[g->touches++] = (sunder_i_id_pair){b, other};
+        } else {
+            sunder_i_union_join(g->parent, b, other);
+            if (!count(g, other)) return false;
+        }
+    }
+    return true;
+}
+
+static bool flood(gathering *g)
+{
+    const sunder_i_groups *groups = &g->solver->groups;
+    sunder_i_union_init(g->parent, g->solver->model.bodies);
+    if (!count_all(g)) return false;
+    for (size_t k = 0; k < groups->joins; k++) {
+        const sunder_i_id_pair *joined = &groups->joined[k];
+        sunder_i_union_join(g->parent, joined->a, joined->b);
+        if (!count(g, joined->a) || !count(g, joined->b)) return false;
+    }
+    for (size_t k = 0; k < g->queue.n; k++)
+        if (!sunder_i_step() || !join_contacts(g, g->queue.item[k])) return false;
+    return true;
+}
+
+static bool add_member(gathering *g, uint32_t of, uint32_t body)
+{
+    const uint32_t root = sunder_i_union_find(g->parent, of);
+    if (!sunder_i_reserve(&g->member, &g->capacity, g->members + 1, sizeof *g->member)) return false;
+    g->member[g->members++] = (sunder_i_id_pair){root, body};
+    return true;
+}
+
+static bool list_members(gathering *g)
+{
+    bool ok = true;
+    for (size_t k = 0; k < g->queue.n && ok; k++) ok = add_member(g, g->queue.item[k], g->queue.item[k]);
+    for (size_t k = 0; k < g->touches && ok; k++) ok = add_member(g, g->touch[k].a, g->touch[k].b);
+    if (ok && g->members) qsort(g->member, g->members, sizeof *g->member, sunder_i_by_id_pair);
+    size_t out = 0;
+    for (size_t k = 0; k < g->members; k++)
+        if (k == 0 || sunder_i_by_id_pair(&g->member[k - 1], &g->member[k])) g->member[out++] = g->member[k];
+    g->members = out;
+    return ok;
+}
+
+/* The group of these members, as they stand; it is known by the least of them that may move, so that its name does not
+ * depend on others. */
+static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair *member, size_t n, sunder_i_group *out,
+                                sunder_error *err)
+{
+    out->body = sunder_i_alloc(n, sizeof *out->body);
+    out->move = sunder_i_alloc(2 * n, sizeof *out->move);
+    if (!out->body || !out->move) return sunder_i_no_memory(err);
+    out->n = n;
+    out->number = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t b = out->body[k] = member[k].b;
+        memcpy(out->move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *out->move);
+        if (out->number == SUNDER_I_NOBODY && !s->model.body[b].fixed) out->number = b;
+    }
+    out->margin = sunder_i_solver_margin(s, out->body, n);
+    return SUNDER_OK;
+}
+
+/* A group of the last round that is the same in all that counts, and so keeps its proof. */
+static void keep_proof(sunder_i_group *old, sunder_i_group *now)
+{
+    if (!old->done || old->joins.n || old->n != now->n || memcmp(old->body, now->body, old->n * sizeof *old->body) ||
+        memcmp(old->move, now->move, 2 * old->n * sizeof *old->move))
+        return;
+    const sunder_i_group kept = *old;
+    *old = *now;
+    *now = kept;
+}
+
+/* The place of the group of each number in the last round; scratch of as many as there are bodies. */
+static void index_groups(const sunder_i_groups *old, uint32_t *at, size_t bodies)
+{
+    for (size_t b = 0; b < bodies; b++) at[b] = SUNDER_I_NOBODY;
+    for (size_t k = 0; k < old->n; k++) at[old->group[k].number] = (uint32_t)k;
+}
+
+static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, sunder_error *err)
+{
+    const sunder_i_solver *s = g->solver;
+    uint32_t *at = sunder_i_alloc(s->model.bodies, sizeof *at);
+    sunder_i_groups made = {.group = sunder_i_calloc(g->members, sizeof *made.group),
+                            .of = sunder_i_alloc(s->model.bodies, sizeof *made.of)};
+    sunder_status status = made.group && made.of && at ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) index_groups(groups, at, s->model.bodies);
+    for (size_t b = 0; !status && b < s->model.bodies; b++) made.of[b] = SUNDER_I_NOBODY;
+    for (size_t first = 0, end; first < g->members && !status; first = end) {
+        for (end = first; end < g->members && g->member[end].a == g->member[first].a; end++) {
+        }
+        sunder_i_group *group = &made.group[made.n++];
+        status = make_group(s, g->member + first, end - first, group, err);
+        if (status) break;
+        if (at[group->number] != SUNDER_I_NOBODY) keep_proof(&groups->group[at[group->number]], group);
+        for (size_t k = 0; k < group->n; k++)
+            if (!s->model.body[group->body[k]].fixed) made.of[group->body[k]] = group->number;
+    }
+    sunder_i_free(at);
+    if (status) {
+        sunder_i_groups_free(&made);
+        return status;
+    }
+    sunder_i_groups now = *groups;
+    now.group = made.group;
+    now.n = made.n;
+    now.of = made.of;
+    *groups = (sunder_i_groups){.group = groups->group, .n = groups->n, .of = groups->of};
+    sunder_i_groups_free(groups);
+    *groups = now;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *err)
+{
+    gathering g = {.solver = s,
+                   .parent = sunder_i_alloc(s->model.bodies, sizeof *g.parent),
+                   .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
+    if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
+    const bool ok = g.parent && g.counts && s->groups.spent && flood(&g) && list_members(&g);
+    const sunder_status status = ok ? make_groups(&g, &s->groups, err) : sunder_i_no_memory(err);
+    sunder_i_free(g.parent);
+    sunder_i_free(g.counts);
+    sunder_i_free(g.queue.item);
+    sunder_i_free(g.near.item);
+    sunder_i_free(g.touch);
+    sunder_i_free(g.member);
+    return status;
+}
