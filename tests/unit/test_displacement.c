@@ -289,6 +289,8 @@ static void check_within(void **state)
     assert_true(sunder_i_is_within_limit(v, 5.0000001e-200));
     assert_false(sunder_i_is_within_limit(v, 4.9e-200));
     assert_true(sunder_i_is_within_limit(t, INFINITY));
+    assert_true(sunder_i_is_within_limit((const double[2]){0, -0.0}, 0));
+    assert_false(sunder_i_is_within_limit(v, 0));
 }
 
 int main(void)

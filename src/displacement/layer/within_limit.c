@@ -9,7 +9,7 @@
 
 bool sunder_i_is_within_limit(const double t[2], double limit)
 {
-    if (limit == INFINITY) return true;
+    if (limit == INFINITY || (t[0] == 0 && t[1] == 0)) return true; /* a limit is not negative; no memory is needed */
     /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and
      * underflow. */
     const double a = t[0] * t[0] + t[1] * t[1], b = limit * limit;
