@@ -81,7 +81,8 @@ static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *
 static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *ways)
 {
     size_t best = 0, fewest = SIZE_MAX;
-    for (size_t k = 0; k < n && fewest && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
+    for (size_t k = 0;
+         k < n && fewest && deepest[k].known == deepest[0].known && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
         *ways = sunder_i_branching_ways(c, &deepest[k]);
         if (c->failed) return 0;
         const size_t open = count_ways(c, &deepest[k], *ways, fewest);

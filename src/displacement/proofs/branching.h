@@ -108,9 +108,10 @@ typedef struct sunder_i_violation {
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
     bool shadow; /* a or b is an anchor, and in the shadow of the other */
+    bool known; /* nobody joins for it: both take part already, or one of them never moves */
 } sunder_i_violation;
 
-/* The deepest of the candidate's, one of each pair of bodies, deepest first; returns how many. */
+/* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
 /* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */
 size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation);

@@ -10,7 +10,8 @@
  *
  * Limits enter it as tangents, added where a solution oversteps one. The program asks for the solution nearest to the
  * last candidate (programs/nearest.c), which kept all but the last claim, and so is few steps away; and a hair more
- * than the claims say. What has a solution but not with that hair is asked without. */
+ * than the claims say. What has a solution but not with that hair is asked without, and then, since between two walls
+ * in one line there is room for rounding only, half a hair less. */
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
@@ -160,8 +161,9 @@ static sunder_i_node_outcome solve(sunder_i_branching *c)
 sunder_status sunder_i_branching_solve(sunder_i_branching *c, sunder_i_node_outcome *outcome, sunder_error *err)
 {
     *outcome = SUNDER_I_NODE_UNDECIDED;
-    for (int hairs = 1; hairs >= 0 && *outcome == SUNDER_I_NODE_UNDECIDED; hairs--) {
-        if (!load(c, hairs * c->hair)) return sunder_i_no_memory(err);
+    static const double hairs[] = {1, 0, -0.5};
+    for (size_t k = 0; k < sizeof hairs / sizeof *hairs && *outcome == SUNDER_I_NODE_UNDECIDED; k++) {
+        if (!load(c, hairs[k] * c->hair)) return sunder_i_no_memory(err);
         *outcome = solve(c);
         if (c->failed || !sunder_i_look()) return sunder_i_no_memory(err);
     }

@@ -91,7 +91,7 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
             const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false), u);
             if (depth > worst->depth)
-                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false};
+                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false, false};
         }
     }
 }
@@ -103,7 +103,7 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
 {
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
     const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true), u);
-    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true};
+    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true, false};
 }
 
 /* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
@@ -191,11 +191,17 @@ static bool find_near(sunder_i_branching *c, const standing *s)
     return true;
 }
 
+/* First what nobody has to join for, so that a few are done with before there are more of them; then the deepest. */
+static bool comes_before(const sunder_i_violation *o, const sunder_i_violation *than)
+{
+    return o->known != than->known ? o->known : o->depth > than->depth;
+}
+
 static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_violation *o)
 {
-    if (!o->a || (n == SUNDER_I_CHOICES && o->depth <= deepest[n - 1].depth)) return n;
+    if (!o->a || (n == SUNDER_I_CHOICES && !comes_before(o, &deepest[n - 1]))) return n;
     size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
-    for (; k > 0 && deepest[k - 1].depth < o->depth; k--) deepest[k] = deepest[k - 1];
+    for (; k > 0 && comes_before(o, &deepest[k - 1]); k--) deepest[k] = deepest[k - 1];
     deepest[k] = *o;
     return n;
 }
@@ -209,6 +215,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
             sunder_i_violation o = {.depth = 2 * c->hair};
             const standing r = stand(c, c->body[j]);
             look_at_all(c, &s, &r, &o);
+            o.known = true;
             n = insert(deepest, n, &o);
         }
         /* The others stand where they were. */
@@ -218,6 +225,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation d
             if (sunder_i_branching_place(c, c->near.item[k]) != SUNDER_I_GROUND) continue;
             const standing r = stand(c, c->near.item[k]);
             look_at_all(c, &s, &r, &o);
+            o.known = !(sunder_i_limit_of(r.body) > 0);
             n = insert(deepest, n, &o);
         }
     }
