@@ -4,7 +4,8 @@
  * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
  * all. Nothing is asked of pairs that are listed in the report, nor of those of which one lies in the other, or could
  * get there, with leave to overlap it: leaving them out makes the set smaller, and a bound no more than weaker.
- * Courtyards are no matter: the pieces of a feature fill it, and nothing else.
+ * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass, and
+ * of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
  *
  * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
  * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so that 8 e S = 2^-50
@@ -14,6 +15,7 @@
  * as much, is in the true piece. */
 #include "displacement/optimum/forbidden.h"
 #include "displacement/layer/resolution.h"
+#include "displacement/layer/sides.h"
 #include "displacement/optimum/tuning.h"
 
 #include "base/watch.h"
@@ -168,9 +170,27 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
     return true;
 }
 
+/* Shadows of the sides of `part` from the side anchors of `p`. */
+static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *part, bool swapped)
+{
+    const sunder_i_model *model = l->model;
+    for (uint32_t m = 0; m < p->members && part->sides && !is_full(l); m++) {
+        const uint32_t f = model->member[p->member + m];
+        const sunder_i_body_piece *anchor = &model->side_anchor[f];
+        if (!anchor->corners) continue;
+        for (uint32_t k = part->side; k < part->side + part->sides; k++) {
+            const sunder_i_side *side = &model->side[k];
+            if (sunder_i_side_faces(model, side, f) &&
+                !add_shadow(l, swapped ? &side->piece : anchor, swapped ? anchor : &side->piece))
+                return false;
+        }
+    }
+    return true;
+}
+
 static bool add_all(listing *l)
 {
-    if (!add_pieces(l)) return false;
+    if (!add_pieces(l) || !add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 

@@ -1,4 +1,5 @@
 /* Pairs of a task: what they may not do, made where they are first met, and who is in conflict at a node's least. */
+#include "displacement/obstacles/shadow.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 
@@ -46,17 +47,19 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t
     return p;
 }
 
-/* Might an anchor of the one have passed the other on the way there? By boxes: the way of the relative move meets what
- * the anchors see of the other. */
-static bool may_pass(const sunder_i_body *p, const sunder_i_body *q, const double t[2], const double v[2])
+/* Might an anchor of the one have passed the other on the way there, or a side anchor a side? By boxes: the way of the
+ * relative move meets what the anchors see of the other. */
+static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q, const double t[2],
+                     const double v[2])
 {
-    bool of_p = true, of_q = true;
-    for (uint32_t c = 0; c < 2; c++) {
-        const double u = v[c] - t[c], low = fmin(u, 0), high = fmax(u, 0), offset = q->origin[c] - p->origin[c];
-        of_p = of_p && p->anchors[c] - q->box[c + 2] - offset <= high && p->anchors[c + 2] - q->box[c] - offset >= low;
-        of_q = of_q && p->box[c] - q->anchors[c + 2] - offset <= high && p->box[c + 2] - q->anchors[c] - offset >= low;
-    }
-    return of_p || of_q;
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
+                 u[2] = {v[0] - t[0], v[1] - t[1]};
+    double way[4];
+    sunder_i_shadow_way(u, 0, way);
+    if (p->sides && sunder_i_shadow_may_reach(p->box, q->side_anchors, offset, way)) return true;
+    if (q->sides && sunder_i_shadow_may_reach(p->side_anchors, q->box, offset, way)) return true;
+    return !model->rules.jumps && (sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
+                                   sunder_i_shadow_may_reach(p->box, q->anchors, offset, way));
 }
 
 /* Do the boxes of the two stand within the gap of each other? */
@@ -64,7 +67,7 @@ static bool are_near(const sunder_i_tree *t, uint32_t i, uint32_t j)
 {
     const sunder_i_body *p = &t->task.model->body[t->task.body[i]], *q = &t->task.model->body[t->task.body[j]];
     const double *at = t->program.t, gap = t->task.model->rules.gap;
-    if (!t->task.model->rules.jumps && may_pass(p, q, at + 2 * i, at + 2 * j)) return true;
+    if (may_pass(t->task.model, p, q, at + 2 * i, at + 2 * j)) return true;
     for (uint32_t c = 0; c < 2; c++) {
         const double v = q->origin[c] + at[2 * j + c] - p->origin[c] - at[2 * i + c];
         if (p->box[c] >= q->box[c + 2] + v + gap || q->box[c] + v >= p->box[c + 2] + gap) return false;
@@ -132,7 +135,7 @@ static void find_near(sunder_i_tree *t, uint32_t i)
     t->near.n = 0;
     sunder_i_body_box(&model->body[t->body[i]], t->program.t + 2 * i, model->rules.gap, box);
     sunder_i_body_box(&model->body[t->body[i]], home, model->rules.gap, start);
-    if (!model->rules.jumps) sunder_i_box_join(box, start);
+    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
     if (!sunder_i_rtree_query(model->standing, box, &t->near)) t->failed = true;
     for (size_t k = 0; k < t->near.n; k++) t->near.item[k] = model->body_of[t->near.item[k]];
     t->near.n = sunder_i_set_make(t->near.item, t->near.n);
