@@ -436,6 +436,7 @@ typedef struct sunder_layer_options {
     double effort;    /* >= 0: how hard to look for better sides, for proofs, and for what would free a
                        * conflict, in steps and not in time; 0: not at all */
     uint64_t seed;    /* of what search is random; nothing is yet */
+    bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
 } sunder_layer_options;
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
@@ -611,6 +612,72 @@ typedef struct sunder_bound_pair {
     double least, multiplier;
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
+
+/* What lower_bound stands on, where keep_trees was asked for: trees of branch and bound, one for each contact group of
+ * the result, or several that share its bodies. Every number in them means itself, exactly, and rational arithmetic can
+ * follow: docs/PROOF.md says what each line of it claims, and why that follows.
+ *
+ * A tree is about the least of the sum, over its bodies, of weight |t - shift|^2, t their moves. Its cuts say
+ * n.(t_j - t_i) >= d; its nodes add cuts to those of their parents, and have forces on some of them, which prove a
+ * value by weak duality. */
+typedef struct sunder_bound_body {
+    size_t thing;    /* a member of a block, or a feature by itself; the number of features + k: barrier k */
+    double weight;   /* no more than its own; INFINITY: it does not move */
+    double shift[2]; /* 0 for what does not move */
+} sunder_bound_body;
+
+/* What bodies i and j may not do: their convex parts may not come nearer than they owe, by u = t_j - t_i. */
+typedef struct sunder_bound_piece {
+    size_t i, j;
+    size_t a, b;           /* the features, or barriers, that the parts are of */
+    size_t part_a, part_b; /* their first corners, as they stood at the start */
+    size_t corners_a, corners_b;
+    bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
+} sunder_bound_piece;
+
+typedef enum sunder_bound_cut_kind {
+    SUNDER_BOUND_CUT_LIMIT, /* of body i, j = SIZE_MAX: no move is longer than allowed */
+    SUNDER_BOUND_CUT_CONE,  /* of a branch: the cones of the children of a node cover the plane */
+    SUNDER_BOUND_CUT_DISC,  /* beyond it all costs the tree's bound, by the forces `by` of its node */
+    SUNDER_BOUND_CUT_HULL   /* what it takes away is covered by its pieces */
+} sunder_bound_cut_kind;
+
+typedef struct sunder_bound_cut {
+    sunder_bound_cut_kind kind;
+    size_t i, j; /* of the tree's bodies */
+    double n[2], d;
+    size_t named, names; /* in sunder_bound_tree.named: its pieces */
+} sunder_bound_cut;
+
+typedef struct sunder_bound_force {
+    size_t cut; /* of all cuts; on the way from the root to the node */
+    double force;
+} sunder_bound_force;
+
+typedef struct sunder_bound_node {
+    size_t parent;        /* an earlier node; of node 0, the root, SIZE_MAX */
+    size_t cut, cuts;     /* in the order in which they were made */
+    size_t force, forces; /* what it proves */
+    size_t by, bys;       /* forces on cuts of the nodes above, which its discs stand on */
+    bool empty;           /* what the cuts leave to bodies i and j is covered by these pieces */
+    size_t i, j, named, names;
+} sunder_bound_node;
+
+typedef struct sunder_bound_tree {
+    size_t group; /* trees of one group follow each other */
+    double bound;
+    const sunder_bound_body *body;
+    const sunder_bound_piece *piece;
+    const sunder_bound_cut *cut;
+    const sunder_bound_force *force;
+    const sunder_bound_node *node;
+    const size_t *named;  /* pieces */
+    const double *corner; /* [2 * corners] */
+    size_t bodies, pieces, cuts, forces, nodes, names, corners;
+} sunder_bound_tree;
+
+/* They live as long as the report. */
+SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, size_t *n);
 
 /* A proof that a conflict has no room, which rational arithmetic can follow. Every number in it means itself, exactly.
  *

@@ -86,6 +86,7 @@ static void run_beside(bool check, double gap, double limit, bool barriers)
     street s = {.check = check, .limit = limit, .barriers = barriers};
     sunder_layer_options_init(&s.options);
     s.options.gap = gap;
+    s.options.keep_trees = true;
     failing_begin();
     const bool sound = failing_loop(attempt, &s, true);
     failing_end();

@@ -30,6 +30,40 @@ static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, 
     }
 }
 
+/* The corners of an anchor, or of a side; false if it is a piece of a shape. */
+static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+{
+    const uint32_t f = piece->feature;
+    const bool barrier = sunder_i_is_barrier(model, f);
+    const double *at = NULL;
+    if (!barrier && model->anchor && piece == &model->anchor[f]) at = model->anchor_at + 2 * (size_t)f;
+    if (!barrier && model->side_anchor && piece == &model->side_anchor[f]) at = model->side_at + 2 * (size_t)f;
+    if (at) memcpy(out, at, 2 * sizeof *out);
+    const sunder_i_body *body = &model->body[model->body_of[f]];
+    for (uint32_t k = body->side; barrier && !at && k < body->side + body->sides; k++) {
+        const sunder_i_side *side = &model->side[k];
+        if (piece != &side->piece) continue;
+        memcpy(out, side->from, 2 * sizeof *out);
+        memcpy(out + 2, side->to, 2 * sizeof *out);
+        at = out;
+    }
+    return at;
+}
+
+void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+{
+    const uint32_t f = piece->feature;
+    if (anchor_as_given(model, piece, out)) return;
+    /* Pieces of a feature are in the order of the shape's. */
+    const sunder_shape *shape = model->layer->feature[f].shape;
+    const sunder_i_body_piece *first = piece, *all = model->piece + model->body[model->body_of[f]].piece;
+    while (first > all && first[-1].feature == f) first--;
+    const size_t p = (size_t)(piece - first);
+    const uint32_t from = p ? shape->piece_end[p - 1] : 0;
+    for (uint32_t k = 0; k < piece->corners; k++)
+        memcpy(out + 2 * (size_t)k, shape->xy + 2 * (size_t)shape->piece_vertex[from + k], 2 * sizeof *out);
+}
+
 static int by_place(const void *a, const void *b)
 {
     const double *p = a, *q = b;

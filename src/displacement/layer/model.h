@@ -160,6 +160,9 @@ void sunder_i_model_free(sunder_i_model *model);
 
 /* The convex pieces, for the search. */
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
+/* The corners of a piece, an anchor or a side, where they stood in the layer: as given; of repaired shapes the nearest
+ * doubles. out: room for all of the piece's. */
+void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
 /* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
 size_t sunder_i_convex_hull(double *point, size_t n, double *out);
 /* Unites the members of these bodies, those that are blocks and have not been. */

@@ -13,6 +13,7 @@
 
 typedef struct covering {
     const sunder_i_forbidden *forbidden;
+    bool *used;
     uint64_t steps, most;
     const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
 } covering;
@@ -29,6 +30,7 @@ static bool holds(covering *c, const sunder_i_forbidden_piece *p, const sunder_i
 {
     for (uint32_t k = 0; k < r->n; k++)
         if (!is_in(c, p, r->xy + 2 * k, r->blur)) return false;
+    if (c->used) c->used[p - c->forbidden->piece] = true;
     return true;
 }
 
@@ -76,9 +78,10 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     return is_covered(c, &half, depth + 1);
 }
 
-bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps)
+bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
+                                uint64_t *steps)
 {
-    covering c = {.forbidden = forbidden, .most = COVER_STEPS};
+    covering c = {.forbidden = forbidden, .used = used, .most = COVER_STEPS};
     const bool covered = is_covered(&c, region, 0);
     *steps += c.steps;
     return covered;

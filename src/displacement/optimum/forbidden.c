@@ -77,10 +77,8 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
                                                corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
     if (n == 0) return false;
     sunder_i_forbidden_piece *piece = &f->piece[f->pieces];
-    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges,
-                                        .a = (uint32_t)(a - l->model->piece),
-                                        .b = (uint32_t)(b - l->model->piece),
-                                        .radius = sunder_i_owed_below(l->model, a->feature, b->feature)};
+    *piece = (sunder_i_forbidden_piece){
+        .edge = (uint32_t)f->edges, .a = a, .b = b, .radius = sunder_i_owed_below(l->model, a->feature, b->feature)};
     piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
     piece->vague = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
     sunder_i_box_clear(piece->box);
@@ -127,7 +125,7 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
     const size_t n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners,
                                                corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
     if (n == 0) return false;
-    sunder_i_forbidden_piece piece = {.edge = (uint32_t)f->edges};
+    sunder_i_forbidden_piece piece = {.edge = (uint32_t)f->edges, .a = a, .b = b, .shadow = true};
     piece.edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
     const double off = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
     const double distance = piece.edges > 1 ? sunder_i_forbidden_distance(f, &piece, home) : 0;

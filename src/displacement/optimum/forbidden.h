@@ -8,8 +8,9 @@
 /* A convex polygon K grown by an open disc of that radius; with radius 0 its interior. The true piece is that of some
  * true polygon; every corner of K is within `vague` of a point of it. */
 typedef struct sunder_i_forbidden_piece {
-    uint32_t edge, edges; /* of K, in sunder_i_forbidden.edge */
-    uint32_t a, b;        /* the pieces of the two bodies, in sunder_i_model.piece */
+    uint32_t edge, edges;             /* of K, in sunder_i_forbidden.edge */
+    const sunder_i_body_piece *a, *b; /* what it is made of: a piece of each body; of a shadow one is an anchor */
+    bool shadow;
     double radius, vague;
     double box[4]; /* of K grown */
 } sunder_i_forbidden_piece;

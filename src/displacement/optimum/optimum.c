@@ -24,6 +24,7 @@ void sunder_i_group_free(sunder_i_group *g)
     sunder_i_free(g->move);
     sunder_i_free(g->guests.item);
     sunder_i_free(g->joins.item);
+    sunder_i_bound_tree_free(&g->tree);
     *g = (sunder_i_group){0};
 }
 
@@ -127,6 +128,7 @@ sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_w
 {
     bool better;
     g->bound = 0;
+    sunder_i_bound_tree_free(&g->tree);
     g->done = true;
     g->cost = cost_of(model, g->body, g->n, g->move);
     if (!isfinite(g->cost)) return SUNDER_OK;
@@ -139,11 +141,13 @@ sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_w
                                 .group = g->number,
                                 .body = g->body,
                                 .n = n,
-                                .goal = goal_of(model, g)};
+                                .goal = goal_of(model, g),
+                                .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = branch(model, g, &tree, steps, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
+    if (!status && task.keep && !sunder_i_tree_record(&tree, &g->tree)) status = sunder_i_no_memory(err);
     sunder_i_tree_free(&tree);
     return status;
 }

@@ -18,9 +18,11 @@ typedef struct sunder_i_group {
     sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
     uint64_t steps;
+    sunder_bound_tree tree; /* what the bound stands on, where that is kept; in the numbers of the work; owned */
 } sunder_i_group;
 
 void sunder_i_group_free(sunder_i_group *group);
+void sunder_i_bound_tree_free(sunder_bound_tree *tree); /* tree_record.c */
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
 /* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. group_of: of all

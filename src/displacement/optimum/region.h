@@ -28,8 +28,10 @@ double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], 
 
 /* ---- covered.c --------------------------------------------------------------------------------------------------- */
 
-/* Is the true region within the forbidden set? Only if that is proved. steps: grows by the work done. */
-bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, uint64_t *steps);
+/* Is the true region within the forbidden set? Only if that is proved. used: NULL, or [forbidden->pieces], where those
+ * that the proof stands on are marked. steps: grows by the work done. */
+bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
+                                uint64_t *steps);
 
 /* ---- free_hull.c ------------------------------------------------------------------------------------------------- */
 

@@ -107,6 +107,8 @@ void sunder_i_tree_free(sunder_i_tree *t)
     sunder_i_free(t->touched.item);
     sunder_i_free(t->near.item);
     sunder_i_free(t->joins.item);
+    sunder_i_free(t->named.item);
+    sunder_i_free(t->used);
     sunder_i_free(t->conflict);
     sunder_i_free(t->kept);
     sunder_i_free(t->kept_factor);

@@ -16,6 +16,7 @@ typedef struct sunder_i_task {
     const double *weight; /* [n] NULL: the bodies' own; else no more than that */
     const double *anchor; /* [2 n] a; 0 for what does not move; NULL: 0 for all */
     double goal;          /* it is to be proved that no layout costs less */
+    bool keep;            /* what a reader of the proof needs besides is kept: see tree_record.c */
 } sunder_i_task;
 
 typedef enum sunder_i_cut_kind {
@@ -27,7 +28,8 @@ typedef enum sunder_i_cut_kind {
 
 typedef struct sunder_i_cut_note {
     sunder_i_cut_kind kind;
-    uint32_t pair; /* in sunder_i_tree.pair */
+    uint32_t pair;         /* in sunder_i_tree.pair */
+    uint32_t named, names; /* of a hull, where it is kept: the pieces that it stands on, in sunder_i_tree.named */
 } sunder_i_cut_note;
 
 typedef enum sunder_i_node_state {
@@ -45,6 +47,8 @@ typedef struct sunder_i_tree_node {
     double value; /* proved: no layout below it costs less, or the goal */
     sunder_i_node_state state;
     uint32_t pair; /* which it was divided by, or has no room left */
+    /* Where it is kept: the forces that its discs stand on, of cuts above it, and the pieces that leave no room. */
+    uint32_t by, bys, named, names;
 } sunder_i_tree_node;
 
 #define SUNDER_I_NO_NODE UINT32_MAX
@@ -93,6 +97,9 @@ typedef struct sunder_i_tree {
     size_t forces, force_capacity;
     sunder_i_tree_node *node;
     size_t nodes, node_capacity;
+    sunder_i_list named; /* pieces of pairs, where the proof is kept */
+    bool *used;          /* of the pieces of one pair; scratch */
+    size_t used_capacity;
     sunder_i_open *open; /* a heap */
     size_t opens, open_capacity;
     sunder_i_list path, touched, near;
@@ -140,6 +147,8 @@ void sunder_i_tree_meet(sunder_i_tree *tree);
 
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 
+/* The program's forces, added to the record. */
+void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *n);
 /* Adds a cut to the last node, and to the pair's region. Its number. */
 uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d);
 /* A node with the program's forces; the cuts that follow are its. */
@@ -163,10 +172,17 @@ bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_re
                            double n[2], double *d, bool *none);
 /* The same, proved, and made. */
 bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *none);
+/* Is the pair left no room at the last node? Proved, and noted there. */
+bool sunder_i_tree_is_empty(sunder_i_tree *tree, uint32_t pair);
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */
 
 /* Divides the node by one of its conflicts; children that are not closed are opened. */
 void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node);
+
+/* ---- tree_record.c ----------------------------------------------------------------------------------------------- */
+
+/* What the tree proves, and by what: `out`, to be freed by sunder_i_bound_tree_free(). False if memory is out. */
+bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out);
 
 #endif

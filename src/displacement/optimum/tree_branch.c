@@ -135,10 +135,8 @@ void sunder_i_tree_divide(sunder_i_tree *t, uint32_t node)
         for (int e = 0; e < 2 && !t->failed; e++) sunder_i_tree_cut(t, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
         if (!t->failed) sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
         if (t->failed) return;
-        const sunder_i_tree_pair *p = &t->pair[c.pair];
-        if (none && sunder_i_region_is_covered(&p->region, &p->forbidden, &t->steps)) {
+        if (none && sunder_i_tree_is_empty(t, c.pair)) {
             t->node[child].state = SUNDER_I_EMPTY;
-            t->node[child].pair = c.pair;
         } else {
             t->node[child].value = fmax(value, sunder_i_tree_solve(t));
             sunder_i_tree_keep_forces(t, child);

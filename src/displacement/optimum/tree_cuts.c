@@ -14,6 +14,7 @@
 #include "base/watch.h"
 
 #include <math.h>
+#include <string.h>
 
 /* How far t* may be from the least of the forces as they are: rounding of the sum of pushes on a body (the size of
  * which dual_value() leaves), and of the anchor. */
@@ -93,6 +94,33 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
     return true;
 }
 
+/* Is the region within what the pair may not do? Where the proof is kept, the pieces that it stands on are named. */
+static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sunder_i_region *region, uint32_t *named,
+                       uint32_t *names)
+{
+    const sunder_i_forbidden *f = &p->forbidden;
+    if (!t->task.keep) return sunder_i_region_is_covered(region, f, NULL, &t->steps);
+    if (!sunder_i_reserve(&t->used, &t->used_capacity, f->pieces, sizeof *t->used)) {
+        t->failed = true;
+        return false;
+    }
+    if (f->pieces) memset(t->used, 0, f->pieces * sizeof *t->used);
+    if (!sunder_i_region_is_covered(region, f, t->used, &t->steps)) return false;
+    *named = (uint32_t)t->named.n;
+    for (uint32_t k = 0; k < f->pieces; k++)
+        if (t->used[k] && !sunder_i_list_push(&t->named, k)) t->failed = true;
+    *names = (uint32_t)t->named.n - *named;
+    return true;
+}
+
+bool sunder_i_tree_is_empty(sunder_i_tree *t, uint32_t pair)
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    sunder_i_tree_node *node = &t->node[t->nodes - 1];
+    node->pair = pair;
+    return is_covered(t, p, &p->region, &node->named, &node->names);
+}
+
 bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
 {
     double n[2], d;
@@ -103,8 +131,12 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], 
     for (size_t attempt = 0; attempt < sizeof room / sizeof *room; attempt++) {
         sunder_i_region cap = p->region;
         sunder_i_region_clip(&cap, back, room[attempt] - d, SUNDER_I_NO_CUT, p->forbidden.grain);
-        if (!sunder_i_region_is_covered(&cap, &p->forbidden, &t->steps)) continue;
-        sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room[attempt]);
+        uint32_t named = 0, names = 0;
+        if (!is_covered(t, p, &cap, &named, &names)) continue;
+        const uint32_t cut = sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room[attempt]);
+        if (t->failed) return false;
+        t->note[cut].named = named;
+        t->note[cut].names = names;
         return true;
     }
     return false;
@@ -112,19 +144,18 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], 
 
 size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)
 {
-    size_t made = 0;
+    size_t made = 0, discs = 0;
+    sunder_i_tree_node *node = &t->node[t->nodes - 1];
     *empty = false;
     for (size_t k = 0; k < t->conflicts && !*empty && !t->failed; k++) {
         const sunder_i_tree_conflict c = t->conflict[k];
         const uint64_t before = t->steps;
         bool none;
-        cut_disc(t, c.pair, c.u, value);
+        discs += cut_disc(t, c.pair, c.u, value);
         made += sunder_i_tree_cut_hull(t, c.pair, c.u, &none);
         if (!sunder_i_steps(1 + (size_t)(t->steps - before) / 64)) t->failed = true;
-        if (!none || t->failed) continue;
-        const sunder_i_tree_pair *p = &t->pair[c.pair];
-        *empty = sunder_i_region_is_covered(&p->region, &p->forbidden, &t->steps);
-        if (*empty) t->node[t->nodes - 1].pair = c.pair;
+        if (none && !t->failed) *empty = sunder_i_tree_is_empty(t, c.pair);
     }
+    if (t->task.keep && discs && !t->failed) sunder_i_tree_note_forces(t, &node->by, &node->bys);
     return made;
 }

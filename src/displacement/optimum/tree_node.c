@@ -36,24 +36,29 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *t, sunder_i_cut_kind kind, uint32_t pa
     const bool ball = kind == SUNDER_I_CUT_LIMIT;
     t->cut[cut] =
         (sunder_i_move_cut){ball ? pair : t->pair[pair].i, ball ? SUNDER_I_GROUND : t->pair[pair].j, {n[0], n[1]}, d};
-    t->note[cut] = (sunder_i_cut_note){kind, pair};
+    t->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
     t->program.cut = t->cut;
     if (t->nodes) t->node[t->nodes - 1].cuts++;
     apply(t, cut);
     return cut;
 }
 
-void sunder_i_tree_keep_forces(sunder_i_tree *t, uint32_t node)
+void sunder_i_tree_note_forces(sunder_i_tree *t, uint32_t *first, uint32_t *count)
 {
     const size_t n = t->program.acting_n;
     if (!sunder_i_reserve(&t->force, &t->force_capacity, t->forces + n, sizeof *t->force)) {
         t->failed = true;
         return;
     }
-    t->node[node].force = (uint32_t)t->forces;
-    t->node[node].forces = (uint32_t)n;
+    *first = (uint32_t)t->forces;
+    *count = (uint32_t)n;
     if (n) memcpy(t->force + t->forces, t->program.acting, n * sizeof *t->force);
     t->forces += n;
+}
+
+void sunder_i_tree_keep_forces(sunder_i_tree *t, uint32_t node)
+{
+    sunder_i_tree_note_forces(t, &t->node[node].force, &t->node[node].forces);
 }
 
 uint32_t sunder_i_tree_add_node(sunder_i_tree *t, uint32_t parent, double value)

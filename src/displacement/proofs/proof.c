@@ -3,9 +3,6 @@
 #include "displacement/proofs/branching.h"
 
 #include "base/invariant.h"
-#include "shape/shape.h"
-
-#include <string.h>
 
 /* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes. */
 static void count(const sunder_i_branching *c, size_t at, sunder_proof *sum)
@@ -29,49 +26,11 @@ typedef struct copying {
     size_t path_copy[SUNDER_I_LEVELS + 1]; /* ... and of the proof */
 } copying;
 
-static void copy_corner(copying *g, const double *xy)
+static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
 {
-    memcpy(g->corner + 2 * g->proof->corners++, xy, 2 * sizeof *xy);
-}
-
-/* An anchor, or a side: the corners as they are. False if it is a piece of a shape. */
-static bool copy_of_shadow(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
-{
-    const sunder_i_model *model = g->branching->model;
-    const bool barrier = sunder_i_is_barrier(model, feature);
-    if (!barrier && model->anchor && piece == &model->anchor[feature]) {
-        copy_corner(g, model->anchor_at + 2 * (size_t)feature);
-        return true;
-    }
-    if (!barrier && model->side_anchor && piece == &model->side_anchor[feature]) {
-        copy_corner(g, model->side_at + 2 * (size_t)feature);
-        return true;
-    }
-    const sunder_i_body *body = &model->body[model->body_of[feature]];
-    for (uint32_t k = body->side; barrier && k < body->side + body->sides; k++) {
-        const sunder_i_side *side = &model->side[k];
-        if (piece != &side->piece) continue;
-        copy_corner(g, side->from);
-        copy_corner(g, side->to);
-        return true;
-    }
-    return false;
-}
-
-static size_t copy_part(copying *g, const sunder_i_body_piece *piece, uint32_t feature)
-{
-    const sunder_i_model *model = g->branching->model;
-    const sunder_shape *shape = model->layer->feature[feature].shape;
     const size_t at = g->proof->corners;
-    if (copy_of_shadow(g, piece, feature)) return at;
-    /* Pieces of the model are in the order of the shape's; the model's corners are relative to the body. */
-    uint32_t p = 0;
-    const sunder_i_body_piece *first = piece;
-    const sunder_i_body_piece *all = model->piece + model->body[model->body_of[feature]].piece;
-    while (first > all && first[-1].feature == feature) first--, p++;
-    const uint32_t from = p ? shape->piece_end[p - 1] : 0;
-    for (uint32_t k = from; k < shape->piece_end[p]; k++)
-        copy_corner(g, shape->xy + 2 * (size_t)shape->piece_vertex[k]);
+    sunder_i_piece_as_given(g->branching->model, piece, g->corner + 2 * at);
+    g->proof->corners += piece->corners;
     return at;
 }
 
@@ -100,8 +59,8 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->shadow = from->shadow;
     to->corners_a = from->part_a->corners;
     to->corners_b = from->part_b->corners;
-    to->part_a = copy_part(g, from->part_a, from->a);
-    to->part_b = copy_part(g, from->part_b, from->b);
+    to->part_a = copy_part(g, from->part_a);
+    to->part_b = copy_part(g, from->part_b);
     g->path[depth] = at;
     g->path_copy[depth] = number;
     for (size_t k = 0; k < from->ways; k++) {

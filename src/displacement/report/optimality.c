@@ -53,6 +53,21 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
+/* The trees of the bounds that count become the report's. */
+static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, sunder_error *err)
+{
+    report->bound_tree = sunder_i_alloc(groups->n, sizeof *report->bound_tree);
+    if (!report->bound_tree) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < groups->n; k++) {
+        sunder_i_group *g = &groups->group[k];
+        if (!(g->bound > 0)) continue;
+        g->tree.group = k;
+        report->bound_tree[report->bound_trees++] = g->tree;
+        g->tree = (sunder_bound_tree){0};
+    }
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
@@ -79,5 +94,5 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
         sum = nextafter(sum + g->bound, -INFINITY);
     }
     if (isfinite(sum)) summary->lower_bound = fmax(summary->lower_bound, sum);
-    return SUNDER_OK;
+    return s->model.rules.keep_trees ? take_trees(report, &s->groups, err) : SUNDER_OK;
 }

@@ -77,6 +77,17 @@ static sunder_status number_conflicts(sunder_report *report, const size_t *numbe
     return SUNDER_OK;
 }
 
+static void number_tree(sunder_bound_tree *tree, const size_t *number)
+{
+    sunder_bound_body *body = (sunder_bound_body *)tree->body; /* the report's own */
+    sunder_bound_piece *piece = (sunder_bound_piece *)tree->piece;
+    for (size_t k = 0; k < tree->bodies; k++) body[k].thing = number[body[k].thing];
+    for (size_t k = 0; k < tree->pieces; k++) {
+        piece[k].a = number[piece[k].a];
+        piece[k].b = number[piece[k].b];
+    }
+}
+
 /* Blocks by their first members. */
 static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
 {
@@ -117,6 +128,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
         p->a = a < b ? a : b;
         p->b = a < b ? b : a;
     }
+    for (size_t k = 0; !status && k < report->bound_trees; k++) number_tree(&report->bound_tree[k], number);
     if (!status && report->summary.max_feature != SIZE_MAX)
         report->summary.max_feature = number[report->summary.max_feature];
     sunder_i_free(move);

@@ -80,6 +80,8 @@ void sunder_report_free(sunder_report *r)
     for (size_t k = 0; r->proof && k < r->conflicts; k++) sunder_i_proof_free(r->proof[k]);
     sunder_i_free(r->proof);
     sunder_i_free(r->bound_pair);
+    for (size_t k = 0; k < r->bound_trees; k++) sunder_i_bound_tree_free(&r->bound_tree[k]);
+    sunder_i_free(r->bound_tree);
     sunder_i_free(r);
 }
 
@@ -129,6 +131,12 @@ const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, 
 {
     *n = report->bound_pairs;
     return report->bound_pair;
+}
+
+const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, size_t *n)
+{
+    *n = report->bound_trees;
+    return report->bound_tree;
 }
 
 const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)

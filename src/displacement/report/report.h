@@ -17,6 +17,8 @@ struct sunder_report {
     sunder_proof **proof; /* [conflicts] NULL: there is none; the array too */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
+    sunder_bound_tree *bound_tree;
+    size_t bound_trees;
     sunder_layer_summary summary;
 };
 
