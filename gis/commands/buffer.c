@@ -75,7 +75,7 @@ static bool deliver(const buffer_run *run, bool taken, gis_error *error)
     gis_json stats = {0};
     if (run->to.stats) json_buffer(&stats, &run->buffer);
     const gis_delivery delivery = {
-        &run->to, run->sink, &stats, NULL, taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+        &run->to, run->sink, &stats, NULL, NULL, taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;

@@ -179,7 +179,7 @@ static bool deliver(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (run->to.stats) json_check(&stats, run);
-    const gis_delivery delivery = {&run->to, run->sink, &stats, NULL, taken ? NULL : print, run};
+    const gis_delivery delivery = {&run->to, run->sink, &stats, NULL, NULL, taken ? NULL : print, run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;

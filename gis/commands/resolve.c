@@ -123,8 +123,11 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .allow_jumps = options->given[OPT_ALLOW_JUMPS],
         .effort = options->given[OPT_EFFORT] ? options->number[OPT_EFFORT] : usual_effort,
         .seed = seed_of(options),
+        .keep_trees = options->given[OPT_PROOF],
         .threads = thread_count(options),
     };
+    if (out->keep_trees && !(out->effort > 0))
+        return gis_fail_usage(error, "--proof: with --effort 0 there is nothing to prove; leave one of them out");
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
     return resolve_contained(options, &out->contained, error);
@@ -134,7 +137,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
  * read. */
 static bool spare_barrier(const gis_options *options, const char *dataset, gis_error *error)
 {
-    static const gis_option_id files[] = {OPT_STATS, OPT_REPORT};
+    static const gis_option_id files[] = {OPT_STATS, OPT_REPORT, OPT_PROOF};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         const char *path = options->text[files[i]];
         if (path && gis_path_lies_in(dataset, path))
@@ -334,8 +337,10 @@ gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, 
 
 gis_destinations gis_resolve_destinations(const gis_options *options)
 {
-    gis_destinations to = {
-        .output = output_of(options), .stats = options->text[OPT_STATS], .report = options->text[OPT_REPORT]};
+    gis_destinations to = {.output = output_of(options),
+                           .stats = options->text[OPT_STATS],
+                           .report = options->text[OPT_REPORT],
+                           .proof = options->text[OPT_PROOF]};
     for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];

@@ -7,6 +7,7 @@
 #include "commands/report.h"
 #include "commands/resolve.h"
 #include "layer/output.h"
+#include "layer/proof.h"
 #include "read/crs_units.h"
 
 #include <cpl_conv.h>
@@ -265,13 +266,16 @@ static bool write_page(const separate_run *run, gis_text *page, gis_error *error
 static bool deliver(const separate_run *run, gis_error *error)
 {
     gis_json stats = {0};
-    gis_text page = {0};
-    bool ok = !run->to.report || write_page(run, &page, error);
+    gis_text page = {0}, proof = {0};
+    bool ok = (!run->to.report || write_page(run, &page, error)) &&
+              (!run->to.proof || gis_proof_write(&run->input, run->report, &proof, error));
     if (run->to.stats) json_separate(&stats, run);
-    const gis_delivery delivery = {&run->to, run->sink, &stats, &page, is_summarised(run) ? print_summary : NULL, run};
+    const gis_delivery delivery = {
+        &run->to, run->sink, &stats, &page, &proof, is_summarised(run) ? print_summary : NULL, run};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     gis_text_clear(&page);
+    gis_text_clear(&proof);
     return ok;
 }
 

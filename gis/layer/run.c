@@ -26,6 +26,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.contained = rules->contained;
     core.effort = rules->effort;
     core.seed = rules->seed;
+    core.keep_trees = rules->keep_trees;
     core.threads = rules->threads;
     core.allow_jumps = input->points || rules->allow_jumps;
     return core;

@@ -143,5 +143,7 @@ const gis_option gis_option_table[OPT_N] = {
                    "the figures as JSON"},
     [OPT_REPORT] = {OPT_REPORT, "--report", GIS_TYPE_TEXT, GIS_SEPARATE, GIS_GROUP_RUNNING, "FILE.html", NULL,
                     "a page that shows what was done: map, close-ups, figures"},
+    [OPT_PROOF] = {OPT_PROOF, "--proof", GIS_TYPE_TEXT, GIS_SEPARATE, GIS_GROUP_RUNNING, "FILE", NULL,
+                   "what bound and verdicts stand on, for a checker: docs/PROOF.md"},
     [OPT_HELP] = {OPT_HELP, "--help -h", GIS_TYPE_FLAG, GIS_ALL, GIS_GROUP_RUNNING, NULL, NULL, "this page"},
 };

@@ -62,14 +62,36 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
 
 static bool is_stdout(const char *path) { return path && strcmp(path, "-") == 0; }
 
+/* The files that go with the output, in the order in which they are written. */
+typedef struct file_of {
+    const char *option, *path; /* NULL: none is wanted */
+} file_of;
+
+enum { OF_REPORT, OF_PROOF, OF_STATS, N_FILES };
+
+static void list_files(const gis_destinations *to, file_of files[N_FILES])
+{
+    files[OF_REPORT] = (file_of){"--report", to->report};
+    files[OF_PROOF] = (file_of){"--proof", to->proof};
+    files[OF_STATS] = (file_of){"--stats", is_stdout(to->stats) ? NULL : to->stats};
+}
+
 static bool check_files(const gis_destinations *to, gis_error *error)
 {
+    file_of files[N_FILES];
+    list_files(to, files);
     if (is_stdout(to->report))
         return gis_fail_usage(error, "--report -: the page goes to a file; give its name, as in --report out.html");
-    if (to->stats && to->report && !is_stdout(to->stats) && gis_path_lies_in(to->report, to->stats))
-        return gis_fail_usage(error, "--report %s: that is the file of --stats; give another", to->report);
-    return (!to->stats || is_stdout(to->stats) || check_file(to, "--stats", to->stats, error)) &&
-           (!to->report || check_file(to, "--report", to->report, error));
+    if (is_stdout(to->proof))
+        return gis_fail_usage(error, "--proof -: the proof goes to a file; give its name, as in --proof out.jsonl");
+    for (size_t i = 0; i < N_FILES; i++)
+        for (size_t k = i + 1; k < N_FILES; k++)
+            if (files[i].path && files[k].path && gis_path_lies_in(files[i].path, files[k].path))
+                return gis_fail_usage(error, "%s %s: that is the file of %s; give another", files[i].option,
+                                      files[i].path, files[k].option);
+    for (size_t i = N_FILES; i-- > 0;)
+        if (files[i].path && !check_file(to, files[i].option, files[i].path, error)) return false;
+    return true;
 }
 
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error)
@@ -85,11 +107,10 @@ bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_
 
 bool gis_destinations_spare(const gis_destinations *to, const gis_source *source, gis_error *error)
 {
-    const struct {
-        const char *option, *path;
-    } files[] = {{"--stats", to->stats}, {"--report", to->report}};
-    for (size_t i = 0; i < N_OF(files); i++)
-        if (files[i].path && !is_stdout(files[i].path) && gis_source_lies_in(source, files[i].path))
+    file_of files[N_FILES];
+    list_files(to, files);
+    for (size_t i = N_FILES; i-- > 0;)
+        if (files[i].path && gis_source_lies_in(source, files[i].path))
             return gis_fail_usage(error, "%s %s: that is a part of the input; give another file", files[i].option,
                                   files[i].path);
     return true;
@@ -108,32 +129,33 @@ static bool flush_stdout(gis_error *error)
     return gis_fail(error, "cannot write to standard output: %s", strerror(errno));
 }
 
-static bool write_file(gis_text_file *file, const char *option, const char *path, const gis_text *text,
-                       gis_error *error)
+static bool write_files(const gis_delivery *delivery, const file_of files[N_FILES], gis_text_file written[N_FILES],
+                        gis_error *error)
 {
-    if (!path) return true;
-    if (!gis_text_get(text)) return gis_no_memory(error);
-    return gis_text_file_write(file, path, gis_text_get(text), text->length, option, error);
-}
-
-static bool write_texts(const gis_delivery *delivery, gis_text_file *stats, gis_text_file *report, gis_error *error)
-{
-    const gis_destinations *to = delivery->to;
-    bool printed = is_stdout(to->stats);
-    if (!write_file(report, "--report", to->report, delivery->report, error)) return false;
-    if (!printed) return write_file(stats, "--stats", to->stats, to->stats ? &delivery->stats->text : NULL, error);
+    const gis_text *texts[N_FILES] = {[OF_REPORT] = delivery->report,
+                                      [OF_PROOF] = delivery->proof,
+                                      [OF_STATS] = delivery->stats ? &delivery->stats->text : NULL};
+    for (size_t i = 0; i < N_FILES; i++) {
+        if (!files[i].path) continue;
+        if (!gis_text_get(texts[i])) return gis_no_memory(error);
+        if (!gis_text_file_write(&written[i], files[i].path, gis_text_get(texts[i]), texts[i]->length, files[i].option,
+                                 error))
+            return false;
+    }
+    if (!is_stdout(delivery->to->stats)) return true;
     return gis_json_text(delivery->stats) ? gis_print_json(delivery->stats, error) : gis_no_memory(error);
 }
 
 bool gis_deliver(const gis_delivery *delivery, gis_error *error)
 {
-    gis_text_file stats = {0}, report = {0};
-    bool ok = gis_go_on(error) && write_texts(delivery, &stats, &report, error) &&
-              (!delivery->print || delivery->print(delivery->run, error)) && flush_stdout(error) &&
-              gis_text_file_place(&stats, "--stats", error) && gis_text_file_place(&report, "--report", error) &&
-              (!delivery->sink || gis_sink_publish(delivery->sink, error));
-    gis_text_file_end(&stats, ok);
-    gis_text_file_end(&report, ok);
+    gis_text_file written[N_FILES] = {0};
+    file_of files[N_FILES];
+    list_files(delivery->to, files);
+    bool ok = gis_go_on(error) && write_files(delivery, files, written, error) &&
+              (!delivery->print || delivery->print(delivery->run, error)) && flush_stdout(error);
+    for (size_t i = N_FILES; ok && i-- > 0;) ok = gis_text_file_place(&written[i], files[i].option, error);
+    ok = ok && (!delivery->sink || gis_sink_publish(delivery->sink, error));
+    for (size_t i = N_FILES; i-- > 0;) gis_text_file_end(&written[i], ok);
     if (ok && delivery->sink) {
         gis_say_warnings(gis_sink_warnings(delivery->sink));
         gis_say_warnings(gis_sink_losses(delivery->sink));

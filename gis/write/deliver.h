@@ -1,5 +1,5 @@
-/* deliver.h: where results go (the output, the files of --stats and --report, standard output), and the end of a run:
- * all of it is in place, or, if anything fails, no file has changed. */
+/* deliver.h: where results go (the output, the files of --stats, --report and --proof, standard output), and the end of
+ * a run: all of it is in place, or, if anything fails, no file has changed. */
 #ifndef GIS_DELIVER_H
 #define GIS_DELIVER_H
 
@@ -11,16 +11,18 @@ typedef struct gis_destinations {
     const char *output;   /* NULL: none */
     const char *stats;    /* --stats: a file, or "-" for standard output; NULL: nowhere */
     const char *report;   /* --report: a file; NULL: nowhere */
+    const char *proof;    /* --proof: likewise */
     const char *input[2]; /* the operands that are read: data sources, texts, @FILEs; NULL after the last */
     const char *shape[3]; /* the SHAPEs of options, any of them NULL */
 } gis_destinations;
 
 /* Is standard output taken by JSON (--stats -) or by the layer (/vsistdout/), so that no summary may go there? Both at
- * once is wrong usage. And can the files of --stats and --report be made, are they two, and is neither, nor the output,
- * a file that something is read from? Asked before the work, so that its failure does not come when all is done. */
+ * once is wrong usage. And can the files of --stats, --report and --proof be made, are no two of them one, and is none
+ * of them, nor the output, a file that something is read from? Asked before the work, so that its failure does not come
+ * when all is done. */
 bool gis_destinations_check(const gis_destinations *to, bool *stdout_taken, gis_error *error);
 
-/* Is neither the file of --stats nor that of --report one of the files of this source (the attributes beside a
+/* Is none of the files of --stats, --report and --proof one of the files of this source (the attributes beside a
  * Shapefile)? */
 bool gis_destinations_spare(const gis_destinations *to, const gis_source *source, gis_error *error);
 
@@ -29,6 +31,7 @@ typedef struct gis_delivery {
     gis_sink *sink;                                   /* finished (gis_sink_finish); NULL: there is no output */
     const gis_json *stats;                            /* what goes to to->stats, if that is given */
     const gis_text *report;                           /* and to to->report */
+    const gis_text *proof;                            /* and to to->proof */
     bool (*print)(const void *run, gis_error *error); /* what else goes to standard output, by stdio; NULL: nothing */
     const void *run;
 } gis_delivery;
@@ -36,9 +39,9 @@ typedef struct gis_delivery {
 /* A `print` whose `run` is a gis_json that has not failed. */
 bool gis_print_json(const void *json, gis_error *error);
 
-/* In this order: the statistics and the report to temporary files; what goes to standard output, which is flushed; the
- * two and the output renamed into place. What the sink has to warn of is printed last. On failure all of them are as
- * they were before. */
+/* In this order: the statistics, the report and the proof to temporary files; what goes to standard output, which is
+ * flushed; these and the output renamed into place. What the sink has to warn of is printed last. On failure all of
+ * them are as they were before. */
 bool gis_deliver(const gis_delivery *delivery, gis_error *error);
 
 #endif

@@ -43,7 +43,8 @@ if [ -w /dev/full ]; then
         [ ! -s out ] || fail "something on stdout: $command"
     done
     failed "--report: cannot write /dev/full: $full" out separate in.gpkg o.gpkg --report /dev/full
-    failed "$full" /dev/full separate in.gpkg o.gpkg --stats new.json --report new.html
+    failed "--proof: cannot write /dev/full: $full" out separate in.gpkg o.gpkg --proof /dev/full --stats new.json
+    failed "$full" /dev/full separate in.gpkg o.gpkg --stats new.json --report new.html --proof new.jsonl
     expect 0 separate in.gpkg kept.gpkg -q
     failed "$full" /dev/full separate in.gpkg kept.gpkg --overwrite
     failed "$full" /dev/full separate in.gpkg kept.gpkg --update --output-layer other
@@ -53,7 +54,7 @@ fi
 
 # A file of the output that is in the way shows at the last step: the statistics, which are in place by then, go again.
 failed 'taken.dbf' out separate in.gpkg taken.shp --stats s.json --quiet
-failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet --report new.html
+failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet --report new.html --proof new.jsonl
 
 refused 1 '--stats' separate in.gpkg o.gpkg --stats /proc/nothing.json
 refused 2 'that is the output' separate in.gpkg o.gpkg --stats ./o.gpkg
@@ -65,6 +66,7 @@ for command in "separate parts.shp o.gpkg" "check parts.shp" "buffer parts.shp o
     refused 2 'that is a part of the input' $command --stats parts.dbf
 done
 refused 2 'that is a part of the input' separate parts.shp o.gpkg --report parts.shx
+refused 2 'that is a part of the input' separate parts.shp o.gpkg --proof parts.shx
 echo 'POLYGON((0 0,1 0,0 1))' >p.wkt
 refused 2 'that is an input' sum @p.wkt square:1 --stats p.wkt
 chmod 444 s.json

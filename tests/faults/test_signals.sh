@@ -40,7 +40,7 @@ route           -         route in.gpkg o.gpkg --robot disc:1 --from 0,0 --to 10
 buffer          -         buffer in.gpkg o.fgb --shape disc:2 --dissolve
 check           -         check in.gpkg o.geojson --gap 3
 separate        o.gpkg    separate in.gpkg o.gpkg --gap 3 --progress=plain --overwrite --stats s.json
-separate-files  o.shp     separate in.gpkg o.shp --gap 3 --progress=plain --overwrite --lco DBF_DATE_LAST_UPDATE=2024-01-01 --report r.html
+separate-files  o.shp     separate in.gpkg o.shp --gap 3 --progress=plain --overwrite --lco DBF_DATE_LAST_UPDATE=2024-01-01 --report r.html --proof r.jsonl
 separate-update o.gpkg    separate in.gpkg o.gpkg --gap 3 --update --output-layer more
 '
 
@@ -80,8 +80,10 @@ judge() {
         completed=$((completed + 1))
         ;;
     signals*-130 | signals*-143 | signals*-[013])
-        # In the midst of a commit nobody knows which it will be, nor whether the statistics or the report belong to it.
-        case $now in "$new" | "$old" | "${new%?s.json}" | "$(grep -v ' \./r\.html$' <<<"$new")") ;; *) false ;; esac || fail "$name $way $place ($call): status $status, left: $now"
+        # In the midst of a commit nobody knows which it will be, nor whether the statistics, the proof or the report
+        # belong to it.
+        case $now in "$new" | "$old" | "${new%?s.json}" | "$(grep -v ' \./r\.html$' <<<"$new")" | \
+            "$(grep -v ' \./r\.\(html\|jsonl\)$' <<<"$new")") ;; *) false ;; esac || fail "$name $way $place ($call): status $status, left: $now"
         ended=$((ended + (status > 100)))
         ;;
     *) fail "$name $way $place ($call): status $status" ;;
