@@ -1,0 +1,221 @@
+"""Convex regions of relative moves, and what is forbidden in them, in integers.
+
+A region is a polygon whose corners are where its lines cross: homogeneous integers (X, Y, W), W > 0, so nothing is ever
+rounded. A line (a, b, c) keeps a X + b Y >= c. To ask whether a corner is in a piece it is first rounded to a lattice
+2^16 times as fine as the layer's, and what is asked is more by that rounding; so a yes is always true.
+"""
+import math
+
+FINE = 1 << 16
+MOST_STEPS = 200_000
+
+
+def line_of(n, d, unit):
+    """n.u >= d for doubles, as integers for u in units of the lattice."""
+    ratios = [v.as_integer_ratio() for v in (*n, d)]
+    common = max(q for _, q in ratios)
+    a, b, c = (p * (common // q) for p, q in ratios)
+    return a, b, c * unit
+
+
+def crossing(p, q):
+    w = p[0] * q[1] - q[0] * p[1]
+    x = p[2] * q[1] - q[2] * p[1]
+    y = p[0] * q[2] - q[0] * p[2]
+    return (-x, -y, -w) if w < 0 else (x, y, w)
+
+
+def square(x0, y0, x1, y1):
+    lines = [(0, 1, y0), (-1, 0, -x1), (0, -1, -y1), (1, 0, x0)]
+    corners = [(x0, y0, 1), (x1, y0, 1), (x1, y1, 1), (x0, y1, 1)]
+    return list(zip(corners, lines))
+
+
+def clip(region, line):
+    """What of it keeps the line; corners with the lines of the sides that begin there."""
+    a, b, c = line
+    side = [a * x + b * y - c * w for (x, y, w), _ in region]
+    if not side or min(side) >= 0:
+        return region
+    out = []
+    for k, (corner, own) in enumerate(region):
+        s, after = side[k], side[k + 1 - len(side)]
+        if s >= 0:
+            out.append((corner, line if s == 0 and after < 0 else own))
+            if s > 0 > after:
+                out.append((crossing(own, line), line))
+        elif after > 0:
+            out.append((crossing(own, line), own))
+    return out
+
+
+def hull(points):
+    """Counter-clockwise, without corners on sides."""
+    points = sorted(set(points))
+    if len(points) < 3:
+        return points
+    out = []
+    for chain in (points, points[::-1]):
+        bottom = len(out)
+        for p in chain:
+            while len(out) >= bottom + 2:
+                (ax, ay), (bx, by) = out[-2:]
+                if (bx - ax) * (p[1] - ay) - (by - ay) * (p[0] - ax) > 0:
+                    break
+                out.pop()
+            out.append(p)
+        out.pop()
+    return out
+
+
+class Piece:
+    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior. A shadow: of all places that
+    the way from the origin reaches through it."""
+
+    def __init__(self, a, b, owed, shadow):
+        self.corners = hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
+        self.owed, self.shadow = owed, shadow
+        fine = [(FINE * x, FINE * y) for x, y in self.corners]
+        self.edges = []
+        if len(fine) > 2:
+            for k, p in enumerate(fine):
+                q = fine[k + 1 - len(fine)]
+                ex, ey = q[0] - p[0], q[1] - p[1]
+                self.edges.append((p[0], p[1], ex, ey, ex * ex + ey * ey))
+        self.near = (FINE * owed - 1) ** 2 if owed else 0
+
+    def holds_origin(self):
+        return len(self.edges) > 0 and all(ex * y >= ey * x for x, y, ex, ey, _ in self.edges)
+
+    def holds(self, fine, corner):
+        """Is the corner in it, whatever was rounded?"""
+        if self.shadow:
+            return self.is_shaded(corner)
+        x, y = fine
+        outside = []
+        for px, py, ex, ey, whole in self.edges:
+            wx, wy = x - px, y - py
+            cross = ex * wy - ey * wx
+            if self.owed == 0:
+                if cross <= 0 or cross * cross <= 2 * whole:
+                    return False
+            elif cross < 0:
+                outside.append((cross, wx, wy, ex, ey, whole))
+        if not outside:
+            return len(self.edges) > 2
+        for cross, wx, wy, ex, ey, whole in outside:
+            along = wx * ex + wy * ey
+            if along <= 0:
+                far = wx * wx + wy * wy < self.near
+            elif along >= whole:
+                far = (wx - ex) ** 2 + (wy - ey) ** 2 < self.near
+            else:
+                far = cross * cross < self.near * whole
+            if far:
+                return True
+        return False
+
+    def is_shaded(self, corner):
+        """Does the segment from the origin meet the polygon? Exactly: s V on the left of each side, 0 <= s <= 1."""
+        x, y, w = corner
+        if len(self.corners) < 3:
+            return meets_segment(self.corners, x, y, w)
+        low, high = (0, 1), (1, w)  # of s / w
+        for px, py, ex, ey, _ in self.edges:
+            slope = FINE * (ex * y - ey * x)
+            level = ex * py - ey * px
+            if slope == 0:
+                if level > 0:
+                    return False
+            elif slope > 0:
+                if level * low[1] > low[0] * slope:
+                    low = level, slope
+            elif level * high[1] > high[0] * slope:
+                high = -level, -slope
+        return bool(self.edges) and low[0] * high[1] <= high[0] * low[1]
+
+
+def meets_segment(ends, x, y, w):
+    """Is s (x, y) on the segment for some 0 <= s <= 1 / w? w None: however great s is. One that looks at the origin
+    endways is not told."""
+    if len(ends) < 2:
+        return False
+    (px, py), (qx, qy) = ends
+    ex, ey = qx - px, qy - py
+    slope, level = ex * y - ey * x, ex * py - ey * px
+    if slope < 0:
+        slope, level = -slope, -level
+    if slope == 0 or level <= 0 or (w is not None and level * w > slope):
+        return False
+    # The place is level / slope times (x, y): its share of the way from p to q.
+    along = (level * x - px * slope) * ex + (level * y - py * slope) * ey
+    return 0 <= along <= slope * (ex * ex + ey * ey)
+
+
+def fine_of(corner):
+    x, y, w = corner
+    return (2 * FINE * x + w) // (2 * w), (2 * FINE * y + w) // (2 * w)
+
+
+def halves(places):
+    """A line across the longest extent of these, in the middle."""
+    n = len(places)
+    best, along = -1, (1, 0)
+    for i in range(n):
+        for k in range(i):
+            dx, dy = places[i][0] - places[k][0], places[i][1] - places[k][1]
+            if dx * dx + dy * dy > best:
+                best, along = dx * dx + dy * dy, (dx, dy)
+    shift = max(0, max(map(abs, along)).bit_length() - 20)
+    a, b = along[0] >> shift, along[1] >> shift
+    mx, my = sum(p[0] for p in places) // n, sum(p[1] for p in places) // n
+    return (mx, my), (a * FINE, b * FINE, a * mx + b * my)
+
+
+def is_covered(region, pieces):
+    """Is all of the region in the union of the pieces?"""
+    todo, steps, last = [region], 0, None
+    while todo:
+        part = todo.pop()
+        if not part:
+            continue
+        steps += 1
+        places = [fine_of(corner) for corner, _ in part]
+        corners = [corner for corner, _ in part]
+
+        def all_in(piece):
+            return all(piece.holds(p, c) for p, c in zip(places, corners))
+        if last and all_in(last):
+            continue
+        found = next((p for p in pieces if p is not last and all_in(p)), None)
+        if found:
+            last = found
+            continue
+        middle, (a, b, c) = halves(places)
+        if steps > MOST_STEPS or (a, b) == (0, 0) or not any(p.holds(middle, (*middle, FINE)) for p in pieces):
+            return False
+        todo.append(clip(part, (a, b, c)))
+        todo.append(clip(part, (-a, -b, -c)))
+    return True
+
+
+def root_above(n, d):
+    """An integer no less than sqrt(n / d)."""
+    return math.isqrt(-(-n // d)) + 1
+
+
+def is_nowhere(lines):
+    """Is there no place with a X + b Y < c for all of these (at most three) lines? Exactly, by Farkas."""
+    from itertools import combinations
+    for p, q in combinations(lines, 2):
+        if p[0] * q[1] == p[1] * q[0] and p[0] * q[0] + p[1] * q[1] < 0:
+            s, t = abs(q[0]) + abs(q[1]), abs(p[0]) + abs(p[1])
+            if s * p[2] + t * q[2] <= 0:
+                return True
+    for p, q, r in combinations(lines, 3):
+        forces = [q[0] * r[1] - q[1] * r[0], r[0] * p[1] - r[1] * p[0], p[0] * q[1] - p[1] * q[0]]
+        if max(forces) <= 0:
+            forces = [-f for f in forces]
+        if min(forces) >= 0 and max(forces) > 0 and sum(f * m[2] for f, m in zip(forces, (p, q, r))) <= 0:
+            return True
+    return any(m[0] == m[1] == 0 and m[2] <= 0 for m in lines)

@@ -1,0 +1,321 @@
+"""Can check_proof.py fail? Of a file of --proof that holds, every kind of claim is made a little untrue, one at a time:
+
+    python3 mutations.py PROOF INPUT.gpkg [options as of check_proof.py] [--need KIND ...]
+
+Each has to be refused, and for what is wrong with it. Of each kind the smallest tree, or conflict, that has such a claim is
+asked about by itself. Kinds that the file has nothing for are passed over, unless --need names them.
+"""
+import copy
+import io
+import json
+import sys
+import tempfile
+from contextlib import redirect_stdout
+
+import check_proof
+
+CUTS = {"hull": "not forbidden", "disc": "may be cheap", "cone": "do not cover", "limit": "what the limit leaves"}
+
+
+def with_kind(tree, kind):
+    return [c for n in tree["nodes"] for c in n["cuts"] if c["kind"] == kind]
+
+
+def drop_node(tree, k):
+    """Without a leaf: nodes and cuts behind it are renumbered."""
+    before = sum(len(n["cuts"]) for n in tree["nodes"][:k])
+    gone = len(tree["nodes"][k]["cuts"])
+    del tree["nodes"][k]
+    for node in tree["nodes"]:
+        if node["parent"] is not None and node["parent"] > k:
+            node["parent"] -= 1
+        for forces in (node["forces"], node.get("by", [])):
+            for f in forces:
+                f[0] -= gone if f[0] >= before + gone else 0
+
+
+def children_of(tree):
+    found = [[] for _ in tree["nodes"]]
+    for k, node in enumerate(tree["nodes"]):
+        if node["parent"] is not None:
+            found[node["parent"]].append(k)
+    return found
+
+
+# ---- Mutations of a tree: False where it has nothing of the kind; else the words of the refusal
+
+def change_forces(tree):
+    for node in tree["nodes"]:
+        for f in node["forces"] + node.get("by", []):
+            f[1] *= 1.01
+    return any(n["forces"] for n in tree["nodes"]) and ("the tree proves", "may be cheap")
+
+
+def pull(tree):
+    for node in tree["nodes"]:
+        if node["forces"]:
+            node["forces"][0][1] *= -1
+            return ("a force that pulls",)
+    return False
+
+
+def force_from_elsewhere(tree):
+    """A force on a cut of a sister."""
+    first = [0]
+    for node in tree["nodes"]:
+        first.append(first[-1] + len(node["cuts"]))
+    for sisters in children_of(tree):
+        for k in sisters[-1:]:
+            if len(sisters) == 3 and tree["nodes"][k]["forces"]:
+                tree["nodes"][k]["forces"][0][0] = first[sisters[0]]
+                return ("not on the way",)
+    return False
+
+
+def drop_child(tree):
+    children = children_of(tree)
+    for sisters in children:
+        for k in sisters:
+            if len(sisters) == 3 and not children[k]:
+                drop_node(tree, k)
+                return ("a child too few",)
+    return False
+
+
+def drop_forces_of_a_leaf(tree):
+    children = children_of(tree)
+    leaves = [n for k, n in enumerate(tree["nodes"]) if not children[k] and n["forces"] and "empty" not in n]
+    for node in tree["nodes"]:
+        node["forces"] = []
+        node.pop("by", None)
+    return bool(leaves) and ("the tree proves", "may be cheap")
+
+
+def push_cut(kind):
+    def mutate(tree):
+        for cut in with_kind(tree, kind):
+            cut["d"] += 0.3 if kind != "limit" else 0.01
+        return bool(with_kind(tree, kind)) and (CUTS[kind],)
+    return mutate
+
+
+def unname(tree):
+    for cut in with_kind(tree, "hull"):
+        cut["pieces"] = []
+        return ("not forbidden",)
+    return False
+
+
+def move_part(tree):
+    for piece in tree["pieces"]:
+        if not piece.get("shadow") and len(piece["A"]) > 2:
+            for corner in piece["A"]:
+                corner[0] += 0.25
+            return ("does not lie in",)
+    return False
+
+
+def move_anchor(tree):
+    for piece in tree["pieces"]:
+        if piece.get("shadow"):
+            part = piece["A"] if len(piece["A"]) == 1 else piece["B"]
+            part[0][0] += 0.25
+            return ("not the anchor",)
+    return False
+
+
+def fill_shadow(tree):
+    """What only a jump forbids, taken for what the gap does: an anchor is no part."""
+    for piece in tree["pieces"]:
+        if piece.get("shadow"):
+            del piece["shadow"]
+            return ("does not lie in", "not forbidden", "listed")
+    return False
+
+
+def heavier(tree):
+    for body in tree["bodies"]:
+        if body["weight"] is not None:
+            body["weight"] *= 1.5
+            return ("weighs more",)
+    return False
+
+
+def nail_down(tree):
+    for body in tree["bodies"]:
+        if body["weight"] is not None:
+            body["weight"] = None
+            return ("may move",)
+    return False
+
+
+def join_bodies(tree):
+    movable = [b for b in tree["bodies"] if "features" in b]
+    if len(movable) < 2:
+        return False
+    movable[0]["features"] += copy.deepcopy(movable[1]["features"])
+    return ("no block",)
+
+
+def raise_tree(tree):
+    tree["bound"] *= 1.01
+    return ("the tree proves", "may be cheap", "not forbidden")
+
+
+TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
+         "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
+         "shadow": fill_shadow, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
+         **{kind: push_cut(kind) for kind in CUTS}}
+
+
+# ---- Mutations of a conflict's proof
+
+def drop_way(told):
+    for node in told["proof"]:
+        if len(node.get("ways", [])) > 1:
+            last = node["ways"].pop()
+            return ("a direction out", "has no way", "two parents", "another case", "no contradiction") if last else False
+    return False
+
+
+def weaken_leaves(told):
+    for node in told["proof"]:
+        for f in node["forces"][:1]:
+            f["force"] *= 3
+    return ("no contradiction",)
+
+
+def ask_more(told):
+    for node in told["proof"]:
+        if "clearance" in node:
+            node["clearance"] += 100
+            return ("than they owe", "more than it had")
+    return False
+
+
+def blame(told):
+    told["blocked_by"] = told["blocked_by"][1:] if told["blocked_by"] else [told["a"]]
+    return ("blocked_by",)
+
+
+VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "blamed": blame}
+
+
+# ---- Mutations of the whole
+
+def twice(lines):
+    other = copy.deepcopy(lines[-1])
+    other["group"] += 1
+    lines.append(other)
+    lines[0]["trees"] += 1
+    return ("two groups have",)
+
+
+def twice_in_one(lines):
+    lines.append(copy.deepcopy(lines[-1]))
+    lines[0]["trees"] += 1
+    return ("more than its weight",)
+
+
+def raise_bound(lines):
+    lines[0]["lower_bound"] *= 1.0001
+    return ("the bound proved is",)
+
+
+def list_pair(lines):
+    piece = next((p for p in lines[-1]["pieces"] if not p.get("shadow")), None)
+    if piece is None:
+        return False
+    lines.insert(1, {"conflict": 0, "a": piece["a"], "b": piece["b"], "kind": "too_close", "reason": "unresolved",
+                     "blocked_by": []})
+    lines[0]["conflicts"] += 1
+    return ("are listed",)
+
+
+def other_gap(lines):
+    lines[0]["gap"] += 1
+    return ("another problem",)
+
+
+WHOLE = {"twice": twice, "twice in one": twice_in_one, "bound": raise_bound, "listed": list_pair, "gap": other_gap}
+
+
+class Asker:
+    def __init__(self, words):
+        self.words = words
+        with open(words[0], encoding="utf-8") as file:
+            self.lines = [json.loads(line) for line in file]
+        self.wrong, self.asked = [], {}
+
+    def alone(self, conflict=None, tree=None):
+        head = dict(self.lines[0], trees=0, lower_bound=tree["bound"] if tree else 0, pair_bound=0)
+        lines = [head] + [t for t in self.lines[1:] if "block" in t]
+        listed = [dict(t) for t in self.lines[1:] if "conflict" in t]
+        for t in listed:  # verdicts of others are not asked for again
+            if conflict is None or t["conflict"] != conflict["conflict"]:
+                t.pop("proof", None)
+                t["reason"] = "unresolved"
+        lines += listed
+        if tree:
+            head["trees"] = 1
+            lines.append(tree)
+        return copy.deepcopy(lines)
+
+    def answer(self, lines):
+        with tempfile.NamedTemporaryFile("w", suffix=".jsonl", encoding="utf-8") as file:
+            file.writelines(json.dumps(line) + "\n" for line in lines)
+            file.flush()
+            said = io.StringIO()
+            with redirect_stdout(said):
+                status = check_proof.main([file.name, *self.words[1:]])
+        return status, said.getvalue().strip()
+
+    def ask(self, name, candidates, mutate):
+        """candidates: lists of lines, smallest first; the first that has such a claim is asked about, true and untrue."""
+        for lines, target in candidates:
+            mutated = copy.deepcopy(lines)
+            words = mutate(mutated, target)
+            if not words:
+                continue
+            status, said = self.answer(lines)
+            if status:
+                self.wrong.append(f"{name}: what holds is refused: {said}")
+            status, said = self.answer(mutated)
+            if status != 1 or not any(w in said for w in words):
+                self.wrong.append(f"{name}: not refused for what is wrong: {said}")
+            self.asked[name] = said
+            return
+
+    def run(self):
+        trees = sorted((t for t in self.lines if "group" in t), key=lambda t: len(json.dumps(t)))
+        alone = [(self.alone(tree=t), -1) for t in trees]
+        for name, mutate in TREES.items():
+            self.ask(name, alone, lambda lines, at, m=mutate: m(lines[at]))
+        for name, mutate in WHOLE.items():
+            self.ask(name, alone, lambda lines, at, m=mutate: m(lines))
+        proofs = sorted((t for t in self.lines if "proof" in t), key=lambda t: len(json.dumps(t)))
+        for name, mutate in VERDICTS.items():
+            candidates = [(self.alone(conflict=t), t["conflict"]) for t in proofs]
+            self.ask(name, candidates, lambda lines, k, m=mutate:
+                     m(next(t for t in lines if t.get("conflict") == k)))
+
+
+def main(words):
+    needed = []
+    while "--need" in words:
+        at = words.index("--need")
+        needed.append(words[at + 1])
+        del words[at:at + 2]
+    asker = Asker(words)
+    asker.run()
+    for name in needed:
+        if name not in asker.asked:
+            asker.wrong.append(f"{name}: there is nothing of the kind")
+    for line in asker.wrong:
+        print(line)
+    print(f"{len(asker.asked)} kinds of untruth: {', '.join(sorted(asker.asked))}", file=sys.stderr)
+    return 1 if asker.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,70 @@
+# shellcheck shell=bash disable=SC1091
+# --proof: what it writes holds, asked by code that shares nothing with the program (check_proof.py), on towns with
+# barriers, limits, fixed features, jumps, and on maps where they are beside the repository; and every untruth is refused
+# (mutations.py). SUNDER_LAWS=all asks about more towns.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
+export PYTHONDONTWRITEBYTECODE=1
+here=$SUNDER_SOURCE/tests/proof
+
+# proved NAME SOURCE OPTIONS...: of separate, but for --layer of `buildings`
+proved() {
+    local name=$1 source=$2
+    shift 2
+    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main --proof "$name.jsonl" "$@" 2>err
+    case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
+    echo "$name $*: $(tail -1 said)"
+}
+
+# refuted NAME SOURCE [--need KIND ...] OPTIONS...
+refuted() {
+    local name=$1 source=$2
+    shift 2
+    python3 "$here/mutations.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>kinds || fail "$name: $(cat said)"
+    cat kinds
+}
+
+town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
+monuments="kind = 'monument'"
+roads="$town,layer=roads,width=5"
+proved town "$town" --gap 3
+proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
+refuted roads "$town" --gap 3 --max-shift 10 --barrier "$roads" --need hull --need disc --need cone --need part --need child \
+    --need twice --need bound --need elsewhere --need shadow
+proved tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments"
+refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments" --need limit --need leaf --need way \
+    --need clearance --need blamed
+proved jumps "$town" --gap 2 --allow-jumps --contained separate
+proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
+
+# As often as it is asked, on however many threads, the same bytes; and no proof without a bound to prove.
+cp roads.jsonl first.jsonl
+proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
+cmp roads.jsonl first.jsonl || fail "another proof"
+"$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --max-shift 10 --barrier "$roads" --threads 3 --proof three.jsonl
+cmp roads.jsonl three.jsonl || fail "another proof on three threads"
+refused 2 'there is nothing to prove' separate "$town" p.gpkg -l buildings --gap 3 --effort 0 --proof p.jsonl
+refused 2 'goes to a file' separate "$town" p.gpkg -l buildings --gap 3 --proof -
+refused 2 'that is an input' separate "$town" p.gpkg -l buildings --gap 3 --proof "$town"
+refused 2 'that is the file of' separate "$town" p.gpkg -l buildings --gap 3 --proof p.json --stats p.json
+
+if [ "${SUNDER_LAWS:-}" = all ] && [ -x "$SUNDER_BUILD/sunder-town" ]; then
+    for seed in 1 2 3 4 5 6; do
+        "$SUNDER_BUILD/sunder-town" --buildings 250 --seed $seed --trouble 0.6 town$seed.gpkg >/dev/null || fail "sunder-town"
+        for gap in 1 3 5; do
+            proved "town$seed" town$seed.gpkg --gap $gap
+            proved "town$seed" town$seed.gpkg --gap $gap --max-shift 2 --barrier "town$seed.gpkg,layer=roads,width=4"
+            proved "town$seed" town$seed.gpkg --gap $gap --no-blocks --max-shift 1 --allow-jumps
+        done
+    done
+fi
+data=$SUNDER_SOURCE/../shared/data
+if [ ! -d "$data" ]; then
+    echo "without $data: towns alone"
+else
+    for name in krems_2013 saint_jean_la_poterie; do proved $name "$data/$name.gpkg" --gap 3; done
+    ogr2ogr baltimore.gpkg "/vsizip/$data/baltimore_2015_shp.zip" buildings -nln buildings 2>/dev/null || fail "ogr2ogr"
+    proved baltimore baltimore.gpkg --gap 3
+fi
+finish

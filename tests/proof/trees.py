@@ -1,0 +1,292 @@
+"""The trees of the lower bound: docs/PROOF.md, section 3, line by line."""
+from fractions import Fraction
+from math import isqrt
+
+from cover import Piece, clip, is_covered, is_nowhere, line_of, square
+from problem import demand
+
+
+FINE = 1 << 60  # places that discs are about are rounded to this share of the lattice, and more is asked by that
+
+
+class Tree:
+    def __init__(self, problem, told):
+        self.problem, self.unit = problem, problem.lattice.unit
+        self.group, self.bound = told["group"], Fraction(told["bound"])
+        self.own_weight = {}
+        self.bodies = [self.read_body(b) for b in told["bodies"]]
+        self.weights = [self.read_weight(b, k) for k, b in enumerate(told["bodies"])]
+        self.shifts = [tuple(map(Fraction, b["shift"])) for b in told["bodies"]]
+        for weight, shift in zip(self.weights, self.shifts):
+            demand(weight is not None or shift == (0, 0), "what does not move has a shift")
+        self.pieces_told, self.pieces = told["pieces"], {}
+        self.nodes = told["nodes"]
+        self.cuts = []   # as they are told
+        self.owner = []  # the node of each
+        self.exact = {}  # (i, j, n, d) of cuts that have been asked for; j None: the ground
+        self.reach = {}
+
+    # ---- Bodies
+
+    def read_body(self, told):
+        if "barrier" in told:
+            demand(self.problem.is_barrier(told["barrier"]), "there is no barrier", told["barrier"])
+            return (told["barrier"],)
+        fids = tuple(f["fid"] for f in told["features"])
+        for f in told["features"]:
+            demand(f["fid"] in self.problem.things and f["fid"] not in self.problem.ignored, "no such feature", f["fid"])
+            if "anchor" in f:
+                self.problem.note_anchor(f["fid"], f["anchor"])
+        demand(fids == self.problem.block(fids[0]), "a body is no block:", *fids)
+        return fids
+
+    def read_weight(self, told, k):
+        """None: it does not move."""
+        if "barrier" in told:
+            demand(told["weight"] is None, "a barrier has a weight")
+            return None
+        if told["weight"] is None:
+            demand(self.problem.body_limit(self.bodies[k]) == 0, "a body that may move is taken for a fixed one")
+            return None
+        own = sum(self.problem.weight(f["fid"], f["weight"]) for f in told["features"])
+        demand(0 < Fraction(told["weight"]) <= own, "a body weighs more than its members")
+        self.own_weight[self.bodies[k]] = own
+        return Fraction(told["weight"])
+
+    def mass(self, i, j):
+        return sum(1 / self.weights[k] for k in (i, j) if self.weights[k] is not None)
+
+    # ---- What forces prove
+
+    def read_forces(self, told, node):
+        """[(cut, force)], all on the way to the node."""
+        forces = []
+        for cut, force in told:
+            demand(force >= 0 and cut < len(self.cuts), "a force that pulls, or on no cut")
+            at, above = node, self.owner[cut]
+            while at is not None and at > above:
+                at = self.nodes[at]["parent"]
+            demand(at == above, "a force on a cut that is not on the way to its node")
+            forces.append((self.cut(cut), Fraction(force)))
+        return forces
+
+    def cut(self, k):
+        if k not in self.exact:
+            told = self.cuts[k]
+            self.exact[k] = told["i"], told.get("j"), tuple(map(Fraction, told["n"])), Fraction(told["d"])
+        return self.exact[k]
+
+    def push(self, forces):
+        """(value, the net force on each body)."""
+        value, net = Fraction(0), {}
+        for (i, j, n, d), f in forces:
+            own = d
+            for k, sign in ((i, -1), (j, 1)):
+                if k is None:
+                    continue
+                a = self.shifts[k]
+                own -= sign * (n[0] * a[0] + n[1] * a[1])
+                g = net.get(k, (0, 0))
+                net[k] = g[0] + sign * f * n[0], g[1] + sign * f * n[1]
+            value += f * own
+        for k, (x, y) in net.items():
+            if self.weights[k] is not None:
+                value -= (x * x + y * y) / (4 * self.weights[k])
+        return value, net
+
+    def least_at(self, k, net):
+        g, a, w = net.get(k, (0, 0)), self.shifts[k], self.weights[k]
+        return a if w is None else (a[0] + g[0] / (2 * w), a[1] + g[1] / (2 * w))
+
+    # ---- Regions and pieces
+
+    def root(self, i, j):
+        """The square about all relative moves of what costs less than the bound, in units of the lattice."""
+        centre = [(self.shifts[j][c] - self.shifts[i][c]) * self.unit for c in (0, 1)]
+        squared = max(self.bound, Fraction(0)) * self.mass(i, j) * self.unit ** 2
+        reach = isqrt(-(-squared.numerator // squared.denominator)) + 1
+        low = [int(v // 1) - reach for v in centre]
+        high = [int(-(-v // 1)) + reach for v in centre]
+        self.reach[i, j] = max(map(abs, low + high))
+        return square(*low, *high)
+
+    def region(self, regions, i, j):
+        found = regions.get((i, j))
+        return self.root(i, j) if found is None else found
+
+    def piece(self, k, i, j):
+        demand(0 <= k < len(self.pieces_told), "there is no piece", k)
+        if k not in self.pieces:
+            self.pieces[k] = self.read_piece(self.pieces_told[k])
+        at, piece = self.pieces[k]
+        demand(at == (i, j), "a piece of another pair")
+        return piece
+
+    def read_piece(self, told):
+        problem, i, j, a, b = self.problem, told["i"], told["j"], told["a"], told["b"]
+        demand(i != j and a in self.bodies[i] and b in self.bodies[j], "a piece is not of its bodies")
+        problem.demand_owed(a, b)
+        shadow = told.get("shadow", False)
+        if shadow:
+            parts = problem.demand_shadow(a, told["A"], b, told["B"])
+        else:
+            demand(tuple(sorted((str(a), str(b)))) not in problem.listed, a, "and", b, "are listed")
+            if problem.options.contained == "ignore" and not (problem.is_barrier(a) or problem.is_barrier(b)):
+                self.root(i, j)
+                demand(not problem.may_be_inside(a, b, self.reach[i, j]), a, "and", b, "may lie in each other")
+            parts = problem.demand_part(a, told["A"]), problem.demand_part(b, told["B"])
+        piece = Piece(*parts, 0 if shadow else problem.required(a, b), shadow)
+        demand(not (shadow and piece.holds_origin()), "a shadow of what holds the anchor")
+        return (i, j), piece
+
+    def demand_covered(self, region, i, j, named):
+        demand(is_covered(region, [self.piece(k, i, j) for k in named]), "what is taken away is not forbidden:",
+               self.bodies[i], self.bodies[j])
+
+    # ---- Nodes
+
+    def check(self):
+        """What the tree is proved to bound from below."""
+        children = [[] for _ in self.nodes]
+        for k, node in enumerate(self.nodes):
+            parent = node["parent"]
+            demand((parent is None) == (k == 0) and (k == 0 or 0 <= parent < k), "node", k, "has no place in the tree")
+            if k:
+                children[parent].append(k)
+        state = {}  # node: (value, regions, children that are left)
+        value = None
+        for k, node in enumerate(self.nodes):
+            parent = node["parent"]
+            above = (Fraction(0) if parent is None else state[parent][0], {} if parent is None else state[parent][1])
+            own, regions, empty = self.check_node(k, node, *above, 0 if k == 0 else len(children[parent]))
+            if k:
+                state[parent][2] -= 1
+                if not state[parent][2]:
+                    del state[parent]
+            if children[k]:
+                demand(not empty, "an empty node with children")
+                demand(len(children[k]) in (1, 3), "node", k, "has a child too few")
+                if len(children[k]) == 3:
+                    self.demand_cones([self.nodes[c]["cuts"] for c in children[k]])
+                state[k] = [own, regions, len(children[k])]
+            elif not empty:
+                value = own if value is None or own < value else value
+        demand(value is None or value >= self.bound, "the tree proves", value and float(value), "and not", float(self.bound))
+        return self.bound
+
+    def check_node(self, k, node, value, regions, siblings):
+        regions, discs = dict(regions), None
+        first = len(self.cuts)
+        self.cuts += node["cuts"]
+        self.owner += [k] * len(node["cuts"])
+        for at, told in enumerate(node["cuts"]):
+            i, j = told["i"], told.get("j")
+            demand(0 <= i < len(self.bodies) and (j is None or 0 <= j < len(self.bodies)), "a cut of no bodies")
+            if told["kind"] == "limit":
+                self.check_limit(*self.cut(first + at))
+                continue
+            demand(j is not None and i != j, "a cut of one body")
+            line = line_of(told["n"], told["d"], self.unit)
+            region = self.region(regions, i, j)
+            if told["kind"] == "cone":
+                demand(siblings == 3 and at < 2, "a cone that is no child's first cut")
+            elif told["kind"] == "hull":
+                self.demand_covered(clip(region, tuple(-v for v in line)), i, j, told["pieces"])
+            else:
+                demand(told["kind"] == "disc", "a cut of no kind", told["kind"])
+                if discs is None:
+                    discs = Discs(self, *self.forces_below(node))
+                    value = max(value, discs.value)
+                discs.demand_beyond(i, j, line)
+            regions[i, j] = clip(region, line)
+        if "empty" in node:
+            i, j = node["empty"]["i"], node["empty"]["j"]
+            self.demand_covered(self.region(regions, i, j), i, j, node["empty"]["pieces"])
+            return value, regions, True
+        if node["forces"]:
+            value = max(value, self.push(self.read_forces(node["forces"], k))[0])
+        return value, regions, False
+
+    def check_limit(self, i, j, n, d):
+        """-n.t_i >= d takes away nothing of |t_i| <= L."""
+        limit = self.problem.body_limit(self.bodies[i])
+        demand(j is None and limit is not None and d <= 0 and d * d >= (n[0] ** 2 + n[1] ** 2) * Fraction(limit) ** 2,
+               "a limit's cut takes away what the limit leaves")
+
+    def forces_below(self, node):
+        """What the forces that the discs of a node stand on prove: they are of the nodes above."""
+        parent = node["parent"]
+        demand(parent is not None, "a disc at the root")
+        told = node["by"] if "by" in node else self.nodes[parent]["forces"]
+        return self.push(self.read_forces(told, parent))
+
+    def demand_cones(self, cuts):
+        """Three cones of one pair that cover the plane: no place misses a side of each."""
+        lines = []
+        for own in cuts:
+            demand(len(own) >= 2 and own[0]["kind"] == own[1]["kind"] == "cone", "a child without its cone")
+            demand(all((c["i"], c["j"]) == (cuts[0][0]["i"], cuts[0][0]["j"]) for c in own[:2]), "cones of two pairs")
+            lines.append([line_of(c["n"], c["d"], self.unit) for c in own[:2]])
+        for one in lines[0]:
+            for two in lines[1]:
+                for three in lines[2]:
+                    demand(is_nowhere([one, two, three]), "the children do not cover their parent")
+
+
+class Discs:
+    """What is left of the relative moves at a node by forces that prove `value`: a disc for each pair, of which the place in
+    the middle is rounded, and the square of the radius is rounded up."""
+
+    def __init__(self, tree, value, net):
+        self.tree, self.value, self.net, self.found = tree, value, net, {}
+
+    def disc(self, i, j):
+        if (i, j) not in self.found:
+            tree, scale = self.tree, self.tree.unit * FINE
+            p, q = tree.least_at(i, self.net), tree.least_at(j, self.net)
+            left = max(tree.bound - self.value, Fraction(0)) * tree.mass(i, j) * scale ** 2
+            self.found[i, j] = (round((q[0] - p[0]) * scale), round((q[1] - p[1]) * scale),
+                                -(-left.numerator // left.denominator))
+        return self.found[i, j]
+
+    def demand_beyond(self, i, j, line):
+        """All that the line takes away is outside of the disc."""
+        (a, b, c), (x, y, left) = line, self.disc(i, j)
+        beyond = a * x + b * y - c * FINE - abs(a) - abs(b)
+        demand(beyond >= 0 and beyond * beyond >= left * (a * a + b * b), "a disc's cut takes away what may be cheap")
+
+
+def add_up(problem, trees):
+    """What trees together prove: by groups, whose bodies that may move are their own."""
+    group_of, total = {}, Fraction(0)
+    by_group = {}
+    for tree in trees:
+        by_group.setdefault(tree.group, []).append(tree)
+        for body, weight in zip(tree.bodies, tree.weights):
+            if weight is not None:
+                demand(group_of.setdefault(body, tree.group) == tree.group, "two groups have", *body)
+    for members in by_group.values():
+        total += group_bound(problem, members)
+    return total
+
+
+def group_bound(problem, trees):
+    """sum of (bound - sum w |a|^2) - sum |sum w a|^2 / (own weight - sum w)."""
+    used, pull, own = {}, {}, {}
+    total = Fraction(0)
+    for tree in trees:
+        total += tree.bound
+        for body, w, a in zip(tree.bodies, tree.weights, tree.shifts):
+            if w is None:
+                continue
+            total -= w * (a[0] ** 2 + a[1] ** 2)
+            used[body] = used.get(body, 0) + w
+            p = pull.get(body, (0, 0))
+            pull[body] = p[0] + w * a[0], p[1] + w * a[1]
+            own[body] = tree.own_weight[body]
+    for body, (x, y) in pull.items():
+        demand(used[body] <= own[body], "the shares of a body are more than its weight")
+        if (x, y) != (0, 0):
+            demand(used[body] < own[body], "shifts that do not cancel out have to be paid for")
+            total -= (x * x + y * y) / (own[body] - used[body])
+    return total

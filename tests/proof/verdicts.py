@@ -1,0 +1,200 @@
+"""The proofs that a conflict has no room: docs/PROOF.md, section 4, line by line."""
+import math
+from fractions import Fraction
+from itertools import combinations
+
+import exact_plane as plane
+from cover import crossing, hull, line_of, meets_segment
+from problem import demand, root_above
+
+
+class Verdict:
+    def __init__(self, problem, told, conflicts):
+        self.problem, self.told, self.nodes = problem, told, told["proof"]
+        self.kinds = {tuple(sorted((str(c["a"]), str(c["b"])))): c["kind"] for c in conflicts if not c.get("inside_block")}
+        self.own = self.key(told["a"], told["b"])
+        self.unit = problem.lattice.unit
+
+    @staticmethod
+    def key(a, b):
+        return tuple(sorted((str(a), str(b))))
+
+    def check(self):
+        seen, todo, named = set(), [(0, ())], set()
+        while todo:
+            at, way_here = todo.pop()
+            demand(0 <= at < len(self.nodes) and at not in seen, "a node is missing, or has two parents")
+            seen.add(at)
+            node = self.nodes[at]
+            if "ways" not in node:
+                self.check_leaf(node, way_here)
+                continue
+            self.check_question(node)
+            named |= {node["a"], node["b"]}
+            todo += [(w["next"], (*way_here, (at, k))) for k, w in enumerate(node["ways"])]
+        named -= {self.told["a"], self.told["b"]}
+        demand(named == set(self.told["blocked_by"]), "blocked_by is not what the proof is about")
+
+    # ---- What a node asks
+
+    def check_question(self, node):
+        problem, a, b = self.problem, node["a"], node["b"]
+        problem.demand_owed(a, b)
+        ways = [line_of(w["n"], w["d"], self.unit) for w in node["ways"]]
+        if node.get("shadow"):
+            parts = problem.demand_shadow(a, node["A"], b, node["B"])
+            self.check_shadow(difference(*parts), ways)
+            return
+        parts = problem.demand_part(a, node["A"]), problem.demand_part(b, node["B"])
+        clearance = Fraction(node["clearance"]) * self.unit
+        self.check_clearance(a, b, clearance)
+        self.check_ways(difference(*parts), ways, clearance)
+
+    def check_clearance(self, a, b, clearance):
+        """No more than the pair owes, or than it had at the start where it is another listed one."""
+        listed = self.key(a, b) in self.kinds and self.key(a, b) != self.own
+        if not listed:
+            demand(clearance <= self.problem.required(a, b), "more is asked of", a, b, "than they owe")
+            return
+        demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
+        demand(clearance <= self.problem.required(a, b), "more is asked of", a, b, "than they owe")
+        p, q = (self.problem.things[k].whole() for k in (a, b))
+        p, q = (p, q) if p.area else (q, p)
+        if plane.interiors_meet(p, q):
+            least = plane.least_square(p, q)
+            demand(clearance < 0 and least is not None and least <= clearance * clearance,
+                   "a listed pair is held to more than it had:", a, b)
+        elif clearance > 0:
+            demand(clearance * clearance <= plane.distance_square(p, q), "a listed pair is held to more than it had:", a, b)
+
+    def check_ways(self, polygon, ways, clearance):
+        """What lies behind all ways is bounded, and its corners are in conflict."""
+        for w in ways:
+            for along in ((w[1], -w[0]), (-w[1], w[0])):
+                demand(any(m[0] * along[0] + m[1] * along[1] > 0 for m in ways), "the ways leave a direction out")
+        for corner in corners_behind(ways):
+            if clearance < 0:
+                demand(holds_disc(polygon, corner, -clearance), "a move that is no worse has no way")
+            else:
+                demand(is_near(polygon, corner, clearance), "a move that keeps the clearance has no way")
+
+    def check_shadow(self, polygon, ways):
+        for w in ways:
+            for along in ((w[1], -w[0]), (-w[1], w[0])):
+                endless = all(m[0] * along[0] + m[1] * along[1] <= 0 for m in ways)
+                demand(not endless or is_shaded(polygon, along, True), "the ways leave a direction out")
+        for corner in corners_behind(ways):
+            demand(is_shaded(polygon, corner, False), "a move that jumps over nothing has no way")
+
+    # ---- Leaves
+
+    def check_leaf(self, leaf, way_here):
+        taken = dict(way_here)
+        for f in leaf["forces"]:
+            node, way = f["node"], f["way"]
+            demand(f["force"] > 0 and node in taken, "a force that is not on the way, or none")
+            demand(0 <= way < taken[node] if f["behind"] else way == taken[node], "a force is on another case")
+        demand(self.wins(leaf, float, self.FILTER) or self.wins(leaf, Fraction, 0), "a leaf is no contradiction")
+
+    FILTER = 1e-9  # of all that is added up: far more than doubles can be off by in sums of some thousand terms
+
+    def wins(self, leaf, number, margin):
+        """Do the forces win more than the limits can lose, by a margin?"""
+        won, net, size = number(0), {}, number(0)
+        for f in leaf["forces"]:
+            force, node = number(f["force"]), self.nodes[f["node"]]
+            way = node["ways"][f["way"]]
+            sign = -1 if f["behind"] else 1
+            x, y = force * number(way["n"][0]), force * number(way["n"][1])
+            won += sign * force * number(way["d"])
+            size += force * abs(number(way["d"]))
+            for key, side in ((node["a"], -sign), (node["b"], sign)):
+                body = key if self.problem.is_barrier(key) else self.problem.block(key)
+                g = net.get(body, (0, 0, 0))
+                net[body] = g[0] + side * x, g[1] + side * y, g[2] + abs(x) + abs(y)
+        lost = number(0)
+        for body, (x, y, most) in net.items():
+            limit = self.limit_of(body)
+            if limit == 0 or most == 0:
+                continue
+            if limit is None:
+                if number is Fraction and (x, y) == (0, 0):
+                    continue
+                return False
+            size += number(limit) * most
+            lost += number(limit) * (math.hypot(x, y) if number is float else root_above(x * x + y * y))
+        return won - lost > margin * size
+
+    def limit_of(self, body):
+        """0 for a barrier, None where there is none."""
+        return self.problem.body_limit(body) if isinstance(body, tuple) else 0
+
+
+def difference(a, b):
+    return hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
+
+
+def corners_behind(ways):
+    """Where the lines of two ways cross, not beyond any: homogeneous integers."""
+    for p, q in combinations(ways, 2):
+        x, y, w = crossing(p, q)
+        if w and all(m[0] * x + m[1] * y <= m[2] * w for m in ways):
+            yield x, y, w
+
+
+def sides(polygon, w):
+    """Of the polygon w times as large."""
+    grown = [(w * x, w * y) for x, y in polygon]
+    return list(zip(grown, grown[1:] + grown[:1]))
+
+
+def is_near(polygon, corner, clearance):
+    """A place no farther from a convex polygon, which may be a segment or a point, than that."""
+    x, y, w = corner
+    edges = sides(polygon, w)
+    if len(polygon) > 2 and all(plane.side(p, q, (x, y)) >= 0 for p, q in edges):
+        return True
+    n, d = (clearance * w).numerator ** 2, (clearance * w).denominator ** 2
+    return any(square * d <= n * whole for square, whole in (plane.square_to_edge((x, y), e) for e in edges))
+
+
+def holds_disc(polygon, corner, radius):
+    """The disc about the place within the polygon."""
+    x, y, w = corner
+    n, d = (radius * w).numerator ** 2, (radius * w).denominator ** 2
+    for p, q in sides(polygon, w):
+        ex, ey = q[0] - p[0], q[1] - p[1]
+        cross = ex * (y - p[1]) - ey * (x - p[0])
+        if cross < 0 or cross * cross * d < n * (ex * ex + ey * ey):
+            return False
+    return len(polygon) > 2
+
+
+def is_shaded(polygon, v, far):
+    """Is s v in the polygon for some 0 <= s, no more than 1 unless far? v: a homogeneous place, or a direction."""
+    x, y, w = v if len(v) == 3 else (*v, 1)
+    if len(polygon) < 3:
+        return meets_segment(polygon, x, y, None if far else w)
+    low, high = Fraction(0), None if far else Fraction(1, w)
+    for p, q in sides(polygon, 1):
+        ex, ey = q[0] - p[0], q[1] - p[1]
+        slope, level = ex * y - ey * x, ex * p[1] - ey * p[0]
+        if slope == 0:
+            if level > 0:
+                return False
+        elif slope > 0:
+            low = max(low, Fraction(level, slope))
+        else:
+            high = Fraction(level, slope) if high is None else min(high, Fraction(level, slope))
+    return high is None or low <= high
+
+
+def check(problem, told, conflicts):
+    """Is there a proof? Then it holds."""
+    problem.demand_listed(told)
+    if told["reason"] == "no_room":
+        demand("proof" in told, "no room, and no proof:", told["a"], told["b"])
+    if "proof" not in told:
+        return 0
+    Verdict(problem, told, conflicts).check()
+    return 1
