@@ -437,6 +437,7 @@ typedef struct sunder_layer_options {
                        * conflict, in steps and not in time; 0: not at all */
     uint64_t seed;    /* of what search is random; nothing is yet */
     bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
+    bool keep_pushes; /* for sunder_report_pushes() */
 } sunder_layer_options;
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
@@ -612,6 +613,17 @@ typedef struct sunder_bound_pair {
     double least, multiplier;
 } sunder_bound_pair;
 SUNDER_API const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
+
+/* How hard two that are in contact in the result press on each other, where keep_pushes was asked for: a multiplier of
+ * the program whose least the result is. The sum of force * n over the pushes on a block is twice its weight times its
+ * move, where it is at an optimum and not at its limit. In doubles, for people; sorted by (a, b). */
+typedef struct sunder_push {
+    size_t a, b; /* features, or for b the number of features + k for barrier k */
+    double force;
+    double n[2]; /* of length 1: b is pushed that way, and a the other */
+} sunder_push;
+
+SUNDER_API const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n);
 
 /* What lower_bound stands on, where keep_trees was asked for: trees of branch and bound, one for each contact group of
  * the result, or several that share its bodies. Every number in them means itself, exactly, and rational arithmetic can

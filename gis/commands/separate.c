@@ -16,14 +16,21 @@
 #include <string.h>
 
 /* Bits of --layers. */
-enum { LAYER_MAIN = 1, LAYER_DISPLACEMENT = 2, LAYER_CONFLICTS = 4, LAYER_SYMBOLS = 8, N_LAYERS = 4 };
+enum {
+    LAYER_MAIN = 1,
+    LAYER_DISPLACEMENT = 2,
+    LAYER_CONFLICTS = 4,
+    LAYER_PUSHES = 8,
+    LAYER_SYMBOLS = 16,
+    N_LAYERS = 5
+};
 
 typedef struct separate_run {
     const gis_options *options;
     gis_destinations to;
     gis_layer_input_request request;
     gis_layer_input input;
-    const char *suffixes[4]; /* of the layers besides the main one; the sink borrows them */
+    const char *suffixes[N_LAYERS]; /* of the layers besides the main one; the sink borrows them */
     gis_sink *sink;
     sunder_report *report;
     sunder_layer_summary summary;
@@ -42,21 +49,23 @@ static bool write_layers(const separate_run *run, gis_error *error)
     if ((chosen & LAYER_MAIN) && !gis_write_main(sink, input, run->report, error)) return false;
     if ((chosen & LAYER_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error)) return false;
     if ((chosen & LAYER_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, error)) return false;
+    if ((chosen & LAYER_PUSHES) && !gis_write_pushes(sink, input, run->report, error)) return false;
     return !(chosen & LAYER_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
 }
 
 /* What --layers chooses of those that apply; an unknown name is wrong usage. */
 static bool choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error)
 {
-    static const char *const names[N_LAYERS] = {"main", "displacement", "conflicts", "symbols"};
-    const unsigned apply = LAYER_MAIN | LAYER_DISPLACEMENT | LAYER_CONFLICTS | (points ? LAYER_SYMBOLS : 0u);
+    static const char *const names[N_LAYERS] = {"main", "displacement", "conflicts", "pushes", "symbols"};
+    const unsigned apply =
+        LAYER_MAIN | LAYER_DISPLACEMENT | LAYER_CONFLICTS | LAYER_PUSHES | (points ? LAYER_SYMBOLS : 0u);
     *chosen = list ? 0 : apply;
     for (const char *rest = list; rest;) {
         size_t n = strcspn(rest, ","), k = 0;
         while (k < N_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0)) k++;
         if (k == N_LAYERS)
-            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, symbols", (int)n,
-                                  rest);
+            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, pushes, symbols",
+                                  (int)n, rest);
         *chosen |= 1u << k;
         rest = rest[n] ? rest + n + 1 : NULL;
     }
@@ -74,11 +83,13 @@ static bool open_sink(separate_run *run, gis_error *error)
     if (!choose_layers(run->options->text[OPT_LAYERS], run->input.points, &run->chosen, error)) return false;
     if (run->chosen & LAYER_DISPLACEMENT) run->suffixes[n++] = "displacement";
     if (run->chosen & LAYER_CONFLICTS) run->suffixes[n++] = "conflicts";
+    if (run->chosen & LAYER_PUSHES) run->suffixes[n++] = "pushes";
     if (run->chosen & LAYER_SYMBOLS) run->suffixes[n++] = "symbols";
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = LAYER_MAIN;
+    run->request.rules.keep_pushes = (run->chosen & LAYER_PUSHES) != 0;
     return true;
 }
 

@@ -12,6 +12,8 @@ static gis_value fid_value(GIntBig fid)
     return fid == OGRNullFID ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = fid}};
 }
 
+gis_value gis_barrier_fid_value(const gis_barrier_feature *barrier) { return fid_value(barrier->fid); }
+
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature)
 {
     return fid_value(gis_source_fid(input->source, feature));
@@ -40,13 +42,12 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
     return true;
 }
 
-/* Is the thing, by its number in the core's report, a barrier? SIZE_MAX is nothing at all. */
-static const gis_barrier_feature *barrier_of(const gis_layer_input *input, size_t thing)
+const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing)
 {
     return thing < input->n || thing == SIZE_MAX ? NULL : &input->barriers.feature[thing - input->n];
 }
 
-static const char *barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier)
+const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier)
 {
     return input->barriers.layer[barrier->request];
 }
@@ -59,15 +60,15 @@ static bool things_value(const gis_layer_input *input, const size_t *thing, size
     if (n == 0) return true;
     size_t size = n * 22 + 1, length = 0;
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = barrier_of(input, thing[k]);
-        if (barrier) size += strlen(barrier_layer(input, barrier)) + 1;
+        const gis_barrier_feature *barrier = gis_barrier_of(input, thing[k]);
+        if (barrier) size += strlen(gis_barrier_layer(input, barrier)) + 1;
     }
     char *text = malloc(size);
     if (!text) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
-        const gis_barrier_feature *barrier = barrier_of(input, thing[k]);
+        const gis_barrier_feature *barrier = gis_barrier_of(input, thing[k]);
         length += (size_t)snprintf(text + length, size - length, "%s%s%s" CPL_FRMT_GIB, k ? "," : "",
-                                   barrier ? barrier_layer(input, barrier) : "", barrier ? ":" : "",
+                                   barrier ? gis_barrier_layer(input, barrier) : "", barrier ? ":" : "",
                                    barrier ? barrier->fid : gis_source_fid(input->source, thing[k]));
     }
     free(*copy);
@@ -98,14 +99,14 @@ bool gis_conflict_values(const gis_layer_input *input, const sunder_conflict *co
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error)
 {
     const char *reason = sunder_reason_string(conflict->reason);
-    const gis_barrier_feature *barrier = barrier_of(input, conflict->b);
+    const gis_barrier_feature *barrier = gis_barrier_of(input, conflict->b);
     const bool alone = conflict->b == SIZE_MAX;
     const gis_value none = {.kind = GIS_NULL};
     values[COLUMN_ID_B] = none;
     values[COLUMN_FID_A] = gis_fid_value(input, conflict->a);
     values[COLUMN_FID_B] = barrier || alone ? none : gis_fid_value(input, conflict->b);
-    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = barrier_layer(input, barrier)}} : none;
-    values[COLUMN_BARR_FID] = barrier ? fid_value(barrier->fid) : none;
+    values[COLUMN_BARRIER] = barrier ? (gis_value){GIS_TEXT, {.text = gis_barrier_layer(input, barrier)}} : none;
+    values[COLUMN_BARR_FID] = barrier ? gis_barrier_fid_value(barrier) : none;
     values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = sunder_conflict_kind_string(conflict->kind)}};
     values[COLUMN_REASON] = *reason ? (gis_value){GIS_TEXT, {.text = reason}} : (gis_value){.kind = GIS_NULL};
     values[COLUMN_DISTANCE] = (gis_value){GIS_REAL, {.real = conflict->distance}};

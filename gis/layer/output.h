@@ -19,11 +19,17 @@ bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *in
                                 gis_error *error);
 bool gis_write_conflict_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
                             gis_error *error);
+/* LAYER_pushes: a line for each pair that presses on each other. */
+bool gis_write_pushes(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 /* LAYER_symbols: the symbols of points where they stand now. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
 /* The FID as a value; null if there is none. */
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
+/* Of a thing by its number in the core's report the barrier that it is; NULL: a feature, or SIZE_MAX, nothing. */
+const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing);
+const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_feature *barrier);
+gis_value gis_barrier_fid_value(const gis_barrier_feature *barrier);
 /* The type of the id columns, and the user's own key in it; null without --id-field. *copy keeps a text (start with
  * NULL, free at the end). */
 OGRFieldType gis_id_type(const gis_layer_input *input);

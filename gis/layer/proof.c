@@ -4,6 +4,7 @@
 
 #include "base/interrupt.h"
 #include "base/json.h"
+#include "layer/output.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -39,9 +40,9 @@ static void put_thing(proof_writer *w, const char *key, size_t thing)
         put_feature(w, thing);
         return;
     }
-    const gis_barrier_feature *barrier = &w->input->barriers.feature[thing - w->input->n];
+    const gis_barrier_feature *barrier = gis_barrier_of(w->input, thing);
     gis_text name = {0};
-    gis_text_print(&name, "%s:" CPL_FRMT_GIB, w->input->barriers.layer[barrier->request], barrier->fid);
+    gis_text_print(&name, "%s:" CPL_FRMT_GIB, gis_barrier_layer(w->input, barrier), barrier->fid);
     if (gis_text_get(&name))
         gis_json_string(&w->json, gis_text_get(&name));
     else

@@ -27,6 +27,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.effort = rules->effort;
     core.seed = rules->seed;
     core.keep_trees = rules->keep_trees;
+    core.keep_pushes = rules->keep_pushes;
     core.threads = rules->threads;
     core.allow_jumps = input->points || rules->allow_jumps;
     return core;

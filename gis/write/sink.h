@@ -53,6 +53,7 @@ typedef enum gis_style {
     GIS_STYLE_STATUS,       /* by sunder_st; polygons or points, by the layer's type */
     GIS_STYLE_DISPLACEMENT, /* arrows */
     GIS_STYLE_CONFLICTS,    /* thick lines */
+    GIS_STYLE_PUSHES,       /* lines, the wider the greater their force */
     GIS_STYLE_SYMBOLS,      /* polygons around points */
     GIS_STYLE_RESULT        /* sums: polygons, lines or points by the layer's type */
 } gis_style;

@@ -53,6 +53,26 @@ static void add_line(gis_text *to, const char *colour, const char *width)
     gis_text_print(to, "</layer>");
 }
 
+/* A line whose width, in millimetres, is an expression of QGIS. */
+static void add_line_by(gis_text *to, const char *colour, const char *expression)
+{
+    begin_layer(to, "SimpleLine");
+    add_property(to, "line_color", colour);
+    add_property(to, "line_style", "solid");
+    add_property(to, "line_width", "0.3");
+    add_property(to, "line_width_unit", "MM");
+    add_property(to, "capstyle", "round");
+    gis_text_print(to,
+                   "<data_defined_properties><Option type=\"Map\"><Option name=\"name\" type=\"QString\" value=\"\"/>"
+                   "<Option name=\"properties\" type=\"Map\"><Option name=\"outlineWidth\" type=\"Map\">"
+                   "<Option name=\"active\" type=\"bool\" value=\"true\"/>"
+                   "<Option name=\"expression\" type=\"QString\" value=\"%s\"/>"
+                   "<Option name=\"type\" type=\"int\" value=\"3\"/></Option></Option>"
+                   "<Option name=\"type\" type=\"QString\" value=\"collection\"/></Option>"
+                   "</data_defined_properties></layer>",
+                   expression);
+}
+
 /* outline NULL: none. */
 static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *outline)
 {
@@ -198,6 +218,17 @@ static void add_conflicts(gis_text *to)
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
+/* By the share of the greatest force. */
+static void add_pushes(gis_text *to)
+{
+    begin_single(to);
+    begin_symbol(to, "line", "0");
+    add_line_by(to, "106,61,154,255",
+                "coalesce(0.3 + 2.2 * sqrt(&quot;force&quot; / nullif(maximum(&quot;force&quot;), 0)), 0.3)");
+    gis_text_print(to, "</symbol>\n");
+    end_single(to);
+}
+
 static void add_plain(gis_text *to, kind of, const char *colour, const char *outline)
 {
     begin_single(to);
@@ -216,6 +247,7 @@ void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
     case GIS_STYLE_STATUS: add_by_status(to, of); break;
     case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
     case GIS_STYLE_CONFLICTS: add_conflicts(to); break;
+    case GIS_STYLE_PUSHES: add_pushes(to); break;
     case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;
     case GIS_STYLE_RESULT:
         if (of == OF_POLYGONS)

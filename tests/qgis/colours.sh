@@ -43,6 +43,19 @@ rows barrier_near "'unresolved'" barrier=106,27,154=100 || fail "a conflict near
 rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not grey"
 rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
 
+# Pushes: the wider the harder. Of equal forces all lines are as wide as the widest; of one great force among small ones
+# the others are thin.
+cp "$work/out.gpkg" "$work/pushes.gpkg"
+ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 1" "$work/pushes.gpkg"
+drawn() {
+    "$python" "$here/render_colours.py" "$work/pushes.gpkg" "$work/pushes.png" buildings_pushes -- pushes=106,61,154=50 |
+        sed -n 's/^pushes.*: \([0-9]*\) pixels.*/\1/p'
+}
+wide=$(drawn)
+ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 0.0001 WHERE fid > 1" "$work/pushes.gpkg"
+thin=$(drawn)
+[ "$wide" -gt 50 ] && [ "$thin" -lt $((wide * 7 / 10)) ] || fail "pushes are not drawn by their force: $wide and $thin pixels"
+
 # Without styles QGIS draws one colour of its own choice: then none of ours may be there, or the test proves nothing.
 "$SUNDER" separate --input-layer buildings --gap 3 --max-shift 1 --allow-conflicts --no-styles --quiet \
     "$town" "$work/plain.gpkg"

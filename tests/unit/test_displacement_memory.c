@@ -86,7 +86,7 @@ static void run_beside(bool check, double gap, double limit, bool barriers)
     street s = {.check = check, .limit = limit, .barriers = barriers};
     sunder_layer_options_init(&s.options);
     s.options.gap = gap;
-    s.options.keep_trees = true;
+    s.options.keep_trees = s.options.keep_pushes = true;
     failing_begin();
     const bool sound = failing_loop(attempt, &s, true);
     failing_end();

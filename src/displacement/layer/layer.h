@@ -32,7 +32,7 @@ typedef struct sunder_i_rules {
     sunder_containment contained;
     unsigned threads;
     double effort; /* >= 0 */
-    bool keep_trees;
+    bool keep_trees, keep_pushes;
     sunder_progress progress; /* NULL: nobody asks how far it is */
     void *progress_user;
 } sunder_i_rules;

@@ -52,6 +52,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
     rules->contained = o->contained;
     rules->effort = o->effort;
     rules->keep_trees = o->keep_trees;
+    rules->keep_pushes = o->keep_pushes;
     rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();
     rules->progress = o->progress;
     rules->progress_user = o->progress_user;

@@ -238,6 +238,31 @@ double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_f
     return inside <= 0 ? inside : nearest;
 }
 
+double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double u[2],
+                                 double n[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const double distance = sunder_i_forbidden_distance(f, piece, u);
+    double best = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        const double along = wy * e->n[0] - wx * e->n[1], past = fmin(0, along) + fmax(0, along - e->length);
+        const double far = distance > 0 && s > 0 ? hypot(s, past) : fabs(s);
+        if ((distance > 0 && s <= 0) || fabs(far - fabs(distance)) >= best) continue;
+        best = fabs(far - fabs(distance));
+        /* From the nearest place of the edge; inside, square to its line. */
+        const double out = distance > 0 ? past : 0, length = hypot(s, out);
+        n[0] = length > 0 ? (s * e->n[0] - out * e->n[1]) / length : e->n[0];
+        n[1] = length > 0 ? (s * e->n[1] + out * e->n[0]) / length : e->n[1];
+        if (distance <= 0) {
+            n[0] = e->n[0];
+            n[1] = e->n[1];
+        }
+    }
+    return distance;
+}
+
 /* Where the line is in the disc about c. */
 static void span_disc(const double c[2], double radius, const double from[2], const double dir[2], double span[2])
 {

@@ -40,6 +40,9 @@ void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
 /* The distance of u from K: negative inside, then of the nearest line of an edge. */
 double sunder_i_forbidden_distance(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
                                    const double u[2]);
+/* The same, and the direction in which that grows. */
+double sunder_i_forbidden_normal(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
+                                 const double u[2], double n[2]);
 /* Where the line from + s dir is in the piece grown: span[0] <= s <= span[1], up to rounding; false: nowhere. |dir| is
  * 1. */
 bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,

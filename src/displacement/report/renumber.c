@@ -4,6 +4,7 @@
 
 #include "base/invariant.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -88,6 +89,42 @@ static void number_tree(sunder_bound_tree *tree, const size_t *number)
     }
 }
 
+static bool is_same_pair(const sunder_push *p, const sunder_push *q) { return p->a == q->a && p->b == q->b; }
+
+/* By pairs; what is of one pair in an order of its own, so that sums do not depend on it. */
+static int by_push(const void *x, const void *y)
+{
+    const sunder_push *p = x, *q = y;
+    if (p->a != q->a) return p->a < q->a ? -1 : 1;
+    if (p->b != q->b) return p->b < q->b ? -1 : 1;
+    if (p->force != q->force) return p->force < q->force ? -1 : 1;
+    if (p->n[0] != q->n[0]) return p->n[0] < q->n[0] ? -1 : 1;
+    return p->n[1] < q->n[1] ? -1 : p->n[1] > q->n[1];
+}
+
+/* By pairs, the lesser first; of each pair one, of the sum of forces. */
+static void number_pushes(sunder_report *report, const size_t *number)
+{
+    sunder_push *push = report->push;
+    size_t n = 0;
+    for (size_t k = 0; k < report->pushes; k++) {
+        const size_t a = number[push[k].a], b = number[push[k].b];
+        push[k].a = a < b ? a : b;
+        push[k].b = a < b ? b : a;
+        for (int c = 0; a > b && c < 2; c++) push[k].n[c] = -push[k].n[c];
+    }
+    if (report->pushes) qsort(push, report->pushes, sizeof *push, by_push);
+    for (size_t k = 0, end; k < report->pushes; k = end) {
+        double sum[2] = {0, 0};
+        for (end = k; end < report->pushes && is_same_pair(&push[k], &push[end]); end++)
+            for (int c = 0; c < 2; c++) sum[c] += push[end].force * push[end].n[c];
+        const double force = hypot(sum[0], sum[1]);
+        if (!(force > 0)) continue;
+        push[n++] = (sunder_push){push[k].a, push[k].b, force, {sum[0] / force, sum[1] / force}};
+    }
+    report->pushes = n;
+}
+
 /* Blocks by their first members. */
 static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
 {
@@ -129,6 +166,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const size_t *numb
         p->b = a < b ? b : a;
     }
     for (size_t k = 0; !status && k < report->bound_trees; k++) number_tree(&report->bound_tree[k], number);
+    if (!status) number_pushes(report, number);
     if (!status && report->summary.max_feature != SIZE_MAX)
         report->summary.max_feature = number[report->summary.max_feature];
     sunder_i_free(move);

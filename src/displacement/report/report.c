@@ -82,6 +82,7 @@ void sunder_report_free(sunder_report *r)
     sunder_i_free(r->bound_pair);
     for (size_t k = 0; k < r->bound_trees; k++) sunder_i_bound_tree_free(&r->bound_tree[k]);
     sunder_i_free(r->bound_tree);
+    sunder_i_free(r->push);
     sunder_i_free(r);
 }
 
@@ -137,6 +138,12 @@ const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, 
 {
     *n = report->bound_trees;
     return report->bound_tree;
+}
+
+const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n)
+{
+    *n = report->pushes;
+    return report->push;
 }
 
 const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)

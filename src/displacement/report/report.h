@@ -19,6 +19,8 @@ struct sunder_report {
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
     size_t bound_trees;
+    sunder_push *push;
+    size_t pushes;
     sunder_layer_summary summary;
 };
 
@@ -65,6 +67,11 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
 
 /* Contact groups, those of them that are optimal, and what is proved of them added to the bound. */
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
+
+/* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
+
+/* How hard pairs in contact are pressed, where that is wanted. */
+sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 

@@ -40,6 +40,12 @@
 #define SWEEPS 400
 #define STILL 1e-7
 
+/* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
+
+/* Contact, as a share of the gap or of a body; and to what share of the moves their program is solved. */
+#define IN_CONTACT 0x1p-20
+#define PRESSED 1e-9
+
 /* ---- What would free a conflict (needs.c) ------------------------------------------------------------------------ */
 
 /* So many features move in a question at most, the two apart: it takes some milliseconds then. */

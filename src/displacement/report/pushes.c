@@ -1,0 +1,164 @@
+/* What holds the features of a contact group where they are: the forces of its last program.
+ *
+ * In the result every pair in contact stands on the boundary of what it may not do, and there has a half-plane that it
+ * keeps: one for each piece that it touches. Of all moves that keep these half-planes, and limits, those of the result
+ * cost least, up to rounding, where it is at an optimum; the multipliers say how hard each pair is pressed. They are
+ * found in doubles, and decide nothing.
+ *
+ *   several pieces of one pair    one push, the sum of theirs (renumber.c)
+ *   a feature at its limit        the limit pushes too, and is nobody's pair
+ *   a pair left in conflict       is asked for nothing, and does not push */
+#include "displacement/programs/quadratic.h"
+#include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
+
+#include "base/watch.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct pressing {
+    const sunder_i_solver *solver;
+    const sunder_i_group *group;
+    sunder_i_waived waived;
+    sunder_i_quadratic program;
+    sunder_push *push; /* of the constraints: whose */
+    size_t push_capacity;
+    sunder_i_list near;
+    sunder_report *report;
+    size_t capacity; /* of the report's */
+} pressing;
+
+static size_t place_of(const sunder_i_group *g, uint32_t body)
+{
+    const uint32_t *at = bsearch(&body, g->body, g->n, sizeof body, sunder_i_by_number);
+    return at ? (size_t)(at - g->body) : SIZE_MAX;
+}
+
+/* What counts as contact: a hair of the gap or, where that is 0, of the smaller body; and what is asked beyond it. */
+static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_body *b)
+{
+    double length = p->solver->model.rules.gap;
+    if (!(length > 0))
+        length = fmin(a->box[2] - a->box[0] + a->box[3] - a->box[1], b->box[2] - b->box[0] + b->box[3] - b->box[1]);
+    return IN_CONTACT * length + 2 * p->group->margin;
+}
+
+static bool add(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
+{
+    sunder_i_quadratic *q = &p->program;
+    if (!sunder_i_reserve(&q->constraint, &q->capacity, q->n + 1, sizeof *q->constraint) ||
+        !sunder_i_reserve(&p->push, &p->push_capacity, q->n + 1, sizeof *p->push))
+        return false;
+    p->push[q->n] = (sunder_push){.a = a, .b = b};
+    q->constraint[q->n++] = *c;
+    return true;
+}
+
+/* The half-planes of bodies i and j of the group, where they touch. */
+static bool add_pair(pressing *p, size_t i, size_t j)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t a = p->group->body[i], b = p->group->body[j];
+    const double *t = model->move + 2 * (size_t)a, *v = model->move + 2 * (size_t)b, u[2] = {v[0] - t[0], v[1] - t[1]};
+    const double hair = hair_of(p, &model->body[a], &model->body[b]);
+    sunder_i_forbidden f;
+    bool ok = sunder_i_forbidden_init(&f, model, &p->waived, a, b, fabs(u[0]) + fabs(u[1]) + hair);
+    for (size_t k = 0; k < f.pieces && ok; k++) {
+        const sunder_i_forbidden_piece *piece = &f.piece[k];
+        sunder_i_constraint c = {.i = (uint32_t)i, .j = (uint32_t)j};
+        if (fabs(sunder_i_forbidden_normal(&f, piece, u, c.n) - piece->radius) > hair) continue;
+        c.d = c.n[0] * u[0] + c.n[1] * u[1];
+        ok = add(p, &c, piece->a->feature, piece->b->feature);
+    }
+    sunder_i_forbidden_free(&f);
+    return ok;
+}
+
+/* Those that stand near body i, or near its way there, each pair once. */
+static bool add_pairs_of(pressing *p, size_t i)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t b = p->group->body[i];
+    const sunder_i_body *body = &model->body[b];
+    const double home[2] = {0, 0};
+    double box[4], start[4];
+    if (body->fixed || body->pieces == 0) return true;
+    p->near.n = 0;
+    sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + hair_of(p, body, body), box);
+    sunder_i_body_box(body, home, model->rules.gap, start);
+    if (!model->rules.jumps) sunder_i_box_join(box, start);
+    if (!sunder_i_rtree_query(model->standing, box, &p->near)) return false;
+    for (size_t k = 0; k < p->near.n; k++) p->near.item[k] = model->body_of[p->near.item[k]];
+    p->near.n = sunder_i_set_make(p->near.item, p->near.n);
+    for (size_t k = 0; k < p->near.n; k++) {
+        const size_t j = place_of(p->group, p->near.item[k]);
+        if (j == SIZE_MAX || j == i || (!model->body[p->near.item[k]].fixed && j < i)) continue;
+        if (!sunder_i_step() || !add_pair(p, i, j)) return false;
+    }
+    return true;
+}
+
+/* -t.n >= -|t| for one that stands at its limit. */
+static bool add_limit(pressing *p, size_t i)
+{
+    const sunder_i_model *model = &p->solver->model;
+    const uint32_t b = p->group->body[i];
+    const double *t = model->move + 2 * (size_t)b, length = hypot(t[0], t[1]);
+    if (model->body[b].fixed || !(length > 0) || length < model->body[b].limit * (1 - IN_CONTACT)) return true;
+    const sunder_i_constraint c = {
+        .i = (uint32_t)i, .j = SUNDER_I_GROUND, .n = {t[0] / length, t[1] / length}, .d = -length};
+    return add(p, &c, SIZE_MAX, SIZE_MAX);
+}
+
+/* What presses, each by itself: those of one pair are added up when their numbers are known. */
+static bool report_forces(pressing *p)
+{
+    const sunder_i_quadratic *q = &p->program;
+    sunder_report *r = p->report;
+    for (size_t k = 0; k < q->n; k++) {
+        const sunder_i_constraint *c = &q->constraint[k];
+        if (!(c->force > 0) || !isfinite(c->force) || p->push[k].a == SIZE_MAX) continue;
+        if (!sunder_i_reserve(&r->push, &p->capacity, r->pushes + 1, sizeof *r->push)) return false;
+        r->push[r->pushes++] = (sunder_push){p->push[k].a, p->push[k].b, c->force, {c->n[0], c->n[1]}};
+    }
+    return true;
+}
+
+static bool press(pressing *p, const sunder_i_group *g)
+{
+    const sunder_i_model *model = &p->solver->model;
+    double *mass = sunder_i_alloc(g->n, sizeof *mass), *t = sunder_i_calloc(2 * g->n, sizeof *t), size = 0;
+    bool ok = mass && t;
+    p->group = g;
+    p->program.bodies = g->n;
+    p->program.mass = mass;
+    p->program.t = t;
+    p->program.n = 0;
+    p->program.work = 0;
+    for (size_t i = 0; i < g->n && ok; i++) {
+        const sunder_i_body *body = &model->body[g->body[i]];
+        const double *move = model->move + 2 * (size_t)g->body[i];
+        mass[i] = body->fixed ? 0 : 0.5 / body->weight;
+        size = fmax(size, hypot(move[0], move[1]));
+        ok = add_pairs_of(p, i) && add_limit(p, i);
+    }
+    if (ok && p->program.n && size > 0)
+        ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && report_forces(p);
+    sunder_i_free(mass);
+    sunder_i_free(t);
+    return ok;
+}
+
+sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solver *s, sunder_error *err)
+{
+    pressing p = {.solver = s, .waived = {s->groups.waived, s->groups.waived_n}, .report = report};
+    bool ok = true;
+    if (s->model.rules.keep_pushes)
+        for (size_t k = 0; k < s->groups.n && ok; k++) ok = press(&p, &s->groups.group[k]);
+    sunder_i_free(p.program.constraint);
+    sunder_i_free(p.push);
+    sunder_i_free(p.near.item);
+    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+}
