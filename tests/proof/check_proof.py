@@ -12,6 +12,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import geopackage  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
 from problem import Problem, Refused, demand  # noqa: E402
@@ -22,6 +23,7 @@ def read_options(words):
     parser.add_argument("proof")
     parser.add_argument("input")
     parser.add_argument("--layer")
+    parser.add_argument("--result", help="a GeoPackage with LAYER_displacement, whose lines begin at the anchors")
     for name in ("where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance"):
@@ -57,6 +59,17 @@ def anchors_of(told):
             yield from anchors_of(value)
 
 
+def check_anchors(problem, path):
+    """The anchors of what moved are the first points of its lines."""
+    compared = 0
+    for attributes, _, lines in geopackage.Layer(path, problem.name + "_displacement").features.values():
+        told = problem.anchors.get(attributes["fid"])
+        if told:
+            compared += 1
+            demand(lines and lines[0][0] == told, "the anchor of", attributes["fid"], "is another in the result")
+    return compared
+
+
 def check(options):
     with open(options.proof, encoding="utf-8") as file:
         lines = [json.loads(line) for line in file]
@@ -79,10 +92,11 @@ def check(options):
     by_pairs = head["lower_bound"] > total and head["lower_bound"] == head["pair_bound"]
     demand(by_pairs or total >= head["lower_bound"], "the bound proved is", float(total), "and not", head["lower_bound"])
     proved = sum(verdicts.check(problem, c, conflicts) for c in conflicts)
+    compared = check_anchors(problem, options.result) if options.result else 0
     told_of_pairs = f" (trees prove {float(total):.9g}; the bound of pairs is not asked about)" if by_pairs else ""
     return (f"bound {head['lower_bound']:.9g} of {head['cost']:.9g}{told_of_pairs}: {len(found)} trees, "
             f"{sum(len(t.nodes) for t in found)} nodes, {sum(len(t.cuts) for t in found)} cuts; "
-            f"{proved} of {len(conflicts)} conflicts with proofs; {problem.trusted} joins not asked about")
+            f"{proved} of {len(conflicts)} conflicts with proofs; {problem.trusted} joins not asked about" + (f"; {compared} anchors are those of the result" if options.result else ""))
 
 
 def main(words):

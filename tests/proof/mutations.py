@@ -117,17 +117,41 @@ def move_part(tree):
 
 def move_anchor(tree):
     for piece in tree["pieces"]:
-        if piece.get("shadow"):
+        if piece.get("shadow") and not is_side(piece):
             part = piece["A"] if len(piece["A"]) == 1 else piece["B"]
             part[0][0] += 0.25
             return ("not the anchor",)
     return False
 
 
+def is_side(piece):
+    return any(isinstance(piece[k], str) and ":" in piece[k] for k in "ab")
+
+
+def move_side(tree):
+    for piece in tree["pieces"]:
+        if piece.get("shadow") and is_side(piece):
+            part = piece["A"] if len(piece["A"]) == 2 else piece["B"]
+            part[0][0] += 0.25
+            part[1][0] += 0.25
+            return ("a side is not of",)
+    return False
+
+
+def leave_feature(tree):
+    """A side anchor out of its feature."""
+    for piece in tree["pieces"]:
+        if piece.get("shadow") and is_side(piece):
+            part = piece["A"] if len(piece["A"]) == 1 else piece["B"]
+            part[0][0] += 1000
+            return ("a side anchor outside of", "two side anchors")
+    return False
+
+
 def fill_shadow(tree):
     """What only a jump forbids, taken for what the gap does: an anchor is no part."""
     for piece in tree["pieces"]:
-        if piece.get("shadow"):
+        if piece.get("shadow") and not is_side(piece):
             del piece["shadow"]
             return ("does not lie in", "not forbidden", "listed")
     return False
@@ -163,7 +187,7 @@ def raise_tree(tree):
 
 
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
-         "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
+         "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor, "side": move_side, "side anchor": leave_feature,
          "shadow": fill_shadow, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}
 

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
 # --proof: what it writes holds, asked by code that shares nothing with the program (check_proof.py), on towns with
-# barriers, limits, fixed features, jumps, and on maps where they are beside the repository; and every untruth is refused
+# barriers, sides, limits, fixed features, jumps, and on maps where they are beside the repository; and every untruth is refused
 # (mutations.py). SUNDER_LAWS=all asks about more towns.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
@@ -11,9 +11,9 @@ here=$SUNDER_SOURCE/tests/proof
 proved() {
     local name=$1 source=$2
     shift 2
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main --proof "$name.jsonl" "$@" 2>err
+    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
-    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings --result o.gpkg "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
     echo "$name $*: $(tail -1 said)"
 }
 
@@ -31,7 +31,7 @@ roads="$town,layer=roads,width=5"
 proved town "$town" --gap 3
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
 refuted roads "$town" --gap 3 --max-shift 10 --barrier "$roads" --need hull --need disc --need cone --need part --need child \
-    --need twice --need bound --need elsewhere --need shadow
+    --need twice --need bound --need elsewhere --need shadow --need anchor --need raised
 proved tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments"
 refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monuments" --need limit --need leaf --need way \
     --need clearance --need blamed
