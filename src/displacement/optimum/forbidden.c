@@ -4,8 +4,8 @@
  * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
  * all. Nothing is asked of pairs that are listed in the report, nor of those of which one lies in the other, or could
  * get there, with leave to overlap it: leaving them out makes the set smaller, and a bound no more than weaker.
- * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass, and
- * of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
+ * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass,
+ * and of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
  *
  * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
  * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so that 8 e S = 2^-50
