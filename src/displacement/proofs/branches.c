@@ -207,6 +207,17 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
     return status;
 }
 
+/* What the candidate violates; where that seems to be nothing, and is to be said of it, by lines made for it. */
+static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
+{
+    size_t n = sunder_i_branching_violations(c, deepest);
+    if (n || c->failed || c->subproblem->coarse > 0) return n;
+    c->closely = true;
+    n = sunder_i_branching_violations(c, deepest);
+    c->closely = false;
+    return n;
+}
+
 sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
@@ -219,9 +230,9 @@ sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, s
         return add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
-    size_t n = sunder_i_branching_violations(c, deepest);
+    size_t n = look(c, deepest);
     while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c))
-        n = sunder_i_branching_violations(c, deepest);
+        n = look(c, deepest);
     if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;
     if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
         return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;

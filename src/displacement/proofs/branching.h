@@ -62,7 +62,8 @@ typedef struct sunder_i_branching {
     sunder_i_way *scratch;
     size_t scratch_capacity;
     sunder_i_list near;
-    bool failed; /* memory is out */
+    bool closely; /* lines are made for the candidate (ways.h) */
+    bool failed;  /* memory is out */
 } sunder_i_branching;
 
 /* Work done so far, and whether that, or who takes part, is more than was allowed. */
@@ -107,8 +108,9 @@ typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
-    bool shadow; /* a or b is an anchor, and in the shadow of the other */
-    bool known; /* nobody joins for it: both take part already, or one of them never moves */
+    bool shadow;  /* a or b is an anchor, and in the shadow of the other */
+    bool known;   /* nobody joins for it: both take part already, or one of them never moves */
+    bool closely; /* as of sunder_i_branching */
 } sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */

@@ -13,9 +13,10 @@
 
 static bool is_rational(const sunder_i_model *model, uint32_t f) { return model->layer->feature[f].shape->rational; }
 
-/* The ways between two pieces: into c->scratch. */
+/* The ways between two pieces: into c->scratch. at: NULL, or as in ways.h. */
 static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
-                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
+                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                        const double *at)
 {
     const sunder_i_model *model = c->model;
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q),
@@ -26,13 +27,14 @@ static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
                                 .nb = b->corners,
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                                 .clearance = clearance,
+                                .at = at,
                                 .coarse = coarse};
     /* Corners of rational shapes are known as the nearest doubles. */
     for (int x = 0; x < 4; x++) {
         if (is_rational(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
         if (is_rational(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
     }
-    const size_t most = SUNDER_I_WAYS_A_CORNER * (parting.na + parting.nb);
+    const size_t most = SUNDER_I_WAYS_A_CORNER * (parting.na + parting.nb) + SUNDER_I_WAYS_MORE;
     c->looked += parting.na + parting.nb;
     if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, most, sizeof *c->scratch)) {
         c->failed = true;
@@ -89,9 +91,9 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             const sunder_i_body_piece *b = &c->model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
-            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false), u);
+            const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
             if (depth > worst->depth)
-                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false, false};
+                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false, false, c->closely};
         }
     }
 }
@@ -102,8 +104,8 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
                            sunder_i_violation *worst)
 {
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
-    const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true), u);
-    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true, false};
+    const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
+    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true, false, false};
 }
 
 /* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
@@ -242,8 +244,8 @@ static int by_nearness(const void *a, const void *b)
 size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
     const standing s = stand(c, o->p), r = stand(c, o->q);
-    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance, o->shadow);
     const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
+    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance, o->shadow, o->closely ? u : NULL);
     depth_of(c, n, u);
     if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
     return n;

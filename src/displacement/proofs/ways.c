@@ -14,6 +14,9 @@
  *              |             Q + g w is beyond n'.u = n'.Q + c g. Two such lines at a right angle make c 0.92.
  *              |
  *
+ * So what is asked for at a corner is up to a thirteenth less than the clearance. Where a place matters that keeps all
+ * of these lines, and not the clearance, one that is made for it stands for a turn so small that it passes beyond it.
+ *
  * Edges that turn by little, or not at all (two walls that face each other make one each), have one line for all, that
  * of their chord: two that are the same but for rounding would each be a case, and the cases of a row of houses double
  * with each.
@@ -42,6 +45,8 @@
 /* Up to these one line, or two, go round a corner, else four. */
 #define SLIGHT 0.92
 #define SQUARE -0.01
+/* Half the turn that a line may stand for that is made for one place. */
+#define WIDEST 0.3
 /* Edges that one line may tell of. */
 #define MOST_IN_RUN 16
 
@@ -142,11 +147,48 @@ static void add_arc(walk *w, const double q[2], const double n1[2], const double
     add(w, n, dot(n, q), w->parting->clearance * fmax(0, c));
 }
 
+static double cross(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
+
+/* As many lines as the turn takes; none, if there is none. */
+static void add_arcs(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt)
+{
+    const double cosine = dot(n1, n2);
+    if (cross(n1, n2) > 0 && cosine < STRAIGHT)
+        add_arc(w, q, n1, n2, tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
+}
+
+/* The direction, turned by an angle, but no farther than to the end. */
+static void turn_to(const double n[2], double angle, const double end[2], double out[2])
+{
+    const double c = cos(angle), s = sin(angle), v[2] = {c * n[0] - s * n[1], s * n[0] + c * n[1]};
+    const bool beyond = angle > 0 ? cross(v, end) <= 0 : cross(v, end) >= 0;
+    const double length = sqrt(dot(v, v));
+    out[0] = beyond ? end[0] : v[0] / length;
+    out[1] = beyond ? end[1] : v[1] / length;
+}
+
+/* Is the place that is asked about within the clearance of corner q, in a direction between the two? Then one line is
+ * turned to there, and stands off by so much that it passes between the place and the arc. */
+static bool turn_at(walk *w, const double q[2], const side *from, const side *to)
+{
+    const double *at = w->parting->at, g = w->parting->clearance, tilt = from->tilt + to->tilt;
+    if (!at) return false;
+    const double v[2] = {at[0] - q[0], at[1] - q[1]}, r = sqrt(dot(v, v)), n[2] = {v[0] / r, v[1] / r};
+    if (!(r > 0) || !(r < g) || !(cross(from->n, n) > 0) || !(cross(n, to->n) > 0)) return false;
+    const double angle = fmin(WIDEST, sqrt((g - r) / g));
+    double low[2], high[2];
+    turn_to(n, -angle, from->n, low);
+    turn_to(n, angle, to->n, high);
+    add_arcs(w, q, from->n, low, tilt);
+    add_arc(w, q, low, high, tilt, 0);
+    add_arcs(w, q, high, to->n, tilt);
+    return true;
+}
+
 static void turn(walk *w, const double q[2], const side *from, const side *to)
 {
-    const double cosine = dot(from->n, to->n), sine = from->n[0] * to->n[1] - from->n[1] * to->n[0];
-    if (!(w->parting->clearance > 0) || sine <= 0 || cosine >= STRAIGHT) return;
-    add_arc(w, q, from->n, to->n, from->tilt + to->tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
+    if (!(w->parting->clearance > 0) || cross(from->n, to->n) <= 0 || dot(from->n, to->n) >= STRAIGHT) return;
+    if (!turn_at(w, q, from, to)) add_arcs(w, q, from->n, to->n, from->tilt + to->tilt);
 }
 
 /* The next edge of K: it joins the last run, or is another. The first run may yet be joined by the last, and waits. */

@@ -12,7 +12,8 @@ typedef struct sunder_i_parting {
     double offset[2]; /* the origin of B less that of A */
     double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
     double clearance;
-    double coarse; /* lines may be short by so much of what they could say, where one can stand for several */
+    const double *at; /* NULL, or a relative move at which the lines are to tell whether the clearance is kept */
+    double coarse;    /* lines may be short by so much of what they could say, where one can stand for several */
 } sunder_i_parting;
 
 /* A half-plane of relative moves u of B. */
@@ -23,6 +24,7 @@ typedef struct sunder_i_way {
 } sunder_i_way;
 
 #define SUNDER_I_WAYS_A_CORNER 5
+#define SUNDER_I_WAYS_MORE 8
 
 /* Half-planes such that every u outside the shadow of A + (-B) from the origin (obstacles/shadow.h), or on its
  * boundary, lies in one of them, exactly; one of the two is an anchor, of one corner, and the clearance does not
@@ -30,7 +32,8 @@ typedef struct sunder_i_way {
 size_t sunder_i_ways_past(const sunder_i_parting *parting, sunder_i_way *out);
 
 /* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for
- * SUNDER_I_WAYS_A_CORNER (na + nb) of them. Returns how many; 0 where rounding hides the parts' own interior. */
+ * SUNDER_I_WAYS_A_CORNER (na + nb) + SUNDER_I_WAYS_MORE of them. Returns how many; 0 where rounding hides the parts'
+ * own interior. */
 size_t sunder_i_ways_between(const sunder_i_parting *parting, sunder_i_way *out);
 
 #endif
