@@ -505,12 +505,12 @@ typedef enum sunder_conflict_kind {
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,      /* of check: nothing was tried */
-    SUNDER_REASON_MAX_SHIFT, /* proved: the pair cannot be parted, or brought inside, within both limits together */
-    SUNDER_REASON_FIXED,     /* neither may move */
-    SUNDER_REASON_SIDE,    /* proved: every solution of the pair alone within its limits crosses a side of a barrier */
-    SUNDER_REASON_JUMP,    /* proved: no solution of the pair alone within its limits is without a jump */
-    SUNDER_REASON_NO_ROOM, /* proved: the pair and all pairs not listed have no solution in which other listed
+    SUNDER_REASON_NONE,       /* of check: nothing was tried */
+    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
+    SUNDER_REASON_FIXED,      /* neither may move */
+    SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone, each with its block, crosses no side */
+    SUNDER_REASON_JUMP,       /* proved: no solution of the pair alone, each with its block, is without a jump */
+    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
                                * pairs are no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* they move as one */
     SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */

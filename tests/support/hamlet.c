@@ -317,9 +317,12 @@ void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, o
         keep_houses_apart(&p, pair->a, pair->b);
     else
         keep_off_barrier(&p, pair->a, pair->b - t->n);
-    for (size_t k = 0; k < t->barriers && rules & HAMLET_KEEP_SIDES; k++) {
-        keep_side(&p, pair->a, k);
-        if (pair->b < t->n) keep_side(&p, pair->b, k);
+    const size_t of_a = p.body_of[pair->a], of_b = pair->b < t->n ? p.body_of[pair->b] : SIZE_MAX;
+    for (size_t x = 0; x < t->n; x++) {
+        const bool with_a = p.body_of[x] == of_a, with_b = p.body_of[x] == of_b;
+        for (size_t k = 0; k < t->barriers && rules & HAMLET_KEEP_SIDES; k++)
+            if (with_a || with_b) keep_side(&p, x, k);
+        for (size_t y = 0; y < x && rules & HAMLET_KEEP_FROM_JUMPS; y++)
+            if ((with_a && p.body_of[y] == of_b) || (with_b && p.body_of[y] == of_a)) keep_from_jumps(&p, y, x);
     }
-    if (rules & HAMLET_KEEP_FROM_JUMPS && pair->b < t->n) keep_from_jumps(&p, pair->a, pair->b);
 }

@@ -68,8 +68,8 @@ typedef enum hamlet_rules {
  * NULL, it is. */
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
                  optimum_problem *m);
-/* One pair alone; with the sides of its features towards all barriers, and their ways past each other, as rules says.
- */
+/* One pair alone; with the sides of both and their blocks towards all barriers, and the ways of these past each other,
+ * as rules says. */
 void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, optimum_problem *m);
 
 #endif

@@ -46,8 +46,8 @@ static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
 {
     area room = {.n = DISC_SIDES};
     const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
-    const double last = sunder_i_limit_of(&c->model->body[o->q]),
-                 reach = sunder_i_limit_of(&c->model->body[o->p]) + last;
+    const double last = sunder_i_branching_limit(c, &c->model->body[o->q]),
+                 reach = sunder_i_branching_limit(c, &c->model->body[o->p]) + last;
     const double r = reach / cos(TURN / (2 * DISC_SIDES));
     for (int k = 0; k < DISC_SIDES; k++) {
         room.xy[2 * k] = r * cos(TURN * k / DISC_SIDES);

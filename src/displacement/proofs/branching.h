@@ -7,6 +7,8 @@
 #include "displacement/proofs/feasibility.h"
 #include "displacement/proofs/ways.h"
 
+#include <math.h>
+
 /* No deeper than this. */
 #define SUNDER_I_LEVELS 192
 
@@ -72,6 +74,13 @@ static inline uint64_t sunder_i_branching_work(const sunder_i_branching *c) { re
 static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
 {
     return sunder_i_branching_work(c) > c->subproblem->effort || c->bodies > c->subproblem->most;
+}
+
+/* How far a body may go. */
+static inline double sunder_i_branching_limit(const sunder_i_branching *c, const sunder_i_body *body)
+{
+    const double limit = sunder_i_limit_of(body);
+    return limit == INFINITY && c->subproblem->instead > 0 ? c->subproblem->instead : limit;
 }
 
 /* ---- participants.c ---------------------------------------------------------------------------------------------- */

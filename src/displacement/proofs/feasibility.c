@@ -55,7 +55,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     bool limited = subproblem->bodies <= subproblem->most;
     for (size_t k = 0; k < subproblem->bodies && limited; k++) {
         const sunder_i_body *b = &subproblem->model->body[subproblem->body[k]];
-        limited = limited && (b->fixed || isfinite(b->limit));
+        limited = limited && (b->fixed || isfinite(b->limit) || subproblem->instead > 0);
         sunder_i_branching_join(&c, subproblem->body[k]);
     }
     sunder_status status = c.failed ? sunder_i_no_memory(err) : SUNDER_OK;

@@ -35,6 +35,8 @@ typedef struct sunder_i_subproblem {
     double coarse;
     bool every_side; /* the sides of barriers that are not among them are heeded, too */
     bool any_jump;   /* features may jump over each other */
+    bool every_way;  /* the ways of all members of `body` are heeded, whoever else is not */
+    double instead;  /* > 0: a limit for those that have none; else they are not asked about */
     uint64_t effort; /* in constraints looked at */
     size_t most;     /* it ends where more bodies than these take part */
 } sunder_i_subproblem;

@@ -26,7 +26,7 @@ uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
 uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
 {
     const uint32_t known = sunder_i_branching_place(c, body);
-    const double limit = sunder_i_limit_of(&c->model->body[body]);
+    const double limit = sunder_i_branching_limit(c, &c->model->body[body]);
     if (known != SUNDER_I_GROUND) return known;
     set_scale(c, &c->model->body[body], limit);
     if (!(limit > 0)) return SUNDER_I_GROUND;
@@ -103,16 +103,25 @@ static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double
 {
     const sunder_i_model *model = c->model;
     const sunder_i_body *p = &model->body[model->body_of[f]], *r = &model->body[model->body_of[g]];
-    *reach = (p->fixed ? 0 : p->limit) + (r->fixed ? 0 : r->limit);
+    *reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, r);
     return p != r && *reach > 0 && isfinite(*reach);
+}
+
+/* Or only its ways. */
+static bool is_way_heeded(const sunder_i_branching *c, uint32_t f)
+{
+    const sunder_i_subproblem *q = c->subproblem;
+    for (size_t k = 0; k < q->bodies && q->every_way; k++)
+        if (q->body[k] == c->model->body_of[f]) return true;
+    return is_heeded(c, f);
 }
 
 bool sunder_i_branching_shades(const sunder_i_branching *c, uint32_t f, uint32_t g)
 {
     const bool side = sunder_i_is_barrier(c->model, g);
     double reach;
-    return can_move(c, f, g, &reach) && is_heeded(c, f) && ((side && c->subproblem->every_side) || is_heeded(c, g)) &&
-           (side || !sunder_i_is_held(c->model, f, g));
+    return can_move(c, f, g, &reach) && is_way_heeded(c, f) &&
+           ((side && c->subproblem->every_side) || is_way_heeded(c, g)) && (side || !sunder_i_is_held(c->model, f, g));
 }
 
 bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g, double *clearance)

@@ -19,7 +19,7 @@ static size_t fill_ways(sunder_i_branching *c, const sunder_i_body *p, const sun
                         const double *at)
 {
     const sunder_i_model *model = c->model;
-    const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q),
+    const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q),
                  coarse = isfinite(reach) ? c->subproblem->coarse * reach : 0;
     sunder_i_parting parting = {.a = model->corner + 2 * (size_t)a->corner,
                                 .b = model->corner + 2 * (size_t)b->corner,

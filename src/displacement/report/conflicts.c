@@ -194,9 +194,9 @@ static double limit_of(const sunder_i_model *model, size_t f)
 }
 
 /* Is it a rule about ways that leaves the pair by itself no solution: sides of barriers and, unless any_jump, that
- * against jumps? Proved, or false. */
-static sunder_status must_pass(const sunder_i_model *model, const sunder_conflict *c, bool any_jump, bool *must,
-                               sunder_error *err)
+ * against jumps? Whoever is of their blocks goes with them. Proved, or false. */
+static sunder_status must_pass(const sunder_i_model *model, const sunder_conflict *c, bool any_jump, double instead,
+                               bool *must, sunder_error *err)
 {
     const size_t bodies = c->b < model->features ? 2 : 1;
     const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
@@ -208,14 +208,41 @@ static sunder_status must_pass(const sunder_i_model *model, const sunder_conflic
                                        .b = feature[1],
                                        .feature = feature,
                                        .features = 2,
-                                       .every_side = true,
+                                       .every_side = instead == 0,
                                        .any_jump = any_jump,
+                                       .every_way = true,
+                                       .instead = instead,
                                        .effort = ALONE_EFFORT,
                                        .most = ALONE_MOST};
     sunder_i_decision decision;
     const sunder_status status = sunder_i_decide(&alone, &decision, err);
     *must = decision.verdict == SUNDER_I_INFEASIBLE;
     sunder_i_decision_clear(&decision);
+    return status;
+}
+
+/* A relative move that is longer leaves the two apart by more than the gap. */
+static double farthest_near(const sunder_i_model *model, const sunder_conflict *c)
+{
+    const sunder_i_body *p = &model->body[model->body_of[c->a]], *q = &model->body[model->body_of[c->b]];
+    double reach = 0;
+    for (int k = 0; k < 2; k++) {
+        const double offset = q->origin[k] - p->origin[k];
+        reach += fmax(fabs(p->box[k + 2] - offset - q->box[k]), fabs(p->box[k] - offset - q->box[k + 2]));
+    }
+    return reach + 2 * model->rules.gap;
+}
+
+/* The same where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a
+ * relative move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no
+ * solution a little farther than there has none at all; sides, which are about moves of the one, are left out. */
+static sunder_status reason_without_limit(const sunder_i_model *model, const sunder_conflict *c, sunder_reason *reason,
+                                          sunder_error *err)
+{
+    bool must;
+    if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
+    const sunder_status status = must_pass(model, c, false, 2 * farthest_near(model, c), &must, err);
+    if (!status && must) *reason = SUNDER_REASON_JUMP;
     return status;
 }
 
@@ -228,7 +255,7 @@ static sunder_status reason_of(const sunder_i_model *model, const sunder_conflic
         return SUNDER_OK;
     }
     *reason = SUNDER_REASON_UNRESOLVED;
-    if (la + lb == INFINITY) return SUNDER_OK;
+    if (la + lb == INFINITY) return reason_without_limit(model, c, reason, err);
     /* Too far for the two limits together? The pair by itself, as it stood, tells. */
     sunder_i_resolution resolution;
     sunder_status status = sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
@@ -236,11 +263,11 @@ static sunder_status reason_of(const sunder_i_model *model, const sunder_conflic
     const bool jump = !model->rules.jumps && c->b < model->features;
     if (status || resolution.beyond || (!jump && model->sides == 0)) return status;
     bool must;
-    status = must_pass(model, c, !jump, &must, err);
+    status = must_pass(model, c, !jump, 0, &must, err);
     if (status || !must) return status;
     *reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
     if (!jump || model->sides == 0) return SUNDER_OK;
-    status = must_pass(model, c, true, &must, err);
+    status = must_pass(model, c, true, 0, &must, err);
     if (!status && must) *reason = SUNDER_REASON_SIDE;
     return status;
 }
