@@ -65,7 +65,8 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
             sunder_i_box_join(body->anchors, anchor->box);
         }
     }
-    return find_holders(model, err);
+    const sunder_status found = find_holders(model, err);
+    return found ? found : sunder_i_model_find_seams(model, err);
 }
 
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g)

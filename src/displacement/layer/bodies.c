@@ -30,7 +30,7 @@ static void cut_feature(sunder_i_model *model, sunder_i_body *body, uint32_t f, 
     }
 }
 
-/* The corners of an anchor, or of a side; false if it is a piece of a shape. */
+/* The corners of an anchor, a side or a seam; false if it is a piece of a shape. */
 static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
 {
     const uint32_t f = piece->feature;
@@ -45,6 +45,11 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
         if (piece != &side->piece) continue;
         memcpy(out, side->from, 2 * sizeof *out);
         memcpy(out + 2, side->to, 2 * sizeof *out);
+        at = out;
+    }
+    for (uint32_t k = body->seam; !at && k < body->seam + body->seams; k++) {
+        if (piece != &model->seam[k]) continue;
+        memcpy(out, model->seam_at + 8 * (size_t)k, 8 * sizeof *out);
         at = out;
     }
     return at;

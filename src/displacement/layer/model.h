@@ -15,6 +15,7 @@ typedef struct sunder_i_body {
     uint32_t member, members; /* its features: members of them in sunder_i_model.member from there */
     uint32_t piece, pieces;   /* its convex pieces in sunder_i_model.piece */
     uint32_t wall, walls;     /* the edges of its members that keep others inside, in sunder_i_model.wall */
+    uint32_t seam, seams;     /* pieces that cover what is between its pieces, in sunder_i_model.seam */
     uint32_t side, sides;     /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
     double weight;            /* the sum of its members' */
     double limit;             /* the strictest of its members' */
@@ -71,7 +72,10 @@ struct sunder_i_model {
     /* Where jumps are not allowed; else NULL: */
     sunder_i_body_piece *anchor; /* [things] each anchor as a piece of one corner; barriers have none */
     double *anchor_at;           /* [2 * features] the anchors as they are */
-    sunder_i_id_pair *held;      /* a feature, and one of another body that holds its anchor; sorted */
+    sunder_i_body_piece *seam;   /* convex pieces of features about the diagonals between their pieces; seams.c */
+    double *seam_at;             /* [8 * seams] their four corners as they are */
+    size_t seams;
+    sunder_i_id_pair *held; /* a feature, and one of another body that holds its anchor; sorted */
     size_t held_n;
     /* Where barriers have sides; else NULL: */
     sunder_i_side *side;
@@ -176,6 +180,11 @@ const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t b
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
 /* Does g, of another body, hold the anchor of f? Then f may leave it. */
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
+
+/* ---- seams.c ----------------------------------------------------------------------------------------------------- */
+
+/* The seams of all features; after the pieces are cut. */
+sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 

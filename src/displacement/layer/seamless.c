@@ -78,6 +78,22 @@ static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
     return true;
 }
 
+bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n)
+{
+    sunder_i_diagonals diagonals;
+    *n = 0;
+    *corner = NULL;
+    if (shape->pieces < 2) return true;
+    if (!sunder_i_diagonals_find(shape, &diagonals)) return false;
+    *corner = sunder_i_alloc(8 * diagonals.n, sizeof **corner);
+    for (size_t i = 0; *corner && i < diagonals.n; i++)
+        if (all_doubles(shape, diagonals.corner[i]) &&
+            find_quadrilateral(shape->xy, diagonals.corner[i], *corner + 8 * *n))
+            ++*n;
+    sunder_i_diagonals_free(&diagonals);
+    return *corner != NULL;
+}
+
 /* The pieces of the shape, and the quadrilaterals. */
 static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonals *diagonals, sunder_i_seamless *out,
                               sunder_error *err)

@@ -12,6 +12,9 @@ typedef struct sunder_i_seamless {
 
 /* Of a shape, which is borrowed. Failure leaves what sunder_i_seamless_free() takes. */
 sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err);
+/* The quadrilaterals alone that cover the shape's diagonals, *n of them: 8 doubles each, counter-clockwise, in *corner,
+ * which is the caller's. False if memory is out. */
+bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n);
 void sunder_i_seamless_free(sunder_i_seamless *seamless);
 
 #endif

@@ -123,9 +123,10 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &model->anchor[f];
-        c->looked += 1 + other->pieces / 4;
-        for (uint32_t l = other->piece; l < other->piece + other->pieces && anchor->corners; l++) {
-            const sunder_i_body_piece *piece = &model->piece[l];
+        c->looked += 1 + (other->pieces + other->seams) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->seams && anchor->corners; l++) {
+            const sunder_i_body_piece *piece =
+                l < other->pieces ? &model->piece[other->piece + l] : &model->seam[other->seam + l - other->pieces];
             if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
                                           way) &&
                 sunder_i_branching_shades(c, f, piece->feature))

@@ -1,0 +1,70 @@
+/* What a feature's convex pieces leave out: the diagonals between them.
+ *
+ * An anchor that goes straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
+ * the pieces (obstacles/shadow.h), on the boundary of both. The feature is in its way all the same. So proofs, which ask
+ * about pieces one by one and may pass on the boundary of each, are given one more about each diagonal: a convex
+ * quadrilateral that lies in the feature (seamless.c). */
+#include "displacement/layer/model.h"
+
+#include "spatial/box.h"
+
+#include <string.h>
+
+typedef struct gathering {
+    sunder_i_model *model;
+    size_t capacity, at_capacity;
+} gathering;
+
+static bool add_seams(gathering *g, uint32_t f)
+{
+    sunder_i_model *model = g->model;
+    double *corner;
+    size_t n;
+    bool ok = sunder_i_seams_find(model->layer->feature[f].shape, &corner, &n);
+    ok = ok && sunder_i_reserve(&model->seam, &g->capacity, model->seams + n, sizeof *model->seam) &&
+         sunder_i_reserve(&model->seam_at, &g->at_capacity, 8 * (model->seams + n), sizeof *model->seam_at);
+    for (size_t k = 0; k < n && ok; k++) {
+        model->seam[model->seams] = (sunder_i_body_piece){.corners = 4, .feature = f};
+        memcpy(model->seam_at + 8 * model->seams++, corner + 8 * k, 8 * sizeof *corner);
+    }
+    sunder_i_free(corner);
+    return ok;
+}
+
+/* Corners from the bodies' origins, behind all others. */
+static sunder_status put_corners(sunder_i_model *model, sunder_error *err)
+{
+    const size_t corners = model->corners + 4 * model->seams;
+    if (corners >= UINT32_MAX) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
+    double *corner = sunder_i_realloc(model->corner, 2 * corners, sizeof *corner);
+    if (!corner) return sunder_i_no_memory(err);
+    model->corner = corner;
+    for (size_t k = 0; k < model->seams; k++) {
+        sunder_i_body_piece *seam = &model->seam[k];
+        const double *origin = model->body[model->body_of[seam->feature]].origin;
+        seam->corner = (uint32_t)model->corners;
+        sunder_i_box_clear(seam->box);
+        for (size_t i = 0; i < 4; i++) {
+            double *to = corner + 2 * model->corners++;
+            for (size_t c = 0; c < 2; c++) to[c] = model->seam_at[8 * k + 2 * i + c] - origin[c];
+            sunder_i_box_include(seam->box, to);
+        }
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err)
+{
+    gathering g = {.model = model};
+    for (size_t b = 0; b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        body->seam = (uint32_t)model->seams;
+        for (uint32_t m = 0; m < body->members; m++) {
+            const uint32_t f = model->member[body->member + m];
+            if (!sunder_i_is_barrier(model, f) && model->present[f] && !add_seams(&g, f))
+                return sunder_i_no_memory(err);
+        }
+        body->seams = (uint32_t)model->seams - body->seam;
+    }
+    return put_corners(model, err);
+}
