@@ -126,8 +126,6 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .keep_trees = options->given[OPT_PROOF],
         .threads = thread_count(options),
     };
-    if (out->keep_trees && !(out->effort > 0))
-        return gis_fail_usage(error, "--proof: with --effort 0 there is nothing to prove; leave one of them out");
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
     return resolve_contained(options, &out->contained, error);

@@ -2,8 +2,8 @@
 
     python3 check_proof.py PROOF INPUT.gpkg [--layer NAME] [options of sunder separate]
 
-Nothing is shared with the program; docs/PROOF.md says what is asked, and why the bound and the verdicts follow. Status 0:
-all of it holds, with a line that says what; 1: something does not, with what; 2: it cannot be asked.
+Nothing is shared with the program; docs/PROOF.md says what is asked, and why the bound and the verdicts follow. Status
+0: all of it holds, with a line that says what; 1: something does not, with what; 2: it cannot be asked.
 """
 import argparse
 import json
@@ -23,7 +23,8 @@ def read_options(words):
     parser.add_argument("proof")
     parser.add_argument("input")
     parser.add_argument("--layer")
-    parser.add_argument("--result", help="a GeoPackage with LAYER_displacement, whose lines begin at the anchors")
+    parser.add_argument("--result", help="a GeoPackage with LAYER_displacement, whose lines begin at the anchors, and "
+                        "LAYER_conflicts, which the proof lists")
     for name in ("where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance"):
@@ -70,6 +71,18 @@ def check_anchors(problem, path):
     return compared
 
 
+def check_conflicts(problem, conflicts, path):
+    """The result lists the same pairs, for the same reasons."""
+    def key(a, b, reason):
+        return (*sorted((str(a), str(b))), reason)
+    listed = []
+    for row, _, _ in geopackage.Layer(path, problem.name + "_conflicts").features.values():
+        other = row["fid_b"] if row["barrier"] is None else f"{row['barrier']}:{row['barr_fid']}"
+        listed.append(key(row["fid_a"], other, row["reason"]))
+    told = [key(c["a"], c["b"], c["reason"]) for c in conflicts]
+    demand(sorted(listed) == sorted(told), "the result lists other conflicts")
+
+
 def check(options):
     with open(options.proof, encoding="utf-8") as file:
         lines = [json.loads(line) for line in file]
@@ -90,13 +103,17 @@ def check(options):
         found[-1].check()
     total = trees.add_up(problem, found)
     by_pairs = head["lower_bound"] > total and head["lower_bound"] == head["pair_bound"]
-    demand(by_pairs or total >= head["lower_bound"], "the bound proved is", float(total), "and not", head["lower_bound"])
+    demand(by_pairs or total >= head["lower_bound"], "the bound proved is", float(total), "and not",
+           head["lower_bound"])
     proved = sum(verdicts.check(problem, c, conflicts) for c in conflicts)
     compared = check_anchors(problem, options.result) if options.result else 0
+    if options.result:
+        check_conflicts(problem, conflicts, options.result)
     told_of_pairs = f" (trees prove {float(total):.9g}; the bound of pairs is not asked about)" if by_pairs else ""
     return (f"bound {head['lower_bound']:.9g} of {head['cost']:.9g}{told_of_pairs}: {len(found)} trees, "
             f"{sum(len(t.nodes) for t in found)} nodes, {sum(len(t.cuts) for t in found)} cuts; "
-            f"{proved} of {len(conflicts)} conflicts with proofs; {problem.trusted} joins not asked about" + (f"; {compared} anchors are those of the result" if options.result else ""))
+            f"{proved} of {len(conflicts)} conflicts with proofs; {problem.trusted} joins not asked about" +
+            (f"; {compared} anchors are those of the result" if options.result else ""))
 
 
 def main(words):

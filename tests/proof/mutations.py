@@ -187,7 +187,8 @@ def raise_tree(tree):
 
 
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
-         "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor, "side": move_side, "side anchor": leave_feature,
+         "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
+         "side": move_side, "side anchor": leave_feature,
          "shadow": fill_shadow, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}
 
@@ -198,7 +199,7 @@ def drop_way(told):
     for node in told["proof"]:
         if len(node.get("ways", [])) > 1:
             last = node["ways"].pop()
-            return ("a direction out", "has no way", "two parents", "another case", "no contradiction") if last else False
+            return bool(last) and ("a direction out", "has no way", "two parents", "another case", "no contradiction")
     return False
 
 

@@ -11,7 +11,7 @@ here=$SUNDER_SOURCE/tests/proof
 proved() {
     local name=$1 source=$2
     shift 2
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement --proof "$name.jsonl" "$@" 2>err
+    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
     python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings --result o.gpkg "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
     echo "$name $*: $(tail -1 said)"
@@ -38,13 +38,19 @@ refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monument
 proved jumps "$town" --gap 2 --allow-jumps --contained separate
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
 
-# As often as it is asked, on however many threads, the same bytes; and no proof without a bound to prove.
+# Without effort, and where conflicts remain, pairs alone may prove more than groups: then trees are theirs.
+"$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --effort 0 --allow-conflicts --proof pairs.jsonl || fail "effort 0"
+python3 "$here/check_proof.py" pairs.jsonl "$town" --layer buildings --gap 3 --result o.gpkg >said || fail "effort 0: $(cat said)"
+grep -q ' [1-9][0-9]* trees' said && ! grep -q 'not asked about)' said || fail "effort 0: $(cat said)"
+proved pairs "$town" --gap 5 --max-shift 1 --barrier "$roads"
+grep -q 'bound of pairs' said && fail "a bound of pairs without its trees"
+
+# As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
 cmp roads.jsonl first.jsonl || fail "another proof"
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --max-shift 10 --barrier "$roads" --threads 3 --proof three.jsonl
 cmp roads.jsonl three.jsonl || fail "another proof on three threads"
-refused 2 'there is nothing to prove' separate "$town" p.gpkg -l buildings --gap 3 --effort 0 --proof p.jsonl
 refused 2 'goes to a file' separate "$town" p.gpkg -l buildings --gap 3 --proof -
 refused 2 'that is an input' separate "$town" p.gpkg -l buildings --gap 3 --proof "$town"
 refused 2 'that is the file of' separate "$town" p.gpkg -l buildings --gap 3 --proof p.json --stats p.json

@@ -34,7 +34,7 @@ class Tree:
             return (told["barrier"],)
         fids = tuple(f["fid"] for f in told["features"])
         for f in told["features"]:
-            demand(f["fid"] in self.problem.things and f["fid"] not in self.problem.ignored, "no such feature", f["fid"])
+            demand(f["fid"] in self.problem.things and f["fid"] not in self.problem.ignored, "no feature", f["fid"])
             if "anchor" in f:
                 self.problem.note_anchor(f["fid"], f["anchor"])
         demand(fids == self.problem.block(fids[0]), "a body is no block:", *fids)
@@ -171,7 +171,8 @@ class Tree:
                 state[k] = [own, regions, len(children[k])]
             elif not empty:
                 value = own if value is None or own < value else value
-        demand(value is None or value >= self.bound, "the tree proves", value and float(value), "and not", float(self.bound))
+        demand(value is None or value >= self.bound, "the tree proves", value and float(value), "and not",
+               float(self.bound))
         return self.bound
 
     def check_node(self, k, node, value, regions, siblings):

@@ -11,7 +11,7 @@ from problem import demand, root_above
 class Verdict:
     def __init__(self, problem, told, conflicts):
         self.problem, self.told, self.nodes = problem, told, told["proof"]
-        self.kinds = {tuple(sorted((str(c["a"]), str(c["b"])))): c["kind"] for c in conflicts if not c.get("inside_block")}
+        self.kinds = {self.key(c["a"], c["b"]): c["kind"] for c in conflicts if not c.get("inside_block")}
         self.own = self.key(told["a"], told["b"])
         self.unit = problem.lattice.unit
 
@@ -65,7 +65,8 @@ class Verdict:
             demand(clearance < 0 and least is not None and least <= clearance * clearance,
                    "a listed pair is held to more than it had:", a, b)
         elif clearance > 0:
-            demand(clearance * clearance <= plane.distance_square(p, q), "a listed pair is held to more than it had:", a, b)
+            demand(clearance * clearance <= plane.distance_square(p, q),
+                   "a listed pair is held to more than it had:", a, b)
 
     def check_ways(self, polygon, ways, clearance):
         """What lies behind all ways is bounded, and its corners are in conflict."""

@@ -18,8 +18,7 @@
 
 /* ---- Rounds ------------------------------------------------------------------------------------------------------ */
 
-/* What is listed is not asked of anybody. */
-static sunder_status waive(sunder_i_solver *s, sunder_error *err)
+sunder_status sunder_i_solver_waive(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_free(s->groups.waived);
     s->groups.waived_n = 0;
@@ -27,7 +26,8 @@ static sunder_status waive(sunder_i_solver *s, sunder_error *err)
     if (!s->groups.waived) return sunder_i_no_memory(err);
     for (size_t k = 0; k < s->now.n; k++)
         if (sunder_i_is_conflict(&s->now.pair[k]))
-            s->groups.waived[s->groups.waived_n++] = (sunder_i_id_pair){s->now.pair[k].a, s->now.pair[k].b};
+            s->groups.waived[s->groups.waived_n++] =
+                (sunder_i_id_pair){s->now.pair[k].a, sunder_i_whole_of(&s->model, s->now.pair[k].b)};
     return SUNDER_OK;
 }
 
@@ -148,10 +148,8 @@ static void part(taking *t, uint32_t a, uint32_t b, bool *any)
 /* A conflict that is to be none. */
 static bool offends(const sunder_i_solver *s, const sunder_i_relation *r)
 {
-    const sunder_i_groups *groups = &s->groups;
-    const sunder_i_id_pair key = {r->a, r->b};
-    return sunder_i_is_conflict_of_bodies(&s->model, r) &&
-           !(groups->waived_n && bsearch(&key, groups->waived, groups->waived_n, sizeof key, sunder_i_by_id_pair));
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
+    return sunder_i_is_conflict_of_bodies(&s->model, r) && !sunder_i_is_waived(&s->model, &waived, r->a, r->b);
 }
 
 /* Does a conflict stand that did not, or did one jump over another? Then who moved goes back: *any. */
@@ -229,7 +227,7 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
     sunder_status status = SUNDER_OK;
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
         bool moved = false;
-        status = waive(s, err);
+        status = sunder_i_solver_waive(s, err);
         if (!status) status = sunder_i_solver_gather_groups(s, err);
         if (!status && !hold(s)) status = sunder_i_no_memory(err);
         if (!status)

@@ -67,6 +67,8 @@ void sunder_i_groups_free(sunder_i_groups *groups);
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
+/* What is listed as things stand is not asked of anybody: s->groups.waived. */
+sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err);
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
 

@@ -42,11 +42,16 @@ typedef struct listing {
     size_t drawn_capacity, hull_capacity;
 } listing;
 
+bool sunder_i_is_waived(const sunder_i_model *model, const sunder_i_waived *w, uint32_t a, uint32_t b)
+{
+    const uint32_t f = sunder_i_whole_of(model, a), g = sunder_i_whole_of(model, b);
+    const sunder_i_id_pair key = f < g ? (sunder_i_id_pair){f, g} : (sunder_i_id_pair){g, f};
+    return w->n && bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair);
+}
+
 static bool owe(const listing *l, uint32_t f, uint32_t g)
 {
-    const sunder_i_id_pair key = f < g ? (sunder_i_id_pair){f, g} : (sunder_i_id_pair){g, f};
-    const sunder_i_waived *w = l->waived;
-    if (w->n && bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair)) return false;
+    if (sunder_i_is_waived(l->model, l->waived, f, g)) return false;
     if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
     return !sunder_i_may_get_inside(&l->model->rules, l->model->box + 4 * (size_t)f, l->model->box + 4 * (size_t)g,
                                     nextafter(l->reach, INFINITY));

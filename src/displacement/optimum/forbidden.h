@@ -24,7 +24,8 @@ typedef struct sunder_i_forbidden {
     double grain; /* more than rounding does to any point, distance or product of that size */
 } sunder_i_forbidden;
 
-/* What is not asked of pairs: features a < b that are listed in the report, sorted. */
+/* What is not asked of pairs: things a < b that are listed in the report, sorted; a barrier by its first part, for a
+ * pair with it is one, whichever part is near. */
 typedef struct sunder_i_waived {
     const sunder_i_id_pair *pair;
     size_t n;
@@ -32,6 +33,7 @@ typedef struct sunder_i_waived {
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */
 
+bool sunder_i_is_waived(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t a, uint32_t b);
 /* The pieces of bodies p and q that meet the disc of radius reach around u = 0 (u: the move of q less that of p).
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,

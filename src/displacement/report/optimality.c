@@ -27,12 +27,10 @@ static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t
 static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
 {
     sunder_i_groups *groups = &s->groups;
+    const sunder_i_waived waived = {groups->waived, groups->waived_n};
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        const sunder_i_id_pair key = {r->a, r->b};
-        if (!sunder_i_is_conflict(r) ||
-            (groups->waived_n && bsearch(&key, groups->waived, groups->waived_n, sizeof key, sunder_i_by_id_pair)))
-            continue;
+        if (!sunder_i_is_conflict(r) || sunder_i_is_waived(&s->model, &waived, r->a, r->b)) continue;
         for (int e = 0; e < 2; e++) {
             const uint32_t number = owner[s->model.body_of[e ? r->b : r->a]];
             if (number != SUNDER_I_NOBODY) listed[number] = true;

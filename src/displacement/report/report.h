@@ -68,6 +68,11 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
 /* Contact groups, those of them that are optimal, and what is proved of them added to the bound. */
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
+/* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
+
+/* Where pairs prove more than contact groups, and trees are kept: trees for them instead. */
+sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
+
 /* ---- pushes.c ---------------------------------------------------------------------------------------------------- */
 
 /* How hard pairs in contact are pressed, where that is wanted. */

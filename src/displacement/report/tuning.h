@@ -40,6 +40,14 @@
 #define SWEEPS 400
 #define STILL 1e-7
 
+/* ---- Trees for the bound of pairs (pair_trees.c) ----------------------------------------------------------------- */
+
+/* So much of the weights is left over, for rounding; steps for each pair; and a bound that is this share less is still
+ * the same one. */
+#define SHARED 0x1p-40
+#define PAIR_STEPS 1000000u
+#define NEARLY_AS_MUCH 0x1p-17
+
 /* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
 
 /* Contact, as a share of the gap or of a body; and to what share of the moves their program is solved. */
