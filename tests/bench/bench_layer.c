@@ -9,6 +9,7 @@
  *   hub        one movable feature that N houses overlap
  *   chain      N squares, each of which overlaps the next
  *   lanes      N houses in lanes that are too narrow for them, and may move 1 m
+ *   grid       N squares of 10 m in a grid, with 1 m between them where 3 m are wanted: one cluster of all
  *   rounds     N pairs, and a row of N / 100 houses, each of which is run into when the one before it is moved
  *
  * One line: family, N, features, conflicts before and after, cost, processor seconds of the separation. */
@@ -132,6 +133,16 @@ static void add_lanes(layout *l, size_t n)
     for (size_t k = 0; k + 1 < n; k++) add_box(l, 400000 + 19.5 * (double)k + 4, 5000000 + 9.5, 20, 6)->max_shift = 1;
 }
 
+/* Places are uneven by a decimetre, so that no two rows are alike. */
+static void add_grid(layout *l, size_t n)
+{
+    const size_t columns = (size_t)ceil(sqrt((double)n));
+    l->gap = 3;
+    for (size_t k = 0; k < n; k++)
+        add_box(l, 400000 + 11 * (double)(k % columns) + random_unit(l) / 10,
+                5000000 + 11 * (double)(k / columns) + random_unit(l) / 10, 10, 10);
+}
+
 static void add_rounds(layout *l, size_t n)
 {
     add_pairs(l, n);
@@ -151,6 +162,7 @@ static void make(layout *l, const char *family, size_t n)
     if (!strcmp(family, "hub")) return add_hub(l, n);
     if (!strcmp(family, "chain")) return add_chain(l, n);
     if (!strcmp(family, "lanes")) return add_lanes(l, n);
+    if (!strcmp(family, "grid")) return add_grid(l, n);
     if (!strcmp(family, "rounds")) return add_rounds(l, n);
     if (strcmp(family, "far")) give_up("no such family");
     add_pairs(l, n);

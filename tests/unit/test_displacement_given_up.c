@@ -160,9 +160,60 @@ static void check_inside(void **state)
     for (size_t k = 0; k < 3; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 
+/* ---- Limits ------------------------------------------------------------------------------------------------------ */
+
+enum { SYMBOLS = 30 };
+
+/* Squares of 3 that lie as they fall, and may go so far; moves: where they went. Returns how many conflicts are
+ * left. */
+static size_t separate_symbols(const double (*at)[2], double limit, double (*move)[2])
+{
+    sunder_feature feature[SYMBOLS];
+    sunder_layer_options options;
+    sunder_layer_options_init(&options);
+    options.no_blocks = options.allow_jumps = true;
+    options.contained = SUNDER_CONTAINMENT_SEPARATE;
+    options.effort = 0;
+    for (size_t k = 0; k < SYMBOLS; k++) {
+        add_box(&feature[k], at[k][0], at[k][1], 3, 3, false);
+        feature[k].max_shift = limit;
+    }
+    sunder_report *report = run_separate(feature, SYMBOLS, &options);
+    for (size_t k = 0; k < SYMBOLS; k++) {
+        sunder_report_move(report, k, &move[k][0], &move[k][1]);
+        sunder_shape_free((sunder_shape *)feature[k].shape);
+    }
+    size_t n;
+    sunder_report_conflicts(report, &n);
+    sunder_report_free(report);
+    return n;
+}
+
+/* A limit that nobody's move reaches changes none of them; and one of four fifths of the longest move leaves few pairs
+ * in conflict, of those that all have a solution without it. The crowds are always the same: how many is a matter of
+ * each. */
+static void check_symbols(void **state)
+{
+    (void)state;
+    size_t left = 0;
+    for (uint64_t crowd = 0; crowd < 12; crowd++) {
+        rng r = rng_start(1, crowd);
+        double at[SYMBOLS][2], free[SYMBOLS][2], within[SYMBOLS][2], longest = 0;
+        for (size_t k = 0; k < SYMBOLS; k++)
+            for (size_t c = 0; c < 2; c++) at[k][c] = (double)rng_int(&r, 0, 620) / 32;
+        assert_int_equal(separate_symbols(at, INFINITY, free), 0);
+        for (size_t k = 0; k < SYMBOLS; k++) longest = fmax(longest, hypot(free[k][0], free[k][1]));
+        assert_int_equal(separate_symbols(at, 1.01 * longest, within), 0);
+        assert_memory_equal(free, within, sizeof free);
+        left += separate_symbols(at, 0.8 * longest, within);
+    }
+    printf("%zu left\n", left);
+    assert_true(left <= 6);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_list), cmocka_unit_test(check_rows),
-                                       cmocka_unit_test(check_inside)};
+                                       cmocka_unit_test(check_inside), cmocka_unit_test(check_symbols)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

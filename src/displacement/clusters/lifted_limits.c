@@ -139,6 +139,11 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *s, bool *any, sund
     bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
     sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
     *any = false;
+    model->lifted = sunder_i_alloc(2 * model->bodies, sizeof *model->lifted);
+    if (model->lifted)
+        memcpy(model->lifted, model->move, 2 * model->bodies * sizeof *model->lifted);
+    else if (!status)
+        status = sunder_i_no_memory(err);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = s->limit[b];
     memset(s->reconsidered, 0, model->bodies * sizeof *s->reconsidered); /* within limits more can be proved */
     if (!status) {

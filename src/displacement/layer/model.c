@@ -37,6 +37,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_relaxations_free(&model->relaxations);
     sunder_i_free(model->given_up);
     sunder_i_free(model->move);
+    sunder_i_free(model->lifted);
     sunder_i_free(model->inexact);
     sunder_i_rtree_free(&model->tree);
     memset(model, 0, sizeof *model);

@@ -97,8 +97,9 @@ struct sunder_i_model {
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
     size_t given_up_n;
-    double *move;  /* [2 * bodies] where each stands now, relative to the start */
-    bool *inexact; /* [things] the translate was rounded */
+    double *move;   /* [2 * bodies] where each stands now, relative to the start */
+    double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
+    bool *inexact;  /* [things] the translate was rounded */
 };
 
 /* ---- Things ------------------------------------------------------------------------------------------------------ */

@@ -35,9 +35,7 @@ double sunder_i_search_look(sunder_i_search *s, const double *t)
     s->clashes = 0;
     sunder_i_search_near(s, t, s->gap, look_at, &l);
     sunder_i_search_passing(s, t, s->gap, look_at, &l);
-    for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0)
-            l.worst = fmax(l.worst, hypot(t[2 * k], t[2 * k + 1]) - sunder_i_search_limit(s, (uint32_t)k));
+    for (uint32_t k = 0; k < s->n; k++) l.worst = fmax(l.worst, sunder_i_search_overstep(s, k, t));
     return l.worst;
 }
 

@@ -13,6 +13,7 @@
 #include "displacement/search/tuning.h"
 
 #include "base/invariant.h"
+#include "base/union_find.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@
 
 /* ---- Constraints ------------------------------------------------------------------------------------------------- */
 
-static int by_key(const void *a, const void *b)
+int sunder_i_by_constraint(const void *a, const void *b)
 {
     const sunder_i_constraint *c = a, *d = b;
     return c->key < d->key ? -1 : c->key > d->key;
@@ -30,12 +31,11 @@ static int by_key(const void *a, const void *b)
 static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
 {
     const sunder_i_constraint wanted = {.key = key};
-    return n ? bsearch(&wanted, c, n, sizeof *c, by_key) : NULL;
+    return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
 }
 
-/* Adds it, unless one of those from `first` on says as much; a weaker one of these is replaced. Pieces of one wall give
- * the same line many times. */
-static void add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
+/* Pieces of one wall give the same line many times. */
+void sunder_i_search_add_constraint(sunder_i_search *s, size_t first, const sunder_i_constraint *c)
 {
     sunder_i_quadratic *p = &s->program;
     for (size_t k = first; k < p->n; k++) {
@@ -97,13 +97,13 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
         d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
         ends[e] = SUNDER_I_GROUND;
     }
-    add_constraint(s, pair->first,
-                   &(sunder_i_constraint){.i = ends[0],
-                                          .j = ends[1],
-                                          .n = {h.n[0], h.n[1]},
-                                          .d = d,
-                                          .force = before ? before->force : 0,
-                                          .key = part->key});
+    sunder_i_search_add_constraint(s, pair->first,
+                                   &(sunder_i_constraint){.i = ends[0],
+                                                          .j = ends[1],
+                                                          .n = {h.n[0], h.n[1]},
+                                                          .d = d,
+                                                          .force = before ? before->force : 0,
+                                                          .key = part->key});
 }
 
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
@@ -133,10 +133,10 @@ static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 
 static void sort_constraints(sunder_i_search *s)
 {
-    if (s->program.n) qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
+    if (s->program.n) qsort(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
 }
 
-/* All constraints around t. Returns whether a pair clashes there. */
+/* All constraints around t. Returns whether a pair clashes there, or a limit is overstepped. */
 static bool constrain_all(sunder_i_search *s, double reach)
 {
     sunder_i_quadratic *p = &s->program;
@@ -152,26 +152,10 @@ static bool constrain_all(sunder_i_search *s, double reach)
     around a = {.t = s->t, .reach = reach};
     sunder_i_search_near(s, s->t, s->gap + reach, constrain, &a);
     sunder_i_search_passing(s, s->t, s->gap + reach, constrain, &a);
+    for (size_t k = 0; k < s->old_n && !s->failed; k++)
+        if (sunder_i_is_tangent(&s->old[k]) && s->old[k].force > 0) sunder_i_search_add_constraint(s, p->n, &s->old[k]);
     sort_constraints(s);
-    return a.clashing;
-}
-
-/* The limits of moves, as tangents of the discs that they are: those that s->next oversteps. Returns whether there were
- * any. */
-static bool constrain_limits(sunder_i_search *s)
-{
-    bool any = false;
-    for (uint32_t k = 0; k < s->n; k++) {
-        const double limit = sunder_i_search_limit(s, k), *t = s->next + 2 * k, length = hypot(t[0], t[1]);
-        if (!(s->mass[k] > 0) || length <= limit * (1 + LIMIT_SLACK)) continue;
-        any = true;
-        const uint64_t key = UINT64_C(1) << 63 | (uint64_t)k << 32 | (uint32_t)s->program.n;
-        add_constraint(
-            s, s->program.n,
-            &(sunder_i_constraint){
-                .i = SUNDER_I_GROUND, .j = k, .n = {-t[0] / length, -t[1] / length}, .d = -limit, .key = key});
-    }
-    return any;
+    return a.clashing || sunder_i_search_is_beyond(s, s->t);
 }
 
 /* ---- Solving one program ----------------------------------------------------------------------------------------- */
@@ -234,7 +218,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
         v = solve(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
         if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
-        bool more = constrain_limits(s);
+        bool more = sunder_i_search_constrain_limits(s);
         sort_constraints(s);
         const size_t before = s->program.n;
         sunder_i_constraint *known = sunder_i_alloc(before, sizeof *known);
@@ -367,7 +351,44 @@ bool sunder_i_search_descend(sunder_i_search *s)
         least_missed = fmin(least_missed, v);
         if (++clashing_rounds >= MOST_CLASHING || idle >= MOST_IDLE) break;
     }
-    if (!free_now && least_left < INFINITY && !s->failed) memcpy(s->t, best, 2 * s->n * sizeof *best);
+    if (!free_now && least_left < INFINITY && !s->failed) {
+        memcpy(s->t, best, 2 * s->n * sizeof *best);
+    }
     sunder_i_free(best);
     return free_now && !s->failed;
+}
+
+/* ---- Where it ended in a compromise -------------------------------------------------------------------------------
+ * */
+
+/* The sets of bodies that constraints hold together, by their roots; what does not move joins none. */
+static void join_constrained(const sunder_i_search *s, uint32_t *root)
+{
+    sunder_i_union_init(root, s->n);
+    for (size_t k = 0; k < s->program.n; k++) {
+        const sunder_i_constraint *c = &s->program.constraint[k];
+        if (c->i != SUNDER_I_GROUND && c->j != SUNDER_I_GROUND) sunder_i_union_join(root, c->i, c->j);
+    }
+}
+
+void sunder_i_search_settle_parts(sunder_i_search *s)
+{
+    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
+    bool *unsolved = sunder_i_calloc(s->n, sizeof *unsolved);
+    s->failed = s->failed || !root || !unsolved;
+    if (!s->failed) constrain_all(s, s->gap);
+    if (!s->failed) {
+        solve_lazily(s, 0);
+        join_constrained(s, root);
+        for (size_t k = 0; k < s->program.n; k++) {
+            const sunder_i_constraint *c = &s->program.constraint[k];
+            const uint32_t of = c->j == SUNDER_I_GROUND ? c->i : c->j;
+            if (!(sunder_i_stretch(c, s->next) >= c->d - s->tolerance)) unsolved[sunder_i_union_find(root, of)] = true;
+        }
+        for (uint32_t k = 0; k < s->n; k++)
+            if (s->mass[k] > 0 && !unsolved[sunder_i_union_find(root, k)])
+                memcpy(s->t + 2 * k, s->next + 2 * k, 2 * sizeof *s->t);
+    }
+    sunder_i_free(root);
+    sunder_i_free(unsolved);
 }

@@ -1,15 +1,21 @@
 /* Clusters without a solution: limits, fixed bodies, or no room between them.
  *
- * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c): all others keep what they owe,
- * and these stand no worse than they stood. What came into a clash besides goes home, until nothing clashes; in the
- * end all are at home, where every relaxation holds. From there the cluster descends as from any other solution:
- * nobody is pushed to ease a pair that stays in conflict. (retry_cluster.c asks them again.) */
+ * Pairs that clash in the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
+ * what they owe, and these stand no worse than they stood. Which ones the compromise tells that the search ended in: it
+ * misses most where the contradiction is. After each few the search goes on from there; and from home, in the end,
+ * since a compromise may have pushed some that nothing needs to move any more.
+ *
+ * Where that leads nowhere all that still clash are relaxed, and what came into a clash besides goes home, until
+ * nothing clashes; in the end all are at home, where every relaxation holds. From there the cluster descends as from
+ * any other solution: nobody is pushed to ease a pair that stays in conflict. (retry_cluster.c asks them again.) */
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
+#include "base/union_find.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- Yielding ---------------------------------------------------------------------------------------------------- */
 
 static bool send_home(sunder_i_search *s, uint32_t i)
 {
@@ -17,6 +23,122 @@ static bool send_home(sunder_i_search *s, uint32_t i)
     s->t[2 * i] = s->t[2 * i + 1] = 0;
     return true;
 }
+
+/* A relaxation for pair (i, j), if there is none by this search yet. */
+static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
+{
+    const uint32_t p = s->body[i], q = s->body[j];
+    if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
+    const size_t before = s->relaxations.n;
+    /* All that is within what the search asks for: the gap and its margin. */
+    if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL)) s->failed = true;
+    return s->relaxations.n > before;
+}
+
+/* ---- One at a time ----------------------------------------------------------------------------------------------- */
+
+/* A clash that may be given up. */
+typedef struct candidate {
+    const sunder_i_clash *clash;
+    bool overlaps; /* at home */
+} candidate;
+
+/* Is p rather to be given up than q? One that does not overlap at home rather than one that does; then the one that
+ * misses most. */
+static bool is_cheaper(const candidate *p, const candidate *q)
+{
+    if (p->overlaps != q->overlaps) return q->overlaps;
+    if (p->clash->violation != q->clash->violation) return p->clash->violation > q->clash->violation;
+    return sunder_i_by_id_pair(p->clash, q->clash) < 0;
+}
+
+/* What clashes now, clashed at home, and is not given up yet. Of each set of clashes that hang together only those that
+ * miss at least that share of what the worst does: what the others miss may be due to these. */
+static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share,
+                              candidate *list, uint32_t *root, double *worst)
+{
+    size_t listed = 0, out = 0;
+    sunder_i_union_init(root, s->n);
+    for (size_t k = 0; k < s->n; k++) worst[k] = 0;
+    for (size_t k = 0; k < s->clashes; k++) sunder_i_union_join(root, s->clash[k].i, s->clash[k].j);
+    for (size_t k = 0; k < s->clashes; k++) {
+        const sunder_i_clash *c = &s->clash[k],
+                             *home = n ? bsearch(c, at_home, n, sizeof *c, sunder_i_by_id_pair) : NULL;
+        if (!home || sunder_i_relaxations_between(&s->relaxations, s->body[c->i], s->body[c->j])) continue;
+        double *w = &worst[sunder_i_union_find(root, c->i)];
+        *w = fmax(*w, c->violation);
+        list[listed++] = (candidate){c, home->violation > s->gap};
+    }
+    for (size_t k = 0; k < listed; k++)
+        if (list[k].clash->violation >= share * worst[sunder_i_union_find(root, list[k].clash->i)])
+            list[out++] = list[k];
+    return out;
+}
+
+/* Relaxes those that nothing beside them is cheaper than. Returns whether there was any. */
+static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share)
+{
+    const size_t before = s->relaxations.n;
+    uint32_t *root = sunder_i_alloc(s->n, sizeof *root);
+    double *worst = sunder_i_alloc(s->n, sizeof *worst);
+    candidate *list = sunder_i_alloc(s->clashes, sizeof *list);
+    const candidate **best = sunder_i_calloc(s->n, sizeof *best);
+    s->failed = s->failed || !root || !worst || !list || !best;
+    const size_t listed = s->failed ? 0 : list_candidates(s, at_home, n, share, list, root, worst);
+    for (size_t k = 0; k < listed; k++)
+        for (int e = 0; e < 2; e++) {
+            const candidate **b = &best[e ? list[k].clash->j : list[k].clash->i];
+            if (!*b || is_cheaper(&list[k], *b)) *b = &list[k];
+        }
+    for (size_t k = 0; k < listed && !s->failed; k++) {
+        const sunder_i_clash *c = list[k].clash;
+        if (best[c->i] == &list[k] && best[c->j] == &list[k]) relax(s, c->i, c->j);
+    }
+    if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
+    sunder_i_free(root);
+    sunder_i_free(worst);
+    sunder_i_free(list);
+    sunder_i_free(best);
+    return s->relaxations.n > before;
+}
+
+/* With the same pairs given up, from where all came from: where that ends without clashes and cheaper, it stays
+ * there. */
+static void try_from_home(sunder_i_search *s)
+{
+    sunder_i_search_waive_margins(s);
+    if (s->failed) return;
+    const size_t size = 2 * s->n * sizeof *s->t;
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) s->failed = true;
+    if (s->failed) return;
+    memcpy(stand, s->t, size);
+    for (uint32_t k = 0; k < s->n; k++) send_home(s, k);
+    s->program.n = 0;
+    if (!sunder_i_search_descend(s) || sunder_i_search_cost(s, stand) <= sunder_i_search_cost(s, s->t))
+        memcpy(s->t, stand, size);
+    sunder_i_free(stand);
+}
+
+/* Gives up the cheapest pairs, goes on from there, and so on, more at once each time, as far as the effort goes.
+ * Returns whether nothing clashes in the end. */
+static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
+{
+    const uint64_t work = sunder_i_search_work(s);
+    s->patience = work + GIVE_UP_TIMES * work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    bool done = false;
+    for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < s->patience; share /= MORE) {
+        sunder_i_search_settle_parts(s);
+        if (!s->failed) sunder_i_search_look(s, s->t);
+        if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
+        done = sunder_i_search_descend(s);
+    }
+    if (done) try_from_home(s);
+    s->patience = UINT64_MAX;
+    return done && !s->failed;
+}
+
+/* ---- Yielding ---------------------------------------------------------------------------------------------------- */
 
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
 {
@@ -32,17 +154,6 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *s, size_t *n)
     if (at_home && *n) memcpy(at_home, s->clash, *n * sizeof *at_home);
     if (at_home && *n) qsort(at_home, *n, sizeof *at_home, sunder_i_by_id_pair);
     return at_home;
-}
-
-/* A relaxation for pair (i, j), if there is none by this search yet. */
-static bool relax(sunder_i_search *s, uint32_t i, uint32_t j)
-{
-    const uint32_t p = s->body[i], q = s->body[j];
-    if (sunder_i_relaxations_between(&s->relaxations, p, q)) return false;
-    const size_t before = s->relaxations.n;
-    /* All that is within what the search asks for: the gap and its margin. */
-    if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL)) s->failed = true;
-    return s->relaxations.n > before;
 }
 
 bool sunder_i_search_waive_margins(sunder_i_search *s)
@@ -143,19 +254,34 @@ void sunder_i_search_lower(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
+/* Who is nearly at home, as only those are whom nothing keeps from it, goes there. */
+static void settle_at_home(sunder_i_search *s)
+{
+    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
+    if (!stand) s->failed = true;
+    if (s->failed) return;
+    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
+    for (uint32_t k = 0; k < s->n; k++)
+        if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) send_home(s, k);
+    if (sunder_i_search_look(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    sunder_i_free(stand);
+}
+
 void sunder_i_search_give_up(sunder_i_search *s)
 {
     size_t n = 0;
-    sunder_i_search_clip(s);
     neighbours near = {0};
     sunder_i_clash *at_home = sunder_i_search_at_home(s, &n);
     bool *changed = sunder_i_alloc(s->n, sizeof *changed);
     s->failed = s->failed || !at_home || !changed;
-    if (!s->failed) find_neighbours(s, &near);
+    const bool done = !s->failed && give_up_gradually(s, at_home, n);
+    if (!s->failed && !done) sunder_i_search_clip(s);
+    if (!s->failed && !done) find_neighbours(s, &near);
     if (!s->failed) sunder_i_search_look(s, s->t);
     while (!s->failed && yield_once(s, at_home, n, changed)) look_at_changed(s, &near, changed);
     free_neighbours(&near);
     sunder_i_free(changed);
     sunder_i_free(at_home);
     sunder_i_search_lower(s);
+    if (done && !s->failed) settle_at_home(s);
 }

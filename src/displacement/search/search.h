@@ -28,6 +28,7 @@ typedef struct sunder_i_search {
     uint32_t *order;            /* [n] for sweeps over boxes */
     sunder_i_quadratic program; /* its constraints are kept sorted by key */
     double *next;               /* [2 n] the program's result */
+    uint32_t tangents;          /* of limits that were added so far, which tells them apart */
     sunder_i_constraint *old;   /* the previous round's, for the forces */
     size_t old_n, old_capacity;
     sunder_i_clash *clash; /* of the last look */
@@ -60,6 +61,8 @@ const char *sunder_i_search_check(const sunder_i_search *search);
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* How far body i may be sent. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
+/* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
+double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t);
 /* sum w |t|^2 */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 

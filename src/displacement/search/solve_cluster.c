@@ -47,6 +47,17 @@ static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster
     return find_free(s, cluster);
 }
 
+/* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
+static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cluster)
+{
+    const sunder_i_model *model = s->model;
+    if (!model->lifted) return false;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) memcpy(s->t + 2 * k, model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
+    s->program.n = 0;
+    return find_free(s, cluster);
+}
+
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
@@ -54,6 +65,7 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     bool done = find_free(&s, cluster);
     if (!done && !s.failed && cluster->brief) done = find_free_but_for_margins(&s, cluster, move);
+    if (!done && !s.failed) done = find_free_from_lifted(&s, cluster);
     if (!done && !s.failed) done = sunder_i_search_spread(&s);
     if (!done && !s.failed && cluster->limited && !cluster->brief) sunder_i_search_give_up(&s);
     cluster->hopeless = !done && cluster->brief;

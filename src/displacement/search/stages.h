@@ -12,11 +12,29 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
 /* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
 
+/* ---- limits.c: how far bodies may go ----------------------------------------------------------------------------- */
+
+/* Is it a tangent of a limit? By its key. */
+static inline bool sunder_i_is_tangent(const sunder_i_constraint *c) { return c->key >> 63; }
+
+/* Does any body overstep its limit at t? */
+bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t);
+/* Adds tangents for the limits that search->next oversteps. Returns whether there were any. */
+bool sunder_i_search_constrain_limits(sunder_i_search *search);
+
 /* ---- descend.c: down from a position ----------------------------------------------------------------------------- */
 
 /* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
  * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
+/* A compromise misses a little everywhere, where there is a contradiction and where there is none. Of the sets of
+ * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
+ * them. */
+void sunder_i_search_settle_parts(sunder_i_search *search);
+/* Constraints by their keys. */
+int sunder_i_by_constraint(const void *a, const void *b);
+/* Adds one to the program, unless one of those from `first` on says as much; a weaker one of these is replaced. */
+void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
 
 /* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
 

@@ -26,8 +26,11 @@
 /* Two lines of one pair are the same if their normals differ by no more: those of pieces cut from one wall differ by
  * rounding. Of two that differ truly, what the one left out would have said is found when the solution misses it. */
 #define SAME_NORMAL 1e-7
-/* A limit of moves is overstepped from this share of it on: else a tangent would be added for rounding. */
+/* A limit of moves is overstepped from this share of it on, at least. */
 #define LIMIT_SLACK 1e-12
+/* Two tangents whose normals have a greater cosine are the same: between them no more than that share is overstepped.
+ * */
+#define SAME_TANGENT (1 - 0x1p-40)
 /* Programs are solved to this part of the tolerance; soft ones to this part of the gap, or of a small part of a body:
  * a compromise need not be found to the last digit. */
 #define SOLVED_TO 8
@@ -53,6 +56,17 @@
 #define SETTLED_BEST 1e-9
 /* Descents after jumps, before pairs are given up. */
 #define MOST_JUMPS 3
+
+/* ---- Pairs given up (give_up.c) ---------------------------------------------------------------------------------- */
+
+/* Of clashes that hang together those are given up at first that miss at least this share of what the worst does; then
+ * a share so many times smaller each time. */
+#define FIRST_SHARE 0.5
+#define MORE 1.5
+/* It may take so many times what the search took before, and what a descent may. */
+#define GIVE_UP_TIMES 1
+/* Moves no longer than this share of a body are what descents leave of none. */
+#define NEARLY_HOME 1e-7
 
 /* ---- Where there is room (free_positions.c) ---------------------------------------------------------------------- */
 
