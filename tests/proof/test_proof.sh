@@ -45,6 +45,14 @@ grep -q ' [1-9][0-9]* trees' said && ! grep -q 'not asked about)' said || fail "
 proved pairs "$town" --gap 5 --max-shift 1 --barrier "$roads"
 grep -q 'bound of pairs' said && fail "a bound of pairs without its trees"
 
+# A road that runs through a house, and comes back beneath it: the pair is listed, and so the house owes nothing to what is
+# beneath it either, when the house above asks for room.
+printf 'WKT,w\n"LINESTRING(%s)",1\n' "-30 5,40 5,44 4,40 3,44 2,40 1,44 0,40 -1,44 -2,40 -3,44 -4,40 -5,44 -6,40 -1.1,-10 -1.1" | layer road.gpkg road LINESTRING
+printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((0 10.5,10 10.5,10 20,0 20))",1\n' |
+    layer houses.gpkg buildings POLYGON
+proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg
+grep -q 'bound 0.12' said || fail "a listed road owes: $(cat said)"
+
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
