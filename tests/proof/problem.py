@@ -88,10 +88,10 @@ def goes_through(edge, sides):
 
 
 class Lattice:
-    """All numbers of the input as integers in units of 2^-k."""
+    """All numbers of the input as integers in units of 2^-k; of round numbers no coarser than proofs are cut."""
 
     def __init__(self):
-        self.k = 1
+        self.k = 44
 
     def hold(self, value):
         self.k = max(self.k, float(value).as_integer_ratio()[1].bit_length() - 1)

@@ -53,6 +53,13 @@ printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((0 10.5,10 10.5,10 2
 proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg
 grep -q 'bound 0.12' said || fail "a listed road owes: $(cat said)"
 
+# A house between a wall that stands fast and a line that it overlaps: through the line would be nearest, but for its side.
+printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
+printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON
+proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
+grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
+refuted side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg --need side --need "side anchor"
+
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
