@@ -31,7 +31,7 @@
 /* A group's margin is widened no further for what is only cheaper. */
 #define MOST_MARGINS_AGAIN 3
 /* Steps for each body of a group at effort 1. */
-#define STEPS_EACH 1e6
+#define STEPS_EACH 2e6
 
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 

@@ -3,8 +3,9 @@
  * Any layout costs at least the sum over disjoint groups of what each alone cannot do without. So a group whose layout
  * costs what is proved of it cannot be bettered, wherever the others go; and what a branching finds that is cheaper
  * goes down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
- * belong together. */
+ * belong together. What the branching does not end with is bounded by blocks (blocks.c). */
 #include "displacement/optimum/optimum.h"
+#include "displacement/optimum/blocks.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
 #include "displacement/search/cluster.h"
@@ -24,7 +25,7 @@ void sunder_i_group_free(sunder_i_group *g)
     sunder_i_free(g->move);
     sunder_i_free(g->guests.item);
     sunder_i_free(g->joins.item);
-    sunder_i_bound_tree_free(&g->tree);
+    sunder_i_bound_trees_free(&g->trees);
     *g = (sunder_i_group){0};
 }
 
@@ -123,15 +124,55 @@ static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t fro
     return true;
 }
 
+/* What blocks prove, where that is more. */
+static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                  uint64_t steps, sunder_error *err)
+{
+    sunder_i_bound_trees trees = {0};
+    double bound;
+    const sunder_status status = sunder_i_blocks_bound(model, waived, g, steps, g->bound, &bound, &trees, err);
+    if (!status && bound > g->bound) {
+        const sunder_i_bound_trees before = g->trees;
+        g->trees = trees;
+        g->bound = bound;
+        trees = before;
+    }
+    sunder_i_bound_trees_free(&trees);
+    return status;
+}
+
+/* Of a group too large for any program over all of it: parts of neighbours in number, by blocks. */
+static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                 uint64_t steps, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t first = 0; first < g->n && !status; first += PART) {
+        sunder_i_group part = {.body = g->body + first,
+                               .move = g->move + 2 * first,
+                               .n = g->n - first < PART ? g->n - first : PART,
+                               .number = g->number};
+        double bound = 0;
+        part.cost = cost_of(model, part.body, part.n, part.move);
+        if (part.cost > 0)
+            status = sunder_i_blocks_bound(model, waived, &part, steps / g->n * part.n, 0, &bound, &g->trees, err);
+        if (bound > 0) g->bound = nextafter(g->bound + bound, -INFINITY);
+    }
+    g->steps += steps;
+    return status;
+}
+
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
                                    sunder_i_group *g, uint64_t steps, sunder_error *err)
 {
     bool better;
     g->bound = 0;
-    sunder_i_bound_tree_free(&g->tree);
+    sunder_i_bound_trees_free(&g->trees);
     g->done = true;
     g->cost = cost_of(model, g->body, g->n, g->move);
     if (!isfinite(g->cost)) return SUNDER_OK;
+    size_t movers = 0;
+    for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
+    if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
     const sunder_status polished = attempt(model, g, g->body, g->move, g->n, &better, err);
     if (polished) return polished;
     const size_t n = g->n;
@@ -145,9 +186,10 @@ sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_w
                                 .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(model, g, &tree, steps, err);
+    if (!status) status = branch(model, g, &tree, movers > BRANCHED ? steps / 4 : steps, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
-    if (!status && task.keep && !sunder_i_tree_record(&tree, &g->tree)) status = sunder_i_no_memory(err);
+    if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     sunder_i_tree_free(&tree);
-    return status;
+    if (status || g->joins.n || sunder_i_group_is_optimal(g) || movers <= FEW) return status;
+    return prove_blocks(model, waived, g, steps, err);
 }

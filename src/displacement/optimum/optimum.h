@@ -4,6 +4,12 @@
 
 #include "displacement/optimum/forbidden.h"
 
+/* Trees that are kept, in the numbers of the work. Zeroed: none. */
+typedef struct sunder_i_bound_trees {
+    sunder_bound_tree *tree;
+    size_t n, capacity;
+} sunder_i_bound_trees;
+
 /* Bodies that are in contact in a layout, and what is proved of them. No other group has a body of it that may move, so
  * that the bounds of all groups add up. */
 typedef struct sunder_i_group {
@@ -18,11 +24,15 @@ typedef struct sunder_i_group {
     sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
     uint64_t steps;
-    sunder_bound_tree tree; /* what the bound stands on, where that is kept; in the numbers of the work; owned */
+    sunder_i_bound_trees trees; /* what the bound stands on, where that is kept; owned */
 } sunder_i_group;
 
 void sunder_i_group_free(sunder_i_group *group);
-void sunder_i_bound_tree_free(sunder_bound_tree *tree); /* tree_record.c */
+/* tree_record.c */
+void sunder_i_bound_tree_free(sunder_bound_tree *tree);
+void sunder_i_bound_trees_free(sunder_i_bound_trees *trees);
+/* A lower bound of the weight of a body. */
+double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
 /* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. group_of: of all

@@ -19,8 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A lower bound of the weight of a body: its members' weights are added, and what that may round by taken off. */
-static double weight_below(const sunder_i_model *model, const sunder_i_body *body)
+/* Members' weights are added, and what that may round by taken off. */
+double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++) w += model->layer->feature[model->member[body->member + k]].weight;
@@ -49,7 +49,7 @@ void sunder_i_tree_invite(sunder_i_tree *t, uint32_t body)
 {
     const size_t n = t->task.n;
     if (n == t->capacity) return;
-    set_body(t, n, body, weight_below(t->task.model, &t->task.model->body[body]));
+    set_body(t, n, body, sunder_i_weight_below(t->task.model, &t->task.model->body[body]));
     t->anchor[2 * n] = t->anchor[2 * n + 1] = 0;
     t->task.n = n + 1;
     lend(t);
@@ -74,7 +74,8 @@ bool sunder_i_tree_init(sunder_i_tree *t, const sunder_i_task *task)
     for (size_t k = 0; k < most * most; k++) t->pair_at[k] = UINT32_MAX;
     for (size_t k = 0; k < n; k++)
         set_body(t, k, task->body[k],
-                 task->weight ? task->weight[k] : weight_below(task->model, &task->model->body[task->body[k]]));
+                 task->weight ? task->weight[k]
+                              : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
     if (task->anchor) memcpy(t->anchor, task->anchor, 2 * n * sizeof *t->anchor);
     lend(t);
     if (!sunder_i_dual_load(&t->program, NULL, 0)) return false;

@@ -3,6 +3,7 @@
 #define SUNDER_I_TREE_H
 
 #include "displacement/optimum/dual_program.h"
+#include "displacement/optimum/optimum.h"
 #include "displacement/optimum/region.h"
 
 /* min sum w_i |t_i - a_i|^2 over the moves of n bodies by which no pair of them does what it is forbidden. */
@@ -184,5 +185,7 @@ void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node);
 
 /* What the tree proves, and by what: `out`, to be freed by sunder_i_bound_tree_free(). False if memory is out. */
 bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out);
+/* The same becomes the last of the trees. False if memory is out. */
+bool sunder_i_tree_keep(const sunder_i_tree *tree, sunder_i_bound_trees *trees);
 
 #endif

@@ -18,6 +18,13 @@ void sunder_i_bound_tree_free(sunder_bound_tree *tree)
     *tree = (sunder_bound_tree){0};
 }
 
+void sunder_i_bound_trees_free(sunder_i_bound_trees *trees)
+{
+    for (size_t k = 0; k < trees->n; k++) sunder_i_bound_tree_free(&trees->tree[k]);
+    sunder_i_free(trees->tree);
+    *trees = (sunder_i_bound_trees){0};
+}
+
 typedef struct recording {
     const sunder_i_tree *tree;
     sunder_bound_tree *out;
@@ -164,5 +171,14 @@ bool sunder_i_tree_record(const sunder_i_tree *t, sunder_bound_tree *out)
     out->forces = t->forces;
     out->nodes = t->nodes;
     out->names = t->named.n;
+    return true;
+}
+
+bool sunder_i_tree_keep(const sunder_i_tree *t, sunder_i_bound_trees *trees)
+{
+    if (!sunder_i_reserve(&trees->tree, &trees->capacity, trees->n + 1, sizeof *trees->tree) ||
+        !sunder_i_tree_record(t, &trees->tree[trees->n]))
+        return false;
+    trees->n++;
     return true;
 }

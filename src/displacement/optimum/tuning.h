@@ -10,8 +10,33 @@
 #define OPTIMAL_MORE 1e-7
 /* A length that does not count, as a share of the gap or, where that is 0, of the bodies. */
 #define SMALL_LENGTH 0x1p-17
+/* Of groups with more that move the branching gets a quarter of the steps, and blocks the rest; with no more than so
+ * many the branching is left alone. */
+#define BRANCHED 16
+#define FEW 4
+/* A group of which more move is taken in parts of so many bodies. */
+#define MOST_TOGETHER 192
+#define PART 96
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
+
+/* ---- Large groups (contacts.c, blocks.c) ------------------------------------------------------------------------- */
+
+/* A place is in contact that is this near to the boundary, as a share of the pair's size; a contact is missed by less
+ * than this share of the layout. */
+#define CONTACT_HAIR 0x1p-26
+#define CONTACT_MISSED 1e-10
+/* Movers of a block; with fixed ones no more than so many. How often all blocks may be asked
+ * at least. */
+#define BLOCK 7
+#define MOST_IN_BLOCK 64
+#define ROUNDS 24
+/* The share of each weight that pays for rounding. */
+#define SPARED 0x1p-30
+/* Strides are halved after so many in vain, down to the least; or until so small a share of the cost is missing. */
+#define MOST_VAIN 3
+#define LEAST_STRIDE 0.02
+#define BLOCKS_NEAR 1e-4
 
 /* ---- Pairs (forbidden.c, tree_cuts.c) ---------------------------------------------------------------------------- */
 

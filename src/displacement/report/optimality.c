@@ -54,14 +54,18 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
 /* The trees of the bounds that count become the report's. */
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, sunder_error *err)
 {
-    report->bound_tree = sunder_i_alloc(groups->n, sizeof *report->bound_tree);
+    size_t n = 0;
+    for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
+    report->bound_tree = sunder_i_alloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
         if (!(g->bound > 0)) continue;
-        g->tree.group = k;
-        report->bound_tree[report->bound_trees++] = g->tree;
-        g->tree = (sunder_bound_tree){0};
+        for (size_t m = 0; m < g->trees.n; m++) {
+            g->trees.tree[m].group = k;
+            report->bound_tree[report->bound_trees++] = g->trees.tree[m];
+        }
+        g->trees.n = 0;
     }
     return SUNDER_OK;
 }

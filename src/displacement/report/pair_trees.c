@@ -77,7 +77,9 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
 sunder_status sunder_i_report_pair_trees(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
-    if (!s->model.rules.keep_trees || sum_of(report->bound_tree, report->bound_trees) >= summary->lower_bound)
+    /* Trees of blocks prove less than the sum of their bounds: but then the groups prove more than the pairs. */
+    if (!s->model.rules.keep_trees || summary->lower_bound > summary->pair_bound ||
+        sum_of(report->bound_tree, report->bound_trees) == summary->lower_bound)
         return SUNDER_OK;
     sunder_bound_tree *tree = sunder_i_calloc(report->bound_pairs, sizeof *tree);
     size_t n = 0;
