@@ -58,6 +58,8 @@
 
 /* So many features move in a question at most, the two apart: it takes some milliseconds then. */
 #define NEED_MOVING 8
+/* Up to so many pairs that are left besides are first asked to be solved, too. */
+#define NEED_ALL 1
 /* Nothing is asked about larger blocks. */
 #define NEED_MOST 24
 /* They may go so many gaps and so many times what the pair lacks, and who stands within that takes part. */

@@ -1,0 +1,386 @@
+/* A question about a conflict that was left is a layer of its own, solved like any other:
+ *
+ *     the two bodies, and those about them, where they came from    as given, but for what is asked
+ *     whoever stands about these                                    where they stand in the result, and stays there
+ *
+ * and the answer is yes if nothing that moves there is left in conflict but pairs that are in the result, too, and are
+ * no worse than they stood; none came to where somebody might be whom that layer does not know, and none jumps over
+ * anybody as all of them moved. So what is said has a solution: with all others as in the result, the pair is solved,
+ * and its neighbours are as is owed to them. That a smaller change would not do is not said.
+ * Neighbours are few, and so are the questions; what it costs grows with the number of conflicts, and a conflict's
+ * answers depend on what stands about it alone. */
+#include "displacement/report/question.h"
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/sides.h"
+#include "displacement/report/tuning.h"
+
+#include "separation/separation.h"
+#include "shape/shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Who takes part ---------------------------------------------------------------------------------------------- */
+
+void sunder_i_surroundings_clear(sunder_i_surroundings *a)
+{
+    for (size_t k = 0; a->standing && k < a->feature.n; k++) sunder_shape_free(a->standing[k]);
+    sunder_i_free(a->standing);
+    sunder_i_free(a->as);
+    sunder_i_free(a->feature.item);
+    sunder_i_free(a->part.item);
+}
+
+/* What the conflict lacks: how far its features have to part. */
+static double missing(const sunder_conflict *c) { return c->depth + c->required - c->distance; }
+
+static bool append_members(const sunder_i_model *model, uint32_t body, sunder_i_list *feature)
+{
+    const sunder_i_body *b = &model->body[body];
+    for (uint32_t k = 0; k < b->members; k++)
+        if (model->present[model->member[b->member + k]] && !sunder_i_list_push(feature, model->member[b->member + k]))
+            return false;
+    return true;
+}
+
+/* Appends to `body` those that reach into a feature's box grown by reach, at home or as they stand. */
+static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach, sunder_i_list *near,
+                       sunder_i_list *body)
+{
+    double box[4];
+    sunder_i_box_grow(s->model.box + 4 * (size_t)feature, reach, box);
+    near->n = 0;
+    if (!sunder_i_rtree_query(&s->placement.tree, box, near) || !sunder_i_rtree_query(&s->model.tree, box, near))
+        return false;
+    for (size_t k = 0; k < near->n; k++)
+        if (!sunder_i_list_push(body, s->model.body_of[near->item[k]])) return false;
+    return true;
+}
+
+/* Unless there are enough: two, and so many features. */
+static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *moving)
+{
+    size_t features = model->body[body].members;
+    for (size_t k = 0; k < moving->n; k++) {
+        if (moving->item[k] == body) return true;
+        features += model->body[moving->item[k]].members;
+    }
+    const bool enough = moving->n >= 2 && features > NEED_MOVING;
+    return model->body[body].fixed || enough || sunder_i_list_push(moving, body);
+}
+
+/* Those of the two that may move, then of those about them, in order of number. */
+static bool choose_moving(const sunder_i_solver *s, const sunder_conflict *c, double reach, sunder_i_list *moving)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_i_list near = {0}, body = {0};
+    bool ok = take_in(model, model->body_of[c->a], moving) && take_in(model, model->body_of[c->b], moving);
+    for (size_t k = 0, n = moving->n; k < n && ok; k++) {
+        const sunder_i_body *b = &model->body[moving->item[k]];
+        for (uint32_t m = 0; m < b->members && ok; m++)
+            if (model->present[model->member[b->member + m]])
+                ok = look_about(s, model->member[b->member + m], reach, &near, &body);
+    }
+    body.n = sunder_i_set_make(body.item, body.n);
+    for (size_t k = 0; k < body.n && ok; k++) ok = take_in(model, body.item[k], moving);
+    sunder_i_free(near.item);
+    sunder_i_free(body.item);
+    return ok;
+}
+
+/* What moves takes part as it was given, with its block; whatever stands does so where it is in the result. */
+static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *a, size_t k, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    const uint32_t f = a->feature.item[k], b = model->body_of[f];
+    const sunder_i_translate *at = &s->placement.translate[f];
+    a->as[k] = model->layer->feature[f];
+    a->as[k].block = b;
+    if (k < a->moving) {
+        a->as[k].max_shift = model->body[b].limit;
+        return SUNDER_OK;
+    }
+    a->as[k].fixed = true;
+    a->as[k].shape = at->shape;
+    if (at->t[0] == 0 && at->t[1] == 0) return SUNDER_OK;
+    bool exact;
+    const sunder_status status = sunder_shape_translate(at->shape, at->t[0], at->t[1], &a->standing[k], &exact, err);
+    a->as[k].shape = a->standing[k];
+    return status;
+}
+
+sunder_status sunder_i_surround(const sunder_i_solver *s, const sunder_conflict *c, sunder_i_surroundings *a,
+                                sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    const double reach = c->required + missing(c);
+    sunder_i_list moving = {0}, near = {0};
+    bool ok = choose_moving(s, c, reach, &moving);
+    sunder_i_box_clear(a->known);
+    for (size_t k = 0; k < moving.n && ok; k++) ok = append_members(model, moving.item[k], &a->feature);
+    a->moving = a->feature.n;
+    for (size_t k = 0; k < a->moving; k++) sunder_i_box_join(a->known, model->box + 4 * (size_t)a->feature.item[k]);
+    a->farthest = NEED_GAPS * c->required + NEED_MISSING * missing(c);
+    sunder_i_box_grow(a->known, a->farthest + reach, a->known);
+    ok = ok && sunder_i_rtree_query(&s->placement.tree, a->known, &near);
+    moving.n = sunder_i_set_make(moving.item, moving.n);
+    near.n = sunder_i_set_make(near.item, near.n);
+    for (size_t k = 0; k < near.n && ok; k++)
+        if (!sunder_i_set_has(moving.item, moving.n, model->body_of[near.item[k]]))
+            ok = sunder_i_list_push(sunder_i_is_barrier(model, near.item[k]) ? &a->part : &a->feature, near.item[k]);
+    sunder_i_free(moving.item);
+    sunder_i_free(near.item);
+    a->as = sunder_i_alloc(a->feature.n, sizeof *a->as);
+    a->standing = sunder_i_calloc(a->feature.n, sizeof *a->standing);
+    sunder_status status = ok && a->as && a->standing ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < a->feature.n && !status; k++) status = take_part(s, a, k, err);
+    return status;
+}
+
+/* ---- One question ------------------------------------------------------------------------------------------------ */
+
+/* Is all that moves where everybody is known? *longest: of the moves. */
+static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, double gap, double *longest)
+{
+    const sunder_i_model *model = &x->model;
+    *longest = 0;
+    gap = fmax(gap, x->barriers.farthest);
+    for (size_t k = 0; k < model->features; k++) {
+        const double *t = model->move + 2 * (size_t)model->body_of[k], *box = x->placement.box + 4 * k;
+        if (x->number[k] >= a->moving || !model->present[k]) continue;
+        *longest = fmax(*longest, hypot(t[0], t[1]));
+        if (box[0] - gap < a->known[0] || box[1] - gap < a->known[1] || box[2] + gap > a->known[2] ||
+            box[3] + gap > a->known[3])
+            return false;
+    }
+    return true;
+}
+
+/* A thing of that layer in the numbers of the whole one. */
+static uint32_t whole_number(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
+                             uint32_t thing, uint32_t gone)
+{
+    if (!sunder_i_is_barrier(&x->model, thing)) return a->feature.item[x->number[thing]];
+    size_t k = 0;
+    for (size_t left = x->number[thing] - a->feature.n;; k++)
+        if (sunder_i_whole_of(&g->solver->model, a->part.item[k]) != gone && left-- == 0) return a->part.item[k];
+}
+
+static int by_things(const void *p, const void *q)
+{
+    const sunder_conflict *c = p, *d = q;
+    return c->a != d->a ? (c->a < d->a ? -1 : 1) : (c->b > d->b) - (c->b < d->b);
+}
+
+/* A pair that is in conflict there: is it listed, another than the one asked about, and no worse than it stood? */
+static sunder_status may_stay(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                              const sunder_i_solver *x, const sunder_i_relation *r, uint32_t gone, bool *may,
+                              sunder_error *err)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const uint32_t f = whole_number(g, a, x, r->a, gone), other = whole_number(g, a, x, r->b, gone),
+                   low = f < other ? f : other, high = f < other ? other : f;
+    const sunder_conflict key = {.a = low, .b = sunder_i_whole_of(model, high)};
+    const sunder_conflict *listed = bsearch(&key, g->report->conflict, g->report->conflicts, sizeof key, by_things);
+    const sunder_i_translate *p = &x->placement.translate[r->a], *q = &x->placement.translate[r->b];
+    bool worse;
+    *may = false;
+    if (!listed || listed->inside_block || by_things(listed, c) == 0) return SUNDER_OK;
+    sunder_status status;
+    if (sunder_i_is_barrier(model, high)) {
+        const sunder_i_translate home = sunder_i_at_home(model, low);
+        status = sunder_i_barrier_worsened(model, &home, p, high, &worse, err);
+    } else {
+        const sunder_i_pair was = {model->layer->feature[f].shape, model->layer->feature[other].shape, NULL, NULL},
+                            is = {p->shape, q->shape, p->t, q->t};
+        status = sunder_i_pair_worsened(&was, &is, &worse, err);
+    }
+    *may = !status && !worse;
+    return status;
+}
+
+/* Is the pair solved, with all that moves and is owed anything, and what else is listed no worse? */
+static sunder_status is_solved(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                               const sunder_i_solver *x, const sunder_i_supposition *what, bool *yes, double *longest,
+                               sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *yes = !x->hopeless && is_known(a, x, what->gap, longest);
+    for (size_t k = 0; k < x->now.n && *yes && !status; k++) {
+        const sunder_i_relation *r = &x->now.pair[k];
+        if (sunder_i_is_conflict_of_bodies(&x->model, r) &&
+            (x->number[r->a] < a->moving || x->number[r->b] < a->moving))
+            status = may_stay(g, a, c, x, r, what->gone, yes, err);
+    }
+    return status;
+}
+
+static bool stand_alike(const sunder_i_model *model, uint32_t f, const double t[2])
+{
+    const double *s = model->move + 2 * (size_t)model->body_of[f];
+    return s[0] == t[0] && s[1] == t[1];
+}
+
+/* Does f, going by t, pass g, which moved as in the result? Or g f? */
+static sunder_status pass(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t g, bool *passes,
+                          sunder_error *err)
+{
+    const double *s = model->move + 2 * (size_t)model->body_of[g];
+    const double *a = model->anchor_at + 2 * (size_t)f, *b = model->anchor_at + 2 * (size_t)g;
+    const sunder_i_passage there = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}},
+                           back = {{b[0], b[1]}, {s[0], s[1]}, {t[0], t[1]}};
+    const sunder_status status = sunder_i_passes(&there, model->layer->feature[g].shape, passes, err);
+    return status || *passes ? status : sunder_i_passes(&back, model->layer->feature[f].shape, passes, err);
+}
+
+/* Does f, going by t, cross a side? That layer knows those of lines alone. */
+static sunder_status cross(const sunder_i_model *model, uint32_t f, const double t[2], const sunder_i_surroundings *a,
+                           uint32_t gone, bool *crosses, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < a->part.n && model->sides && !status && !*crosses; k++)
+        if (sunder_i_whole_of(model, a->part.item[k]) != gone)
+            status = sunder_i_crosses_side(model, f, t, a->part.item[k], crosses, err);
+    return status;
+}
+
+/* In that layer all who stand do so from the beginning. As they moved, is there a jump, or is a side crossed? */
+static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
+                               uint32_t gone, bool *jumps, sunder_error *err)
+{
+    const sunder_i_solver *s = g->solver;
+    const double none[2] = {0, 0};
+    sunder_i_list mover = {0};
+    sunder_status status = SUNDER_OK;
+    *jumps = false;
+    if (s->jumps.way && !sunder_i_rtree_query(&s->jumps.tree, a->known, &mover)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
+        const size_t at = x->number[k];
+        if (at >= a->moving || !x->model.present[k]) continue;
+        const double *t = x->model.move + 2 * (size_t)x->model.body_of[k];
+        if (!status) status = cross(&s->model, a->feature.item[at], t, a, gone, jumps, err);
+        for (size_t m = 0; m < mover.n && !status && !*jumps; m++) {
+            bool moves = false; /* itself, in that layer */
+            for (size_t i = 0; i < a->moving && !moves; i++) moves = a->feature.item[i] == mover.item[m];
+            if (moves || stand_alike(&s->model, mover.item[m], none) || stand_alike(&s->model, mover.item[m], t))
+                continue;
+            status = pass(&s->model, a->feature.item[at], t, mover.item[m], jumps, err);
+        }
+    }
+    sunder_i_free(mover.item);
+    return status;
+}
+
+/* Parts of barriers as barriers of their own: of areas without sides, since some edges of pieces are none. */
+static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surroundings *a, uint32_t gone,
+                                  sunder_layer *layer, sunder_error *err)
+{
+    sunder_barrier *barrier = sunder_i_alloc(a->part.n, sizeof *barrier);
+    size_t n = 0;
+    if (!barrier) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < a->part.n; k++) {
+        const uint32_t part = a->part.item[k];
+        if (sunder_i_whole_of(&s->model, part) == gone) continue;
+        barrier[n] = s->layer.barrier[sunder_i_barrier_of(&s->model, part)];
+        barrier[n].side = barrier[n].side && s->model.layer->feature[part].shape->flat;
+        barrier[n++].geometry = (sunder_obstacle){.shape = s->model.layer->feature[part].shape};
+    }
+    const sunder_status status = sunder_layer_set_barriers(layer, barrier, n, err);
+    sunder_i_free(barrier);
+    return status;
+}
+
+/* A listed pair of feature k and another thing of that layer: as they are numbered there. */
+static bool spare_pair(const sunder_i_questions *g, const sunder_i_surroundings *a, size_t k, uint32_t other,
+                       uint32_t gone, sunder_i_id_pair **list, size_t *n, size_t *capacity)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const bool barrier = sunder_i_is_barrier(model, other);
+    const sunder_i_list *from = barrier ? &a->part : &a->feature;
+    for (size_t i = 0, number = barrier ? a->feature.n : 0; i < from->n; i++) {
+        const uint32_t whole = sunder_i_whole_of(model, from->item[i]);
+        if (whole == other && whole != gone) {
+            if (!sunder_i_reserve(list, capacity, *n + 1, sizeof **list)) return false;
+            (*list)[(*n)++] = number < k ? (sunder_i_id_pair){(uint32_t)number, (uint32_t)k}
+                                         : (sunder_i_id_pair){(uint32_t)k, (uint32_t)number};
+        }
+        number += !barrier || whole != gone;
+    }
+    return true;
+}
+
+/* What is listed besides the pair that is asked about, and may stay so; sorted. */
+static bool list_spared(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                        uint32_t gone, sunder_i_id_pair **list, size_t *n)
+{
+    const sunder_report *report = g->report;
+    size_t capacity = 0;
+    for (size_t k = 0; k < a->feature.n; k++) {
+        const sunder_conflict first = {.a = a->feature.item[k]};
+        size_t at = sunder_i_lower_bound(&first, report->conflict, report->conflicts, sizeof first, by_things);
+        for (; at < report->conflicts && report->conflict[at].a == first.a; at++) {
+            const sunder_conflict *other = &report->conflict[at];
+            if (other == c || other->inside_block) continue;
+            if (!spare_pair(g, a, k, (uint32_t)other->b, gone, list, n, &capacity)) return false;
+        }
+    }
+    if (*n) qsort(*list, *n, sizeof **list, sunder_i_by_id_pair);
+    return true;
+}
+
+static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surroundings *a,
+                                const sunder_i_supposition *what, sunder_layer **layer, sunder_error *err)
+{
+    sunder_status status = sunder_layer_new(a->as, a->feature.n, layer, err);
+    if (!status) status = set_barriers(g->solver, a, what->gone, *layer, err);
+    for (size_t k = 0; k < a->feature.n && !status; k++) {
+        sunder_feature *f = &(*layer)->feature[k];
+        if (k < a->moving) f->max_shift = fmin(fmax(f->max_shift, what->limit), a->farthest);
+        f->ignored = f->ignored || a->feature.item[k] == what->gone;
+    }
+    return status;
+}
+
+/* Is there a solution that leaves those pairs, sorted, as they are? */
+static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                                 const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n, bool *yes,
+                                 double *longest, sunder_error *err)
+{
+    sunder_layer_options options = *g->options;
+    sunder_i_solver x = {0};
+    sunder_layer *layer = NULL;
+    bool jumps = false;
+    options.gap = what->gap;
+    options.touch_tolerance = fmin(g->solver->model.rules.tolerance, what->gap / 2);
+    options.no_blocks = true; /* they have numbers */
+    options.threads = 1;
+    options.effort = 0;
+    options.progress = NULL;
+    *yes = false;
+    sunder_status status = make_layer(g, a, what, &layer, err);
+    if (!status) {
+        status = g->solve(layer, &options, spared, n, &x, err);
+        if (!status) status = is_solved(g, a, c, &x, what, yes, longest, err);
+        if (!status && *yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
+        *yes = *yes && !jumps;
+        sunder_i_solver_free(&x);
+    }
+    sunder_layer_free(layer);
+    return status;
+}
+
+/* Few that are listed besides are asked to be solved, too. Where that has no solution, or where they are many, as
+ * beside roads, they are left alone. */
+sunder_status sunder_i_ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                           const sunder_i_supposition *what, bool *yes, double *longest, sunder_error *err)
+{
+    sunder_i_id_pair *spared = NULL;
+    size_t n = 0;
+    *yes = false;
+    sunder_status status = list_spared(g, a, c, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status && n <= NEED_ALL) status = ask_sparing(g, a, c, what, NULL, 0, yes, longest, err);
+    if (!status && n && !*yes) status = ask_sparing(g, a, c, what, spared, n, yes, longest, err);
+    sunder_i_free(spared);
+    return status;
+}
