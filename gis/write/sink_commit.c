@@ -102,6 +102,11 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
     char *path = gis_sink_inside(sink, file);
     gis_sqlite_heed_signals();
     GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
+    if (!dataset && EQUAL(sink->format.name, "GeoJSONSeq")) { /* of one feature it is taken for GeoJSON, unless told */
+        char *told = CPLStrdup(CPLSPrintf("GeoJSONSeq:%s", path));
+        dataset = GDALOpenEx(told, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
+        CPLFree(told);
+    }
     CPLFree(path);
     return dataset;
 }

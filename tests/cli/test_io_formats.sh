@@ -51,6 +51,8 @@ done
 refused 1 'reproject' separate --lco RFC7946=YES thirds.gpkg moved.geojson
 separate --allow-inexact-output --stats seq.json thirds.gpkg moved.geojsonl 2>/dev/null
 [ "$(verified seq.json)" = false ] && [ -s moved.geojsonl ] || fail "reprojected GeoJSONSeq is called verified"
+separate --allow-inexact-output --layers main --where "name = 'one'" thirds.gpkg single.geojsonl 2>/dev/null ||
+    fail "GeoJSONSeq of one feature is not read back"
 
 # ---- standard output: the main layer, complete, nothing else
 "$SUNDER" separate --input-layer squares --of GeoJSON squares.gpkg /vsistdout/ >stdout.geojson 2>message

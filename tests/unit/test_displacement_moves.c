@@ -192,6 +192,22 @@ static void check_sides(void **state)
     }
 }
 
+/* How often the house crosses the side of an area, on its way of 8 to the right. Frees the area. */
+static size_t crossings_of(sunder_shape *area)
+{
+    scene s;
+    size_t sides = 0;
+    assert_non_null(area);
+    begin(&s, 0);
+    add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
+    s.barrier = (sunder_barrier){{.shape = area}, 0, 0, true};
+    run(&s);
+    for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
+    sunder_shape_free(area);
+    end(&s);
+    return sides;
+}
+
 /* The same of areas: in, out of it, out of it and in again, past it. */
 static void check_sides_of_areas(void **state)
 {
@@ -209,19 +225,9 @@ static void check_sides_of_areas(void **state)
         {"POLYGON ((-9 -9, 20 -9, 20 9, -9 9, -9 -9), (6 1, 6 3, 8 3, 8 1, 6 1))", true},
     };
     for (size_t k = 0; k < sizeof area / sizeof *area; k++) {
-        scene s;
-        begin(&s, 0);
-        add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
-        sunder_shape *shape = polyset_shape_of_wkt(area[k].area);
-        assert_non_null(shape);
-        s.barrier = (sunder_barrier){{.shape = shape}, 0, 0, true};
-        run(&s);
-        size_t sides = 0;
-        for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
-        if (sides != area[k].crosses) print_error("area %zu\n", k);
-        assert_int_equal(sides, area[k].crosses);
-        sunder_shape_free(shape);
-        end(&s);
+        const size_t crossings = crossings_of(polyset_shape_of_wkt(area[k].area));
+        if (crossings != area[k].crosses) print_error("area %zu\n", k);
+        assert_int_equal(crossings, area[k].crosses);
     }
 }
 
@@ -240,21 +246,13 @@ static void check_sides_of_repaired_areas(void **state)
     };
     const size_t ring_end = 4, poly_end = 1;
     for (size_t k = 0; k < sizeof area / sizeof *area; k++) {
-        scene s;
         sunder_shape *shape = NULL;
-        begin(&s, 0);
-        add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
         assert_int_equal(
             sunder_shape_from_rings(area[k].xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &shape, NULL),
             SUNDER_OK);
-        s.barrier = (sunder_barrier){{.shape = shape}, 0, 0, true};
-        run(&s);
-        size_t sides = 0;
-        for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
-        if (sides != area[k].crosses) print_error("area %zu\n", k);
-        assert_int_equal(sides, area[k].crosses);
-        sunder_shape_free(shape);
-        end(&s);
+        const size_t crossings = crossings_of(shape);
+        if (crossings != area[k].crosses) print_error("area %zu\n", k);
+        assert_int_equal(crossings, area[k].crosses);
     }
 }
 

@@ -70,7 +70,10 @@ static double size_of(const listing *l, const sunder_i_body *body, const sunder_
     return size;
 }
 
-static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+/* K = a + (-B): its corners to l->scratch, *n of them, its edges behind those of the list, which they join if they are
+ * kept. False if memory is out. */
+static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                        sunder_i_forbidden_piece *piece, size_t *n)
 {
     sunder_i_forbidden *f = l->out;
     const double *corner = l->model->corner;
@@ -78,20 +81,33 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
         !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
         return false;
-    const size_t n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners,
-                                               corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
-    if (n == 0) return false;
-    sunder_i_forbidden_piece *piece = &f->piece[f->pieces];
-    *piece = (sunder_i_forbidden_piece){
-        .edge = (uint32_t)f->edges, .a = a, .b = b, .radius = sunder_i_owed_below(l->model, a->feature, b->feature)};
-    piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
+    *n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners, corner + 2 * (size_t)b->corner,
+                                   b->corners, l->offset, &l->scratch);
+    if (*n == 0) return false;
+    *piece = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .a = a, .b = b};
+    piece->edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, *n, f->edge + f->edges);
     piece->vague = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
+    return true;
+}
+
+static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
+{
     sunder_i_box_clear(piece->box);
-    for (size_t k = 0; k < n; k++) sunder_i_box_include(piece->box, l->scratch.xy + 2 * k);
+    for (size_t k = 0; k < n; k++) sunder_i_box_include(piece->box, xy + 2 * k);
     sunder_i_box_grow(piece->box, piece->radius, piece->box);
-    if (piece->edges < 2) return true;
+    const uint32_t least = piece->radius > 0 ? 2 : 3; /* with fewer edges it has no interior */
+    if (piece->edges < least) return;
     f->edges += piece->edges;
-    f->pieces++;
+    f->piece[f->pieces++] = *piece;
+}
+
+static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    sunder_i_forbidden_piece piece;
+    size_t n;
+    if (!begin_piece(l, a, b, &piece, &n)) return false;
+    piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
+    keep_piece(l->out, &piece, l->scratch.xy, n);
     return true;
 }
 
@@ -122,17 +138,11 @@ static bool add_pieces(listing *l)
 static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
     sunder_i_forbidden *f = l->out;
-    const double *corner = l->model->corner, home[2] = {0, 0};
-    const size_t most = 2 * ((size_t)a->corners + b->corners);
-    if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
-        !sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + most, sizeof *f->edge) || !sunder_i_steps(1))
-        return false;
-    const size_t n = sunder_i_obstacle_corners(corner + 2 * (size_t)a->corner, a->corners,
-                                               corner + 2 * (size_t)b->corner, b->corners, l->offset, &l->scratch);
-    if (n == 0) return false;
-    sunder_i_forbidden_piece piece = {.edge = (uint32_t)f->edges, .a = a, .b = b, .shadow = true};
-    piece.edges = (uint32_t)sunder_i_obstacle_edges(l->scratch.xy, n, f->edge + f->edges);
-    const double off = 0x1p-50 * (size_of(l, l->p, a) + size_of(l, l->q, b) + fabs(l->offset[0]) + fabs(l->offset[1]));
+    const double home[2] = {0, 0};
+    sunder_i_forbidden_piece piece;
+    size_t n;
+    if (!begin_piece(l, a, b, &piece, &n)) return false;
+    const double off = piece.vague;
     const double distance = piece.edges > 1 ? sunder_i_forbidden_distance(f, &piece, home) : 0;
     if (!(distance > 4 * off) || distance > l->reach) return true;
     const double far = 1 + 2 * l->reach / distance;
@@ -147,11 +157,8 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
     if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + corners, sizeof *f->edge)) return false;
     piece.edges = (uint32_t)sunder_i_obstacle_edges(l->hull, corners, f->edge + f->edges);
     piece.vague = 2 * far * off;
-    sunder_i_box_clear(piece.box);
-    for (size_t k = 0; k < corners; k++) sunder_i_box_include(piece.box, l->hull + 2 * k);
-    if (piece.edges < 3) return true;
-    f->edges += piece.edges;
-    f->piece[f->pieces++] = piece;
+    piece.shadow = true;
+    keep_piece(f, &piece, l->hull, corners);
     return true;
 }
 

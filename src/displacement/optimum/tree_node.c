@@ -87,7 +87,8 @@ void sunder_i_tree_load(sunder_i_tree *t, uint32_t node)
         t->steps += 2 * n->cuts;
     }
     const sunder_i_tree_node *n = &t->node[node];
-    if (!t->failed && !sunder_i_dual_load(&t->program, t->force + n->force, n->forces)) t->failed = true;
+    const sunder_i_cut_force *force = n->forces ? t->force + n->force : NULL; /* the list may be empty */
+    if (!t->failed && !sunder_i_dual_load(&t->program, force, n->forces)) t->failed = true;
 }
 
 void sunder_i_tree_keep_program(sunder_i_tree *t)
