@@ -14,6 +14,7 @@
 #include "displacement/layer/seamless.h"
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "morphology/morphology.h"
 #include "motion/diagonals.h"
 #include "shape/of_pieces.h"
@@ -23,6 +24,8 @@
 
 /* From a corner half way to the middle, and again half, so often: then it is the middle itself, but for rounding. */
 #define HALVINGS 60
+/* What a quadrilateral counts for, in steps. */
+#define SEAM_STEPS 64
 
 void sunder_i_seamless_free(sunder_i_seamless *seamless)
 {
@@ -86,12 +89,15 @@ bool sunder_i_seams_find(const sunder_shape *shape, double **corner, size_t *n)
     if (shape->pieces < 2) return true;
     if (!sunder_i_diagonals_find(shape, &diagonals)) return false;
     *corner = sunder_i_alloc(8 * diagonals.n, sizeof **corner);
-    for (size_t i = 0; *corner && i < diagonals.n; i++)
+    bool ok = *corner != NULL;
+    for (size_t i = 0; i < diagonals.n && ok; i++) {
         if (all_doubles(shape, diagonals.corner[i]) &&
             find_quadrilateral(shape->xy, diagonals.corner[i], *corner + 8 * *n))
             ++*n;
+        ok = sunder_i_steps(SEAM_STEPS);
+    }
     sunder_i_diagonals_free(&diagonals);
-    return *corner != NULL;
+    return ok;
 }
 
 /* The pieces of the shape, and the quadrilaterals. */
@@ -108,6 +114,7 @@ static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonal
         double *corner = out->corner + 8 * i;
         if (all_doubles(shape, diagonals->corner[i]) && find_quadrilateral(shape->xy, diagonals->corner[i], corner))
             piece[n++] = (sunder_i_piece_of){.n = 4, .xy = corner};
+        if (!sunder_i_steps(SEAM_STEPS)) status = sunder_i_no_memory(err);
     }
     if (!status) status = sunder_i_shape_of_pieces(piece, n, &out->shape, err);
     sunder_i_free(piece);
