@@ -88,7 +88,7 @@ static bool add_pairs_of(pressing *p, size_t i)
     p->near.n = 0;
     sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + hair_of(p, body, body), box);
     sunder_i_body_box(body, home, model->rules.gap, start);
-    if (!model->rules.jumps) sunder_i_box_join(box, start);
+    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
     if (!sunder_i_rtree_query(model->standing, box, &p->near)) return false;
     for (size_t k = 0; k < p->near.n; k++) p->near.item[k] = model->body_of[p->near.item[k]];
     p->near.n = sunder_i_set_make(p->near.item, p->near.n);
