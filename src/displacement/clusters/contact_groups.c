@@ -5,13 +5,12 @@
  * is known by the least of its bodies that may move, so that its name does not depend on others, and one that did not
  * change from one round to the next keeps its proof. */
 #include "displacement/clusters/stages.h"
-#include "displacement/clusters/tuning.h"
 #include "displacement/layer/resolution.h"
+#include "displacement/optimum/contact.h"
 
 #include "base/union_find.h"
 #include "base/watch.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,36 +61,16 @@ static bool count_all(gathering *g)
     return ok;
 }
 
-/* The gap, or a length of the smaller body where that is 0: what is a small share of it is none. So a layer on another
- * scale has the same contacts. */
-static double length_of(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
-{
-    if (model->rules.gap > 0) return model->rules.gap;
-    return fmin(p->box[2] - p->box[0] + p->box[3] - p->box[1], q->box[2] - q->box[0] + q->box[3] - q->box[1]);
-}
-
-static bool are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, bool *contact)
-{
-    const sunder_i_waived none = {0};
-    const double *t = model->move + 2 * (size_t)i, *v = model->move + 2 * (size_t)j, u[2] = {v[0] - t[0], v[1] - t[1]};
-    const double hair = CONTACT * length_of(model, &model->body[i], &model->body[j]);
-    sunder_i_forbidden f;
-    const bool ok = sunder_i_forbidden_init(&f, model, &none, i, j, fabs(u[0]) + fabs(u[1]) + hair);
-    *contact = ok && sunder_i_forbidden_is_near(&f, u, hair);
-    sunder_i_forbidden_free(&f);
-    return ok;
-}
-
 /* Joins a body with those it is in contact with. Fixed ones join none. */
 static bool join_contacts(gathering *g, uint32_t b)
 {
     const sunder_i_model *model = &g->solver->model;
     const sunder_i_body *body = &model->body[b];
+    const double *t = model->move + 2 * (size_t)b;
     double box[4];
     g->near.n = 0;
     if (body->pieces == 0) return true;
-    sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + CONTACT * length_of(model, body, body),
-                      box);
+    sunder_i_body_box(body, t, model->rules.gap + sunder_i_contact_hair(model, body, body), box);
     if (!sunder_i_rtree_query(model->standing, box, &g->near)) return false;
     for (size_t k = 0; k < g->near.n; k++) g->near.item[k] = model->body_of[g->near.item[k]];
     g->near.n = sunder_i_set_make(g->near.item, g->near.n);
@@ -101,7 +80,7 @@ static bool join_contacts(gathering *g, uint32_t b)
         if (other == b ||
             (!is_fixed(g, other) && sunder_i_union_find(g->parent, other) == sunder_i_union_find(g->parent, b)))
             continue;
-        if (!are_in_contact(model, b, other, &contact)) return false;
+        if (!sunder_i_are_in_contact(model, b, other, t, model->move + 2 * (size_t)other, &contact)) return false;
         if (!contact) continue;
         if (is_fixed(g, other)) {
             if (!sunder_i_reserve(&g->touch, &g->touch_capacity, g->touches + 1, sizeof *g->touch)) return false;

@@ -23,9 +23,6 @@
 
 /* ---- Proofs of optimality (optimise.c) --------------------------------------------------------------------------- */
 
-/* Bodies are in contact that are farther apart than the gap by no more than this share of it; at gap 3 that is about
- * what the interface says of clusters. */
-#define CONTACT 0x1p-21
 /* Rounds of proofs, in which groups join. */
 #define OPTIMISED 24
 /* A group's margin is widened no further for what is only cheaper. */

@@ -10,10 +10,11 @@
  * any shares and places: so these are doubles as they come, v_i is nearly 0, and what it takes is added up against us.
  *
  * Good places make the layout's own the best for each block alone: then nothing is lost. With F_i^S the forces of the
- * block's contacts on a body (contacts.c), it stands still at a_i^S = t_i - F_i^S / (2 w_i^S). So blocks have to hold
- * all contacts that press, each once: they are grown from the contact that presses most and is in none yet, by the body
- * that is pressed most by those in it. Where a block finds a better place, the copies of a body drift apart; their
- * places are then drawn towards each other [subgradient, Pol69], a step at a time, while the effort lasts. */
+ * block's contacts on a body (contact_forces.c), it stands still at a_i^S = t_i - F_i^S / (2 w_i^S). So blocks have to
+ * hold all contacts that press, each once: they are grown from the contact that presses most and is in none yet, by the
+ * body that is pressed most by those in it. Where a block finds a better place, the copies of a body drift apart; their
+ * places are then drawn towards each other [subgradient, Pol69], a step at a time, while the effort lasts.
+ */
 #include "displacement/optimum/blocks.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
@@ -33,7 +34,7 @@ typedef struct decomposition {
     const sunder_i_waived *waived;
     const sunder_i_group *group;
     double *weight, *mass, *anchor; /* of the group's bodies; anchors are 0 */
-    sunder_i_contacts contacts;
+    sunder_i_contact_forces contacts;
     uint32_t *home;  /* [contacts] the block that holds the contact */
     uint32_t *count; /* [group] copies of each body */
     copy *item;
@@ -67,7 +68,7 @@ static bool take(decomposition *d, uint32_t at)
 /* The body outside that the block's bodies press most, by contacts that are in no block yet; of equals the first. */
 static uint32_t most_pressed(decomposition *d)
 {
-    const sunder_i_contacts *c = &d->contacts;
+    const sunder_i_contact_forces *c = &d->contacts;
     uint32_t best = SUNDER_I_GROUND;
     memset(d->pressure, 0, d->group->n * sizeof *d->pressure);
     for (size_t k = 0; k < c->n; k++) {
@@ -89,7 +90,7 @@ static uint32_t most_pressed(decomposition *d)
 /* Contacts whose bodies are all in the block are its from now on; fixed ones come with them. */
 static bool settle_contacts(decomposition *d)
 {
-    const sunder_i_contacts *c = &d->contacts;
+    const sunder_i_contact_forces *c = &d->contacts;
     for (size_t k = 0; k < c->n; k++) {
         const sunder_i_move_cut *cut = &c->cut[k];
         if (d->home[k] != SUNDER_I_NOBODY) continue;
@@ -120,7 +121,7 @@ static bool grow_block(decomposition *d, size_t seed)
 
 static bool make_blocks(decomposition *d)
 {
-    const sunder_i_contacts *c = &d->contacts;
+    const sunder_i_contact_forces *c = &d->contacts;
     for (size_t k = 0; k < c->n; k++) d->home[k] = SUNDER_I_NOBODY;
     for (;;) {
         size_t seed = SIZE_MAX;
@@ -137,7 +138,7 @@ static bool make_blocks(decomposition *d)
 static void share_out(decomposition *d)
 {
     for (size_t m = 0; m < d->items; m++) d->item[m].force[0] = d->item[m].force[1] = 0;
-    const sunder_i_contacts *c = &d->contacts;
+    const sunder_i_contact_forces *c = &d->contacts;
     for (size_t k = 0; k < c->n; k++) {
         if (!(c->force[k] > 0)) continue;
         const sunder_i_move_cut *cut = &c->cut[k];
@@ -346,7 +347,7 @@ static bool prepare(decomposition *d)
         d->weight[k] = b->fixed ? INFINITY : sunder_i_weight_below(d->model, b);
         d->mass[k] = b->fixed ? 0 : 0.5 / d->weight[k];
     }
-    if (!sunder_i_contacts_find(&d->contacts, d->model, d->waived, d->group, d->weight, d->mass, d->anchor))
+    if (!sunder_i_contact_forces_find(&d->contacts, d->model, d->waived, d->group, d->weight, d->mass, d->anchor))
         return false;
     d->steps += d->contacts.steps;
     d->home = sunder_i_alloc(d->contacts.n, sizeof *d->home);
@@ -372,7 +373,7 @@ sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_
         }
     }
     sunder_i_free(best);
-    sunder_i_contacts_free(&d.contacts);
+    sunder_i_contact_forces_free(&d.contacts);
     sunder_i_free(d.weight);
     sunder_i_free(d.mass);
     sunder_i_free(d.anchor);

@@ -3,6 +3,12 @@
 #ifndef SUNDER_I_OPTIMUM_TUNING_H
 #define SUNDER_I_OPTIMUM_TUNING_H
 
+/* ---- Contacts (contact.c) ---------------------------------------------------------------------------------------- */
+
+/* Bodies are in contact that are farther apart than they owe each other by no more than this share of the gap; at gap 3
+ * that is about what the interface says of clusters. */
+#define CONTACT 0x1p-21
+
 /* ---- Groups (optimum.c) ------------------------------------------------------------------------------------------ */
 
 /* A group is optimal whose cost is no more than its bound and this share of it and this much; as the interface says. */
@@ -20,11 +26,9 @@
 /* So many bodies that stand in the way may take part besides. */
 #define MOST_GUESTS 24
 
-/* ---- Large groups (contacts.c, blocks.c) ------------------------------------------------------------------------- */
+/* ---- Large groups (contact_forces.c, blocks.c) ------------------------------------------------------------------- */
 
-/* A place is in contact that is this near to the boundary, as a share of the pair's size; a contact is missed by less
- * than this share of the layout. */
-#define CONTACT_HAIR 0x1p-26
+/* A contact is missed by less than this share of the layout. */
 #define CONTACT_MISSED 1e-10
 /* Movers of a block; with fixed ones no more than so many. How often all blocks may be asked
  * at least. */

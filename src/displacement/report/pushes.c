@@ -8,6 +8,7 @@
  *   several pieces of one pair    one push, the sum of theirs (renumber.c)
  *   a feature at its limit        the limit pushes too, and is nobody's pair
  *   a pair left in conflict       is asked for nothing, and does not push */
+#include "displacement/optimum/contact.h"
 #include "displacement/programs/quadratic.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -26,6 +27,7 @@ typedef struct pressing {
     sunder_push *push; /* of the constraints: whose */
     size_t push_capacity;
     sunder_i_list near;
+    sunder_i_contact_list touch; /* of the pair looked at */
     sunder_report *report;
     size_t capacity; /* of the report's */
 } pressing;
@@ -36,13 +38,10 @@ static size_t place_of(const sunder_i_group *g, uint32_t body)
     return at ? (size_t)(at - g->body) : SIZE_MAX;
 }
 
-/* What counts as contact: a hair of the gap or, where that is 0, of the smaller body; and what is asked beyond it. */
+/* What counts as contact: with what is asked beyond the gap. */
 static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_body *b)
 {
-    double length = p->solver->model.rules.gap;
-    if (!(length > 0))
-        length = fmin(a->box[2] - a->box[0] + a->box[3] - a->box[1], b->box[2] - b->box[0] + b->box[3] - b->box[1]);
-    return IN_CONTACT * length + 2 * p->group->margin;
+    return sunder_i_contact_hair(&p->solver->model, a, b) + 2 * p->group->margin;
 }
 
 static bool add(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
@@ -61,18 +60,15 @@ static bool add_pair(pressing *p, size_t i, size_t j)
 {
     const sunder_i_model *model = &p->solver->model;
     const uint32_t a = p->group->body[i], b = p->group->body[j];
-    const double *t = model->move + 2 * (size_t)a, *v = model->move + 2 * (size_t)b, u[2] = {v[0] - t[0], v[1] - t[1]};
     const double hair = hair_of(p, &model->body[a], &model->body[b]);
-    sunder_i_forbidden f;
-    bool ok = sunder_i_forbidden_init(&f, model, &p->waived, a, b, fabs(u[0]) + fabs(u[1]) + hair);
-    for (size_t k = 0; k < f.pieces && ok; k++) {
-        const sunder_i_forbidden_piece *piece = &f.piece[k];
-        sunder_i_constraint c = {.i = (uint32_t)i, .j = (uint32_t)j};
-        if (fabs(sunder_i_forbidden_normal(&f, piece, u, c.n) - piece->radius) > hair) continue;
-        c.d = c.n[0] * u[0] + c.n[1] * u[1];
-        ok = add(p, &c, piece->a->feature, piece->b->feature);
+    bool ok = sunder_i_contacts_of_pair(model, &p->waived, a, b, model->move + 2 * (size_t)a,
+                                        model->move + 2 * (size_t)b, hair, &p->touch, NULL);
+    for (size_t k = 0; k < p->touch.n && ok; k++) {
+        const sunder_i_contact *touch = &p->touch.item[k];
+        const sunder_i_constraint c = {
+            .i = (uint32_t)i, .j = (uint32_t)j, .n = {touch->n[0], touch->n[1]}, .d = touch->d};
+        ok = add(p, &c, touch->a, touch->b);
     }
-    sunder_i_forbidden_free(&f);
     return ok;
 }
 
@@ -106,7 +102,7 @@ static bool add_limit(pressing *p, size_t i)
     const sunder_i_model *model = &p->solver->model;
     const uint32_t b = p->group->body[i];
     const double *t = model->move + 2 * (size_t)b, length = hypot(t[0], t[1]);
-    if (model->body[b].fixed || !(length > 0) || length < model->body[b].limit * (1 - IN_CONTACT)) return true;
+    if (model->body[b].fixed || !(length > 0) || length < model->body[b].limit * (1 - AT_LIMIT)) return true;
     const sunder_i_constraint c = {
         .i = (uint32_t)i, .j = SUNDER_I_GROUND, .n = {t[0] / length, t[1] / length}, .d = -length};
     return add(p, &c, SIZE_MAX, SIZE_MAX);
@@ -160,5 +156,6 @@ sunder_status sunder_i_report_pushes(sunder_report *report, const sunder_i_solve
     sunder_i_free(p.program.constraint);
     sunder_i_free(p.push);
     sunder_i_free(p.near.item);
+    sunder_i_free(p.touch.item);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

@@ -50,8 +50,8 @@
 
 /* ---- What holds the features where they are (pushes.c) ----------------------------------------------------------- */
 
-/* Contact, as a share of the gap or of a body; and to what share of the moves their program is solved. */
-#define IN_CONTACT 0x1p-20
+/* A limit is reached by a move that is this share shorter; and to what share of the moves their program is solved. */
+#define AT_LIMIT 0x1p-20
 #define PRESSED 1e-9
 
 /* ---- What would free a conflict (needs.c) ------------------------------------------------------------------------ */

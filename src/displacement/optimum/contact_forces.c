@@ -12,41 +12,27 @@
 #include <math.h>
 #include <string.h>
 
-static bool add_contact(sunder_i_contacts *c, uint32_t i, uint32_t j, const double n[2], double d)
+static bool add_contact(sunder_i_contact_forces *c, uint32_t i, uint32_t j, const double n[2], double d)
 {
     if (!sunder_i_reserve(&c->cut, &c->capacity, c->n + 1, sizeof *c->cut)) return false;
     c->cut[c->n++] = (sunder_i_move_cut){i, j, {n[0], n[1]}, d};
     return true;
 }
 
-/* The pieces of a pair that u is on the boundary of, as half-planes. */
-static bool add_pair(sunder_i_contacts *c, const sunder_i_forbidden *f, uint32_t i, uint32_t j, const double u[2])
+static bool look_at(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
 {
-    const double hair = CONTACT_HAIR * f->size;
-    for (size_t k = 0; k < f->pieces; k++) {
-        double n[2];
-        const sunder_i_forbidden_piece *p = &f->piece[k];
-        if (!sunder_i_box_near_point(p->box, u[0], u[1], hair)) continue;
-        if (!(fabs(sunder_i_forbidden_normal(f, p, u, n) - p->radius) <= hair)) continue;
-        if (!add_contact(c, i, j, n, n[0] * u[0] + n[1] * u[1])) return false;
-    }
-    return true;
-}
-
-static bool look_at(sunder_i_contacts *c, const sunder_i_group *g, uint32_t i, uint32_t j)
-{
-    const double *t = g->move + 2 * (size_t)i, *v = g->move + 2 * (size_t)j, u[2] = {v[0] - t[0], v[1] - t[1]};
-    sunder_i_forbidden f;
-    bool ok = sunder_i_forbidden_init(&f, c->model, c->waived, g->body[i], g->body[j],
-                                      fabs(u[0]) + fabs(u[1]) + c->model->rules.gap);
-    c->steps += 16 + 8 * f.edges;
-    ok = ok && add_pair(c, &f, i, j, u);
-    sunder_i_forbidden_free(&f);
+    const sunder_i_body *body = c->model->body;
+    const double hair = sunder_i_contact_hair(c->model, &body[g->body[i]], &body[g->body[j]]) + 2 * g->margin;
+    size_t edges = 0;
+    bool ok = sunder_i_contacts_of_pair(c->model, c->waived, g->body[i], g->body[j], g->move + 2 * (size_t)i,
+                                        g->move + 2 * (size_t)j, hair, &c->touch, &edges);
+    c->steps += 16 + 8 * edges;
+    for (size_t k = 0; k < c->touch.n && ok; k++) ok = add_contact(c, i, j, c->touch.item[k].n, c->touch.item[k].d);
     return ok;
 }
 
 /* Might the two be in contact? By boxes; ways count too, where they matter. */
-static bool are_near(const sunder_i_contacts *c, const sunder_i_group *g, uint32_t i, uint32_t j)
+static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = c->model;
     const double home[2] = {0, 0};
@@ -62,7 +48,7 @@ static bool are_near(const sunder_i_contacts *c, const sunder_i_group *g, uint32
     return sunder_i_box_meet(p, q);
 }
 
-static bool find(sunder_i_contacts *c, const sunder_i_group *g)
+static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
 {
     for (uint32_t i = 0; i < g->n; i++) {
         const sunder_i_body *p = &c->model->body[g->body[i]];
@@ -82,7 +68,7 @@ static bool find(sunder_i_contacts *c, const sunder_i_group *g)
 }
 
 /* Brings the contacts in, the one missed most first. */
-static bool solve(sunder_i_contacts *c, const sunder_i_group *g)
+static bool solve(sunder_i_contact_forces *c, const sunder_i_group *g)
 {
     sunder_i_dual_program *p = &c->program;
     for (size_t round = 0; round < 4 * c->n + 64; round++) {
@@ -105,8 +91,9 @@ static bool solve(sunder_i_contacts *c, const sunder_i_group *g)
     return true;
 }
 
-bool sunder_i_contacts_find(sunder_i_contacts *c, const sunder_i_model *model, const sunder_i_waived *waived,
-                            const sunder_i_group *g, const double *weight, const double *mass, const double *anchor)
+bool sunder_i_contact_forces_find(sunder_i_contact_forces *c, const sunder_i_model *model,
+                                  const sunder_i_waived *waived, const sunder_i_group *g, const double *weight,
+                                  const double *mass, const double *anchor)
 {
     memset(c, 0, sizeof *c);
     c->model = model;
@@ -123,10 +110,11 @@ bool sunder_i_contacts_find(sunder_i_contacts *c, const sunder_i_model *model, c
     return true;
 }
 
-void sunder_i_contacts_free(sunder_i_contacts *c)
+void sunder_i_contact_forces_free(sunder_i_contact_forces *c)
 {
     sunder_i_free(c->cut);
     sunder_i_free(c->force);
+    sunder_i_free(c->touch.item);
     sunder_i_dual_free(&c->program);
     memset(c, 0, sizeof *c);
 }

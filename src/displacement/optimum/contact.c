@@ -1,0 +1,58 @@
+/* Contacts of two bodies, in doubles.
+ *
+ * In a layout that was pressed together u, the move of the one less that of the other, stands on the boundary of the
+ * pair's forbidden set (forbidden.h): of one piece along a wall, of two in a notch or where arcs meet. Each such piece
+ * has a tangent there, and u on its far side. What rounding, and a margin beyond the gap, put between u and the
+ * boundary is bridged by a hair: a share of the gap or, where that is 0, of the smaller body, so that a layer on
+ * another scale has the same contacts. */
+#include "displacement/optimum/contact.h"
+#include "displacement/optimum/tuning.h"
+
+#include <math.h>
+
+double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
+{
+    if (model->rules.gap > 0) return CONTACT * model->rules.gap;
+    const double length = p->box[2] - p->box[0] + p->box[3] - p->box[1];
+    return CONTACT * fmin(length, q->box[2] - q->box[0] + q->box[3] - q->box[1]);
+}
+
+static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d)
+{
+    if (!sunder_i_reserve(&out->item, &out->capacity, out->n + 1, sizeof *out->item)) return false;
+    out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, piece->a->feature, piece->b->feature};
+    return true;
+}
+
+bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t i, uint32_t j,
+                               const double t[2], const double v[2], double hair, sunder_i_contact_list *out,
+                               size_t *edges)
+{
+    const double u[2] = {v[0] - t[0], v[1] - t[1]};
+    sunder_i_forbidden f;
+    out->n = 0;
+    bool ok = sunder_i_forbidden_init(&f, model, waived, i, j, fabs(u[0]) + fabs(u[1]) + hair);
+    for (size_t k = 0; k < f.pieces && ok; k++) {
+        const sunder_i_forbidden_piece *piece = &f.piece[k];
+        double n[2];
+        if (!sunder_i_box_near_point(piece->box, u[0], u[1], hair)) continue;
+        if (!(fabs(sunder_i_forbidden_normal(&f, piece, u, n) - piece->radius) <= hair)) continue;
+        ok = add(out, piece, n, n[0] * u[0] + n[1] * u[1]);
+    }
+    if (edges) *edges += f.edges;
+    sunder_i_forbidden_free(&f);
+    return ok;
+}
+
+bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, const double t[2], const double v[2],
+                             bool *contact)
+{
+    const sunder_i_waived none = {0};
+    const double u[2] = {v[0] - t[0], v[1] - t[1]};
+    const double hair = sunder_i_contact_hair(model, &model->body[i], &model->body[j]);
+    sunder_i_forbidden f;
+    const bool ok = sunder_i_forbidden_init(&f, model, &none, i, j, fabs(u[0]) + fabs(u[1]) + hair);
+    *contact = ok && sunder_i_forbidden_is_near(&f, u, hair);
+    sunder_i_forbidden_free(&f);
+    return ok;
+}
