@@ -13,8 +13,7 @@
  * block's contacts on a body (contact_forces.c), it stands still at a_i^S = t_i - F_i^S / (2 w_i^S). So blocks have to
  * hold all contacts that press, each once: they are grown from the contact that presses most and is in none yet, by the
  * body that is pressed most by those in it. Where a block finds a better place, the copies of a body drift apart; their
- * places are then drawn towards each other [subgradient, Pol69], a step at a time, while the effort lasts.
- */
+ * places are then drawn towards each other [subgradient, Pol69], a step at a time, while the effort lasts. */
 #include "displacement/optimum/blocks.h"
 #include "displacement/optimum/tree.h"
 #include "displacement/optimum/tuning.h"
