@@ -107,6 +107,22 @@ static bool add_barriers(picture_writer *writer, double rim, double least_size, 
     return true;
 }
 
+/* Where they pass under features: a broken line along the middle, or along the edge of an area, in the colour that the
+ * barrier itself has there, so that it is seen on features alone. */
+static bool add_underpasses(picture_writer *writer, gis_error *error)
+{
+    enum { WIDE = 60 };
+    const gis_page_model *model = writer->model;
+    for (size_t k = 0; k < model->n_barriers; k++) {
+        const gis_page_barrier *each = &model->barrier[k];
+        const sunder_obstacle *geometry = &each->given->geometry;
+        bool wide = !geometry->shape && gis_picture_length(&writer->picture, each->given->width) >= WIDE;
+        if (!gis_box_meets(each->box, writer->picture.window)) continue;
+        if (!gis_go_on(error) || !add_barrier(writer, each, wide ? "under wide" : "under", 0, error)) return false;
+    }
+    return true;
+}
+
 /* ---- A place ----------------------------------------------------------------------------------------------------- */
 
 enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000, CLOSE_UP_RIM = 30 };
@@ -182,6 +198,7 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
     for (int k = 0; ok && k < CLASSES; k++)
         ok = add_path(&writer, after ? classes[k].after : classes[k].before, after, add_feature, classes[k].status,
                       error);
+    ok = ok && add_underpasses(&writer, error);
     ok = ok && (!after || add_moves(&writer, error));
     if (ok && after) add_links(&writer);
     gis_text_add(to, "</svg>\n");

@@ -87,6 +87,20 @@ def ask_two(browser):
     quiet(page, "two.html")
 
 
+# ---- A house on a road: y = 5, 3 wide, from x = -20 to 20; the house from 0 to 10 ------------------------------------------
+def ask_under(browser):
+    page = browser.open(address("under.html"), 1200, 900)
+    set_slider(page, 0)
+    box, at, picture = map_box(page), place(page), page.picture(".map canvas")
+    along = lambda from_x, to_x, y: [picture.at(*pixel(box, at, from_x + k * (to_x - from_x) / 200, y)) for k in range(201)]
+    dashes = [min(colour) > 120 for colour in along(1, 9, 5)]
+    demand(3 < sum(a != b for a, b in zip(dashes, dashes[1:])), "no broken line shows the road under the house: %s" % along(1, 9, 5)[::20])
+    demand(all(min(colour) > 250 for colour in along(12, 19, 5)), "the road is not plain beside the house: %s" % set(along(12, 19, 5)))
+    demand(len(set(along(31, 39, 5))) == 1, "a line shows on the house that is on no road: %s" % set(along(31, 39, 5)))
+    demand(page.evaluate("document.querySelectorAll('.close-up path.under').length") == 2, "no closer look shows the road under it")
+    quiet(page, "under.html")
+
+
 # ---- The town ------------------------------------------------------------------------------------------------------------
 def ask_colours(page):
     """Every building, where the output has it, in the colour of its status."""
@@ -309,7 +323,7 @@ def ask_degenerate(browser):
 
 
 with Browser(program, profile) as opened:
-    for ask in (ask_two, ask_town, ask_hostile, ask_many, ask_degenerate):
+    for ask in (ask_two, ask_under, ask_town, ask_hostile, ask_many, ask_degenerate):
         print("----", ask.__name__)
         ask(opened)
 sys.exit(1 if wrong else 0)

@@ -38,6 +38,17 @@ expect 0 separate "$town" lone.gpkg -l buildings --where 'fid = 1' --gap 3 --rep
 expect 0 separate "$town" none.gpkg -l buildings --where 'fid < 0' --gap 3 --report none.html -q
 expect 3 separate "$town" roads.gpkg -l buildings --where 'fid <= 60' --max-shift 1 --barrier "$town,layer=roads,width=13" \
     --report roads.html -q
+# Two houses, one of them on a road that it cannot leave.
+layer under.gpkg houses POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
+2,"POLYGON((30 0,40 0,40 10,30 10,30 0))"
+X
+layer way.gpkg way LINESTRING <<'X'
+id,WKT
+1,"LINESTRING(-20 5,20 5)"
+X
+expect 3 separate under.gpkg under_out.gpkg --max-shift 1 --barrier way.gpkg,width=3 --report under.html -q
 layer far.gpkg far POLYGON <<'X'
 id,WKT
 1,"POLYGON((-1e300 -1e300,1e300 -1e300,1e300 1e300,-1e300 -1e300))"

@@ -142,13 +142,16 @@ function tracePart(context, view, part) {
   }
 }
 
+function barriersInView(layer, view) {
+  return layer.barriers.filter(({ box }) => view.x + box[2] * view.scale >= 0 && view.x + box[0] * view.scale <= view.width &&
+    view.y - box[1] * view.scale >= 0 && view.y - box[3] * view.scale <= view.height &&
+    Math.max(box[2] - box[0], box[3] - box[1]) * view.scale >= leastShape);
+}
+
 // Barriers with their width: rims first, so that roads that meet run into each other. Where a road is hardly wider than
 // its rim, or has no width, the rim is all there is.
 function drawBarriers(context, layer, view, colours) {
-  const rim = 1.6;
-  const seen = layer.barriers.filter(({ box }) => view.x + box[2] * view.scale >= 0 && view.x + box[0] * view.scale <= view.width &&
-    view.y - box[1] * view.scale >= 0 && view.y - box[3] * view.scale <= view.height &&
-    Math.max(box[2] - box[0], box[3] - box[1]) * view.scale >= leastShape);
+  const rim = 1.6, seen = barriersInView(layer, view);
   context.lineCap = context.lineJoin = "round";
   for (const inner of [false, true]) {
     // Lines of one width, many in one path; areas one by one.
@@ -188,6 +191,26 @@ function drawBarriers(context, layer, view, colours) {
   context.lineCap = "butt";
 }
 
+// Where barriers pass under features: a broken line along the middle, in the colour that the barrier itself has there, so
+// that it is seen on features alone.
+function drawUnderpasses(context, layer, view, colours) {
+  const seen = barriersInView(layer, view);
+  context.setLineDash([4, 3]);
+  for (const { width, lines, rings } of seen) {
+    const wide = width * view.scale >= 3 && rings.length === 0;
+    context.lineWidth = wide ? 1.2 : 0.8;
+    context.strokeStyle = wide ? colours.barrier : colours.barrierLine;
+    context.beginPath();
+    for (const line of lines) tracePart(context, view, line);
+    for (const ring of rings) {
+      tracePart(context, view, ring);
+      context.closePath();
+    }
+    context.stroke();
+  }
+  context.setLineDash([]);
+}
+
 // A colour between two, both #rrggbb.
 function mix(from, to, part) {
   const channel = (k) => {
@@ -210,6 +233,7 @@ function drawLayer(context, layer, lists, view, part, colours) {
     const line = part === 1 ? colours[name + "Line"] : mix(colours[from + "Line"], colours[name + "Line"], part);
     drawFeatures(context, layer, view, lists[status], part, fill, line, seen <= fewFeatures, name === "blocked" ? 1.8 : 0.8);
   }
+  if (seen <= fewFeatures) drawUnderpasses(context, layer, view, colours);
   if (part > 0)
     for (const status of [1, 3]) {
       drawGhosts(context, layer, view, lists[status], colours);
