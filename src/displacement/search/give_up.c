@@ -125,7 +125,8 @@ static void try_from_home(sunder_i_search *s)
 static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
 {
     const uint64_t work = sunder_i_search_work(s);
-    s->patience = work + GIVE_UP_TIMES * work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
+    const uint64_t more = (GIVE_UP_TIMES - 1) * work;
+    s->patience = 2 * work + (more < GIVE_UP_MOST ? more : GIVE_UP_MOST) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     bool done = false;
     for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < s->patience; share /= MORE) {
         sunder_i_search_settle_parts(s);
