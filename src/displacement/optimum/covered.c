@@ -5,17 +5,20 @@
  * a piece's polygon up to its own, and a distance up to a grain: so corners have to be in by these together, and then
  * the disc of radius blur about each is in the true piece (forbidden.c), and so is all that lies between them.
  *
- * What touches the boundary of the union from within can so not be covered: whoever asks leaves some room. */
+ * What touches the boundary of the union from within can so not be covered: whoever asks leaves some room. A middle
+ * that is in no piece is told: it says where the union has a gap. */
 #include "displacement/optimum/region.h"
 #include "displacement/optimum/tuning.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct covering {
     const sunder_i_forbidden *forbidden;
     bool *used;
     uint64_t steps, most;
     const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
+    double *gap;                          /* NULL, or for a place that is in no piece */
 } covering;
 
 static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
@@ -60,14 +63,19 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     if (r->n == 0) return true;
     if (c->last && holds(c, c->last, r)) return true;
     measure(r, middle, along);
-    for (size_t k = 0; k < c->forbidden->pieces; k++) {
-        const sunder_i_forbidden_piece *p = &c->forbidden->piece[k];
+    const double at[4] = {middle[0], middle[1], middle[0], middle[1]};
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, c->forbidden);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, c->forbidden, at));) {
         if (!is_in(c, p, middle, r->blur)) continue;
         any = true;
         if (p == c->last || !holds(c, p, r)) continue;
         c->last = p;
+        c->steps += walk.looks;
         return true;
     }
+    c->steps += walk.looks;
+    if (!any && c->gap) memcpy(c->gap, middle, sizeof middle);
     if (!any || depth == COVER_DEPTH || c->steps > c->most) return false;
     const double d = along[0] * middle[0] + along[1] * middle[1], back[2] = {-along[0], -along[1]};
     sunder_i_region half = *r;
@@ -79,9 +87,13 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
 }
 
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
-                                uint64_t *steps)
+                                double gap[2], uint64_t *steps)
 {
-    covering c = {.forbidden = forbidden, .used = used, .most = COVER_STEPS};
+    covering c = {.forbidden = forbidden,
+                  .used = used,
+                  .most = sunder_i_forbidden_is_many(forbidden) ? COVER_MANY_STEPS : COVER_STEPS,
+                  .gap = gap};
+    if (gap) gap[0] = gap[1] = NAN;
     const bool covered = is_covered(&c, region, 0);
     *steps += c.steps;
     return covered;

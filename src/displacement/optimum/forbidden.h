@@ -4,6 +4,7 @@
 
 #include "displacement/layer/model.h"
 #include "displacement/obstacles/obstacle.h"
+#include "spatial/box_tree.h"
 
 /* A convex polygon K grown by an open disc of that radius; with radius 0 its interior. The true piece is that of some
  * true polygon; every corner of K is within `vague` of a point of it. */
@@ -20,8 +21,9 @@ typedef struct sunder_i_forbidden {
     size_t pieces, piece_capacity;
     sunder_i_obstacle_edge *edge;
     size_t edges, edge_capacity;
-    double size;  /* no coordinate of the pieces grown, or of what is asked of them, is larger */
-    double grain; /* more than rounding does to any point, distance or product of that size */
+    sunder_i_box_tree tree; /* over the pieces, where they are many; else its box is NULL */
+    double size;            /* no coordinate of the pieces grown, or of what is asked of them, is larger */
+    double grain;           /* more than rounding does to any point, distance or product of that size */
 } sunder_i_forbidden;
 
 /* What is not asked of pairs: things a < b that are listed in the report, sorted; a barrier by its first part, for a
@@ -39,6 +41,31 @@ bool sunder_i_is_waived(const sunder_i_model *model, const sunder_i_waived *waiv
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
+
+/* ---- forbidden_places.c ------------------------------------------------------------------------------------------ */
+
+/* Of many pieces those near a place will be found fast; their order changes. False if memory is out. */
+bool sunder_i_forbidden_index(sunder_i_forbidden *forbidden);
+static inline bool sunder_i_forbidden_is_many(const sunder_i_forbidden *forbidden) { return forbidden->tree.box; }
+
+/* What it takes to ask of one place, in steps. */
+static inline uint64_t sunder_i_forbidden_look(const sunder_i_forbidden *forbidden)
+{
+    return sunder_i_forbidden_is_many(forbidden) ? 128 : forbidden->pieces + forbidden->edges / 4;
+}
+
+/* The pieces whose boxes meet one, each once. */
+typedef struct sunder_i_forbidden_walk {
+    sunder_i_box_walk waiting;
+    size_t at, end; /* pieces of the leaf at hand */
+    uint64_t looks; /* at boxes, so far */
+} sunder_i_forbidden_walk;
+
+void sunder_i_forbidden_start(sunder_i_forbidden_walk *walk, const sunder_i_forbidden *forbidden);
+/* The next one; NULL: that was all. */
+const sunder_i_forbidden_piece *sunder_i_forbidden_next(sunder_i_forbidden_walk *walk,
+                                                        const sunder_i_forbidden *forbidden, const double box[4]);
+
 /* The distance of u from K: negative inside, then of the nearest line of an edge. */
 double sunder_i_forbidden_distance(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
                                    const double u[2]);
@@ -55,5 +82,9 @@ double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const doubl
 bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const double u[2], double hair);
 /* The first place on the ray from u, from which it is in none of the pieces. */
 double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2]);
+/* How far the ray from u, where nothing is forbidden, goes until it enters a piece, or comes to `most`. steps: grows by
+ * the work done. */
+double sunder_i_forbidden_entry(const sunder_i_forbidden *forbidden, const double u[2], const double dir[2],
+                                double most, uint64_t *steps);
 
 #endif

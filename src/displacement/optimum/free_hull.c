@@ -15,7 +15,7 @@
 
 static bool is_free(const sunder_i_forbidden *f, const double u[2], uint64_t *steps)
 {
-    *steps += 1 + f->pieces / 4;
+    *steps += 1 + (sunder_i_forbidden_is_many(f) ? sunder_i_forbidden_look(f) : f->pieces / 4);
     return sunder_i_forbidden_depth(f, u) <= FREE_HAIR * f->size;
 }
 
@@ -88,6 +88,59 @@ bool sunder_i_reflex_find(sunder_i_reflex *out, const sunder_i_forbidden *f, uin
     return true;
 }
 
+/* How far it is from p along dir to where the region ends. */
+static double way_out(const sunder_i_region *r, const double p[2], const double dir[2])
+{
+    double way = INFINITY;
+    for (uint32_t k = 0; k < r->n; k++) {
+        const double *a = r->xy + 2 * k, *b = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+        const double nx = b[1] - a[1], ny = a[0] - b[0], speed = nx * dir[0] + ny * dir[1];
+        if (speed > 0) way = fmin(way, fmax(0, (nx * (a[0] - p[0]) + ny * (a[1] - p[1])) / speed));
+    }
+    return way < INFINITY ? way : 0;
+}
+
+/* The normal of the piece that has p on its boundary; false: none has. */
+static bool find_wall(const sunder_i_forbidden *f, const double p[2], double n[2], uint64_t *steps)
+{
+    double nearest = WALL_HAIR * f->size;
+    const double at[4] = {p[0] - nearest, p[1] - nearest, p[0] + nearest, p[1] + nearest};
+    bool any = false;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *piece; (piece = sunder_i_forbidden_next(&walk, f, at));) {
+        double normal[2];
+        *steps += piece->edges;
+        const double off = fabs(sunder_i_forbidden_normal(f, piece, p, normal) - piece->radius);
+        if (off >= nearest) continue;
+        nearest = off;
+        n[0] = normal[0];
+        n[1] = normal[1];
+        any = true;
+    }
+    *steps += walk.looks;
+    return any;
+}
+
+bool sunder_i_reflex_seek(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_region *r,
+                          const double from[2], const double down[2], uint64_t *steps)
+{
+    double p[2] = {from[0], from[1]}, dir[2] = {down[0], down[1]}, n[2];
+    /* Straight down to a wall, then along walls, as long as they lead down. */
+    for (int leg = 0; leg < MOST_LEGS; leg++) {
+        const double way = sunder_i_forbidden_entry(f, p, dir, way_out(r, p, dir), steps);
+        for (int c = 0; c < 2; c++) p[c] += way * dir[c];
+        if (!find_wall(f, p, n, steps)) break;
+        const double along = -n[1] * down[0] + n[0] * down[1], side = along > 0 ? 1 : -1;
+        if (!(fabs(along) > LEAST_SLOPE)) break;
+        dir[0] = -side * n[1];
+        dir[1] = side * n[0];
+        /* A hair off the wall, or it is entered at once. */
+        for (int c = 0; c < 2; c++) p[c] += WALL_HAIR * f->size * n[c];
+    }
+    return note(out, f, p[0], p[1], steps) && note(out, f, from[0], from[1], steps);
+}
+
 /* ---- The hull ---------------------------------------------------------------------------------------------------- */
 
 typedef struct gathering {
@@ -148,6 +201,23 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
         }
         if (m < spans) free_from = fmax(free_from, span[m][1]);
     }
+}
+
+/* The same of many pieces: of what is free of the side, its ends. */
+static void gather_ends(gathering *g, const sunder_i_region *r, uint32_t k, const sunder_i_forbidden *f,
+                        uint64_t *steps)
+{
+    const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
+    double dir[2] = {q[0] - p[0], q[1] - p[1]};
+    const double length = sqrt(dir[0] * dir[0] + dir[1] * dir[1]);
+    if (!(length > 0)) return;
+    for (int c = 0; c < 2; c++) dir[c] /= length;
+    const double back[2] = {-dir[0], -dir[1]}, first = sunder_i_forbidden_exit(f, p, dir),
+                 last = sunder_i_forbidden_exit(f, q, back);
+    *steps += 2 * sunder_i_forbidden_look(f);
+    if (first > length || last > length) return;
+    gather(g, p[0] + first * dir[0], p[1] + first * dir[1]);
+    gather(g, q[0] + last * back[0], q[1] + last * back[1]);
 }
 
 static bool holds(const sunder_i_region *r, const double u[2], double hair)
@@ -219,7 +289,11 @@ bool sunder_i_free_hull_nearest(const sunder_i_region *r, const sunder_i_forbidd
 {
     double at[MOST_EXTREME][2];
     gathering g = {at, 0};
-    for (uint32_t k = 0; k < r->n; k++) gather_side(&g, r, k, f, steps);
+    for (uint32_t k = 0; k < r->n; k++)
+        if (sunder_i_forbidden_is_many(f))
+            gather_ends(&g, r, k, f, steps);
+        else
+            gather_side(&g, r, k, f, steps);
     *steps += reflex->n;
     for (size_t k = 0; k < reflex->n; k++)
         if (holds(r, reflex->place[k], FREE_HAIR * f->size)) gather(&g, reflex->place[k][0], reflex->place[k][1]);

@@ -29,9 +29,10 @@ double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], 
 /* ---- covered.c --------------------------------------------------------------------------------------------------- */
 
 /* Is the true region within the forbidden set? Only if that is proved. used: NULL, or [forbidden->pieces], where those
- * that the proof stands on are marked. steps: grows by the work done. */
+ * that the proof stands on are marked. gap: NULL, or for a place of it that is in no piece, by which it is not covered;
+ * NAN: none was met. steps: grows by the work done. */
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
-                                uint64_t *steps);
+                                double gap[2], uint64_t *steps);
 
 /* ---- free_hull.c ------------------------------------------------------------------------------------------------- */
 
@@ -42,9 +43,13 @@ typedef struct sunder_i_reflex {
 } sunder_i_reflex;
 
 bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, uint64_t *steps);
+/* Of many pieces only those that matter are looked for, one by one: from a place of the region that is free, down to
+ * where no way through what is free leads farther along `down`, or nearly so. False if memory is out. */
+bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *forbidden, const sunder_i_region *region,
+                          const double from[2], const double down[2], uint64_t *steps);
 
-/* The place nearest to u of the convex hull of what the forbidden set leaves of the region, in doubles. False: it
- * leaves nothing. */
+/* The place nearest to u of the convex hull of what the forbidden set leaves of the region, in doubles; of many pieces,
+ * of what is known of that. False: it leaves nothing. */
 bool sunder_i_free_hull_nearest(const sunder_i_region *region, const sunder_i_forbidden *forbidden,
                                 const sunder_i_reflex *reflex, const double u[2], double place[2], uint64_t *steps);
 

@@ -35,7 +35,7 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
         n[0] = dir[0];
         n[1] = dir[1];
     }
-    t->steps += RAYS * (f->pieces + f->edges / 4);
+    t->steps += RAYS * sunder_i_forbidden_look(f);
     const double ahead = (1 - NEARER) * nearest, mid[2] = {c->u[0] + ahead * n[0], c->u[1] + ahead * n[1]};
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};

@@ -46,29 +46,12 @@ static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], doubl
     return made;
 }
 
-/* The pieces that meet the region: those of a small set once and for all. False: too many, or memory is out. */
-static bool look_about(sunder_i_tree *t, sunder_i_tree_pair *p, const sunder_i_region *region,
-                       sunder_i_forbidden_piece local[MOST_LOCAL], sunder_i_forbidden *near)
+/* The reflex corners of a pair of few pieces, once and for all. */
+static bool know_reflex(sunder_i_tree *t, sunder_i_tree_pair *p)
 {
-    double box[4];
-    *near = p->forbidden;
-    if (near->pieces <= MOST_LOCAL) {
-        if (!p->has_reflex && !sunder_i_reflex_find(&p->reflex, near, &t->steps)) t->failed = true;
-        p->has_reflex = true;
-        return !t->failed;
-    }
-    sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < region->n; k++) sunder_i_box_include(box, region->xy + 2 * k);
-    near->piece = local;
-    near->pieces = 0;
-    t->steps += p->forbidden.pieces / 4;
-    for (size_t k = 0; k < p->forbidden.pieces; k++) {
-        if (!sunder_i_box_meet(box, p->forbidden.piece[k].box)) continue;
-        if (near->pieces == MOST_LOCAL) return false;
-        local[near->pieces++] = p->forbidden.piece[k];
-    }
-    p->reflex.n = 0;
-    if (!sunder_i_reflex_find(&p->reflex, near, &t->steps)) t->failed = true;
+    if (p->has_reflex || sunder_i_forbidden_is_many(&p->forbidden)) return true;
+    p->has_reflex = true;
+    if (!sunder_i_reflex_find(&p->reflex, &p->forbidden, &t->steps)) t->failed = true;
     return !t->failed;
 }
 
@@ -76,12 +59,10 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
                            double n[2], double *d, bool *none)
 {
     sunder_i_tree_pair *p = &t->pair[pair];
-    sunder_i_forbidden_piece local[MOST_LOCAL];
-    sunder_i_forbidden near;
     double place[2];
     *none = region->n == 0;
-    if (*none || !look_about(t, p, region, local, &near)) return false;
-    if (!sunder_i_free_hull_nearest(region, &near, &p->reflex, u, place, &t->steps)) {
+    if (*none || !know_reflex(t, p)) return false;
+    if (!sunder_i_free_hull_nearest(region, &p->forbidden, &p->reflex, u, place, &t->steps)) {
         *none = true;
         return false;
     }
@@ -94,18 +75,19 @@ bool sunder_i_tree_propose(sunder_i_tree *t, uint32_t pair, const sunder_i_regio
     return true;
 }
 
-/* Is the region within what the pair may not do? Where the proof is kept, the pieces that it stands on are named. */
-static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sunder_i_region *region, uint32_t *named,
-                       uint32_t *names)
+/* Is the region within what the pair may not do? Where the proof is kept, the pieces that it stands on are named. gap:
+ * as of sunder_i_region_is_covered(). */
+static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sunder_i_region *region, double gap[2],
+                       uint32_t *named, uint32_t *names)
 {
     const sunder_i_forbidden *f = &p->forbidden;
-    if (!t->task.keep) return sunder_i_region_is_covered(region, f, NULL, &t->steps);
+    if (!t->task.keep) return sunder_i_region_is_covered(region, f, NULL, gap, &t->steps);
     if (!sunder_i_reserve(&t->used, &t->used_capacity, f->pieces, sizeof *t->used)) {
         t->failed = true;
         return false;
     }
     if (f->pieces) memset(t->used, 0, f->pieces * sizeof *t->used);
-    if (!sunder_i_region_is_covered(region, f, t->used, &t->steps)) return false;
+    if (!sunder_i_region_is_covered(region, f, t->used, gap, &t->steps)) return false;
     *named = (uint32_t)t->named.n;
     for (uint32_t k = 0; k < f->pieces; k++)
         if (t->used[k] && !sunder_i_list_push(&t->named, k)) t->failed = true;
@@ -118,28 +100,59 @@ bool sunder_i_tree_is_empty(sunder_i_tree *t, uint32_t pair)
     const sunder_i_tree_pair *p = &t->pair[pair];
     sunder_i_tree_node *node = &t->node[t->nodes - 1];
     node->pair = pair;
-    return is_covered(t, p, &p->region, &node->named, &node->names);
+    return is_covered(t, p, &p->region, NULL, &node->named, &node->names);
+}
+
+/* Cuts off what is before the line, but for some room, if that is forbidden. */
+static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d, double room, double gap[2])
+{
+    const sunder_i_tree_pair *p = &t->pair[pair];
+    const double back[2] = {-n[0], -n[1]};
+    uint32_t named = 0, names = 0;
+    sunder_i_region cap = p->region;
+    sunder_i_region_clip(&cap, back, room - d, SUNDER_I_NO_CUT, p->forbidden.grain);
+    if (!is_covered(t, p, &cap, gap, &named, &names)) return false;
+    const uint32_t cut = sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room);
+    if (t->failed) return false;
+    t->note[cut].named = named;
+    t->note[cut].names = names;
+    return true;
+}
+
+/* Of many pieces: what is proposed stands on the reflex corners that are known; where it is refuted by a place that is
+ * free, that leads to one more. */
+static bool cut_hull_of_many(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
+{
+    for (int tries = 0; tries < MOST_GAPS && !t->failed; tries++) {
+        sunder_i_tree_pair *p = &t->pair[pair];
+        double n[2], d, gap[2];
+        if (sunder_i_tree_propose(t, pair, &p->region, u, n, &d, none)) {
+            if (try_cut(t, pair, n, d, CUT_FAR_ROOM * (d - (n[0] * u[0] + n[1] * u[1])), gap)) return true;
+        } else {
+            uint32_t named, names;
+            if (!*none || p->region.n == 0 || is_covered(t, p, &p->region, gap, &named, &names)) return false;
+            for (int c = 0; c < 2; c++) n[c] = gap[c] - u[c];
+            const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
+            for (int c = 0; c < 2; c++) n[c] /= length;
+        }
+        if (!(fabs(gap[0]) < INFINITY) || t->failed) return false;
+        const double down[2] = {-n[0], -n[1]};
+        const size_t known = p->reflex.n;
+        p = &t->pair[pair];
+        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, &p->region, gap, down, &t->steps)) t->failed = true;
+        if (p->reflex.n == known) return false;
+    }
+    return false;
 }
 
 bool sunder_i_tree_cut_hull(sunder_i_tree *t, uint32_t pair, const double u[2], bool *none)
 {
     double n[2], d;
+    if (sunder_i_forbidden_is_many(&t->pair[pair].forbidden)) return cut_hull_of_many(t, pair, u, none);
     if (!sunder_i_tree_propose(t, pair, &t->pair[pair].region, u, n, &d, none)) return false;
-    const sunder_i_tree_pair *p = &t->pair[pair];
-    const double back[2] = {-n[0], -n[1]}, far = d - (n[0] * u[0] + n[1] * u[1]), size = p->forbidden.size;
-    const double room[] = {CUT_ROOM * size, CUT_MORE_ROOM * size, CUT_FAR_ROOM * far};
-    for (size_t attempt = 0; attempt < sizeof room / sizeof *room; attempt++) {
-        sunder_i_region cap = p->region;
-        sunder_i_region_clip(&cap, back, room[attempt] - d, SUNDER_I_NO_CUT, p->forbidden.grain);
-        uint32_t named = 0, names = 0;
-        if (!is_covered(t, p, &cap, &named, &names)) continue;
-        const uint32_t cut = sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room[attempt]);
-        if (t->failed) return false;
-        t->note[cut].named = named;
-        t->note[cut].names = names;
-        return true;
-    }
-    return false;
+    const double far = d - (n[0] * u[0] + n[1] * u[1]), size = t->pair[pair].forbidden.size;
+    return try_cut(t, pair, n, d, CUT_ROOM * size, NULL) || try_cut(t, pair, n, d, CUT_MORE_ROOM * size, NULL) ||
+           try_cut(t, pair, n, d, CUT_FAR_ROOM * far, NULL);
 }
 
 size_t sunder_i_tree_refine(sunder_i_tree *t, double value, bool *empty)

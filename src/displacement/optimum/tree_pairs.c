@@ -40,7 +40,8 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *t, uint32_t i, uint32_t
     *at = (uint32_t)t->pairs++;
     set_root(t, p);
     const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
-    if (!sunder_i_forbidden_init(&p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far))
+    if (!sunder_i_forbidden_init(&p->forbidden, t->task.model, t->task.waived, t->task.body[i], t->task.body[j], far) ||
+        !sunder_i_forbidden_index(&p->forbidden))
         t->failed = true;
     t->steps += 8 * p->forbidden.edges;
     sunder_i_region_init(&p->region, p->centre, p->reach);
@@ -83,7 +84,8 @@ static void look_at(sunder_i_tree *t, uint32_t i, uint32_t j)
     if (!p || p->forbidden.pieces == 0) return;
     const double u[2] = {at[2 * j] - at[2 * i], at[2 * j + 1] - at[2 * i + 1]};
     const double depth = sunder_i_forbidden_depth(&p->forbidden, u);
-    t->steps += 4 + p->forbidden.pieces;
+    t->steps +=
+        4 + (sunder_i_forbidden_is_many(&p->forbidden) ? sunder_i_forbidden_look(&p->forbidden) : p->forbidden.pieces);
     if (depth <= IN_CONFLICT * p->forbidden.size) return;
     if (!sunder_i_reserve(&t->conflict, &t->conflict_capacity, t->conflicts + 1, sizeof *t->conflict))
         t->failed = true;

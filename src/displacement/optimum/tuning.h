@@ -44,10 +44,13 @@
 
 /* ---- Pairs (forbidden.c, tree_cuts.c) ---------------------------------------------------------------------------- */
 
-/* Of a pair with more pieces within reach only nearer ones are heeded; and where more than these meet a region no cut
- * is looked for. */
+/* Of a pair with more pieces within reach only nearer ones are heeded. */
 #define MOST_PIECES 4096
-#define MOST_LOCAL 96
+/* With more there is a tree of boxes over them, of so many in a leaf, and what cuts need is looked for when it is
+ * needed; so many places that are free may be met on the way to a cut. */
+#define MANY_PIECES 96
+#define PIECES_IN_LEAF 4
+#define MOST_GAPS 24
 
 /* ---- Shares of the size of a pair's forbidden set ---------------------------------------------------------------- */
 
@@ -89,11 +92,17 @@
 
 #define COVER_DEPTH 60
 #define COVER_STEPS 20000u
+#define COVER_MANY_STEPS 200000u
 
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
 /* Places that are looked at, and pieces on one side of a region; with more it is a guess. */
 #define MOST_EXTREME 512
 #define MOST_SPANS 128
+/* What is so near to a piece, as a share of the set's size, is on its boundary; legs of a way down to a reflex corner,
+ * and the least share of a leg that has to lead down. */
+#define WALL_HAIR 0x1p-34
+#define MOST_LEGS 6
+#define LEAST_SLOPE 0.02
 
 #endif

@@ -1,0 +1,229 @@
+/* What is asked of a forbidden set at a place, or along a ray, in doubles.
+ *
+ * Of a set of many pieces those near by are found by a tree of boxes over them, in the order of a curve; of a few each
+ * is looked at. What is answered is the same, up to which of several pieces comes first. */
+#include "displacement/optimum/forbidden.h"
+#include "displacement/optimum/tuning.h"
+
+#include "spatial/curve.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- Pieces near by ---------------------------------------------------------------------------------------------- */
+
+static void add_box(const void *of, size_t k, double box[4])
+{
+    const sunder_i_forbidden *f = of;
+    sunder_i_box_join(box, f->piece[k].box);
+}
+
+/* The pieces along a curve, by their middles. */
+static bool sort_pieces(sunder_i_forbidden *f)
+{
+    sunder_i_arena arena;
+    sunder_i_arena_init(&arena);
+    double *middle = sunder_i_alloc(2 * f->pieces, sizeof *middle);
+    uint32_t *number = sunder_i_alloc(f->pieces, sizeof *number), *list = sunder_i_alloc(f->pieces, sizeof *list);
+    sunder_i_forbidden_piece *sorted = sunder_i_alloc(f->pieces, sizeof *sorted);
+    bool ok = middle && number && list && sorted;
+    for (size_t k = 0; ok && k < f->pieces; k++) {
+        const double *box = f->piece[k].box;
+        for (size_t c = 0; c < 2; c++) middle[2 * k + c] = box[c] / 2 + box[c + 2] / 2;
+        number[k] = list[k] = (uint32_t)k;
+    }
+    if (ok) sunder_i_curve_sort(middle, number, list, f->pieces, &arena);
+    ok = ok && !arena.failed;
+    for (size_t k = 0; ok && k < f->pieces; k++) sorted[k] = f->piece[list[k]];
+    if (ok) memcpy(f->piece, sorted, f->pieces * sizeof *sorted);
+    sunder_i_free(middle);
+    sunder_i_free(number);
+    sunder_i_free(list);
+    sunder_i_free(sorted);
+    sunder_i_arena_free(&arena);
+    return ok;
+}
+
+bool sunder_i_forbidden_index(sunder_i_forbidden *f)
+{
+    if (f->pieces <= MANY_PIECES) return true;
+    if (!sort_pieces(f)) return false;
+    f->tree = sunder_i_box_tree_of(f->pieces, PIECES_IN_LEAF);
+    f->tree.box = sunder_i_alloc(2 * f->tree.leaves, sizeof *f->tree.box);
+    if (f->tree.box) sunder_i_box_tree_fill(&f->tree, add_box, f);
+    return f->tree.box;
+}
+
+void sunder_i_forbidden_start(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f)
+{
+    w->looks = w->at = 0;
+    w->end = sunder_i_forbidden_is_many(f) ? 0 : f->pieces;
+    if (sunder_i_forbidden_is_many(f))
+        sunder_i_box_walk_start(&w->waiting, &f->tree);
+    else
+        w->waiting.n = 0;
+}
+
+const sunder_i_forbidden_piece *sunder_i_forbidden_next(sunder_i_forbidden_walk *w, const sunder_i_forbidden *f,
+                                                        const double box[4])
+{
+    for (;;) {
+        while (w->at < w->end) {
+            const sunder_i_forbidden_piece *piece = &f->piece[w->at++];
+            w->looks++;
+            if (sunder_i_box_meet(piece->box, box)) return piece;
+        }
+        size_t node;
+        if (!sunder_i_box_walk_next(&w->waiting, &node)) return NULL;
+        w->looks++;
+        if (!sunder_i_box_meet(f->tree.box[node], box)) continue;
+        if (node < f->tree.leaves) {
+            sunder_i_box_walk_open(&w->waiting, 2 * node, 2 * node + 1);
+            continue;
+        }
+        w->at = sunder_i_box_tree_first(&f->tree, node);
+        w->end = sunder_i_box_tree_end(&f->tree, node);
+    }
+}
+
+/* ---- One piece --------------------------------------------------------------------------------------------------- */
+
+double sunder_i_forbidden_distance(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece,
+                                   const double u[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    double inside = -INFINITY, nearest = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        if (s > inside) inside = s;
+        if (s <= 0) continue;
+        const double along = wy * e->n[0] - wx * e->n[1];
+        double far = s;
+        if (along < 0) {
+            far = sqrt(wx * wx + wy * wy);
+        } else if (along > e->length) {
+            const double past = along - e->length;
+            far = sqrt(s * s + past * past);
+        }
+        if (far < nearest) nearest = far;
+    }
+    return inside <= 0 ? inside : nearest;
+}
+
+double sunder_i_forbidden_normal(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double u[2],
+                                 double n[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    const double distance = sunder_i_forbidden_distance(f, piece, u);
+    double best = INFINITY;
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
+        const double along = wy * e->n[0] - wx * e->n[1], past = fmin(0, along) + fmax(0, along - e->length);
+        const double far = distance > 0 && s > 0 ? hypot(s, past) : fabs(s);
+        if ((distance > 0 && s <= 0) || fabs(far - fabs(distance)) >= best) continue;
+        best = fabs(far - fabs(distance));
+        /* From the nearest place of the edge; inside, square to its line. */
+        const double out = distance > 0 ? past : 0, length = hypot(s, out);
+        n[0] = length > 0 ? (s * e->n[0] - out * e->n[1]) / length : e->n[0];
+        n[1] = length > 0 ? (s * e->n[1] + out * e->n[0]) / length : e->n[1];
+        if (distance <= 0) {
+            n[0] = e->n[0];
+            n[1] = e->n[1];
+        }
+    }
+    return distance;
+}
+
+/* Where the line is in the disc about c. */
+static void span_disc(const double c[2], double radius, const double from[2], const double dir[2], double span[2])
+{
+    const double wx = c[0] - from[0], wy = c[1] - from[1], mid = wx * dir[0] + wy * dir[1],
+                 off = wx * dir[1] - wy * dir[0], under = radius * radius - off * off;
+    if (!(under >= 0)) return;
+    const double half = sqrt(under);
+    span[0] = fmin(span[0], mid - half);
+    span[1] = fmax(span[1], mid + half);
+}
+
+bool sunder_i_forbidden_span(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *piece, const double from[2],
+                             const double dir[2], double span[2])
+{
+    const sunder_i_obstacle_edge *edge = f->edge + piece->edge;
+    span[0] = INFINITY;
+    span[1] = -INFINITY;
+    /* The line meets the piece grown, if at all, in a segment; its ends are on edges moved out, or on discs about
+     * corners, and all that is there is in the piece. */
+    for (uint32_t k = 0; k < piece->edges; k++) {
+        const sunder_i_obstacle_edge *e = &edge[k];
+        const double across = e->n[0] * dir[0] + e->n[1] * dir[1];
+        const double wx = e->from[0] - from[0], wy = e->from[1] - from[1];
+        if (piece->radius > 0) span_disc(e->from, piece->radius, from, dir, span);
+        if (fabs(across) < 1e-14) continue;
+        const double s = (e->n[0] * wx + e->n[1] * wy + piece->radius) / across;
+        const double x = s * dir[0] - wx, y = s * dir[1] - wy, along = y * e->n[0] - x * e->n[1];
+        if (along < -f->grain || along > e->length + f->grain) continue;
+        span[0] = fmin(span[0], s);
+        span[1] = fmax(span[1], s);
+    }
+    return span[0] < span[1];
+}
+
+/* ---- All of them ------------------------------------------------------------------------------------------------- */
+
+double sunder_i_forbidden_depth(const sunder_i_forbidden *f, const double u[2])
+{
+    const double at[4] = {u[0], u[1], u[0], u[1]};
+    double depth = 0;
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));)
+        depth = fmax(depth, p->radius - sunder_i_forbidden_distance(f, p, u));
+    return depth;
+}
+
+bool sunder_i_forbidden_is_near(const sunder_i_forbidden *f, const double u[2], double hair)
+{
+    for (size_t k = 0; k < f->pieces; k++)
+        if (sunder_i_box_near_point(f->piece[k].box, u[0], u[1], hair) &&
+            sunder_i_forbidden_distance(f, &f->piece[k], u) < f->piece[k].radius + hair)
+            return true;
+    return false;
+}
+
+double sunder_i_forbidden_exit(const sunder_i_forbidden *f, const double u[2], const double dir[2])
+{
+    double s = 0;
+    for (bool again = true; again;) {
+        again = false;
+        const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};
+        sunder_i_forbidden_walk walk;
+        sunder_i_forbidden_start(&walk, f);
+        for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, at));) {
+            double span[2];
+            if (!sunder_i_forbidden_span(f, p, u, dir, span) || span[0] > s + f->grain || span[1] <= s) continue;
+            if (span[1] > s + f->grain) again = true;
+            s = span[1];
+        }
+    }
+    return s;
+}
+
+double sunder_i_forbidden_entry(const sunder_i_forbidden *f, const double u[2], const double dir[2], double most,
+                                uint64_t *steps)
+{
+    const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
+    double box[4], first = most;
+    sunder_i_box_of_segment(u, to, box);
+    sunder_i_forbidden_walk walk;
+    sunder_i_forbidden_start(&walk, f);
+    for (const sunder_i_forbidden_piece *p; (p = sunder_i_forbidden_next(&walk, f, box));) {
+        double span[2];
+        *steps += p->edges;
+        if (!sunder_i_forbidden_span(f, p, u, dir, span) || !(span[1] > f->grain)) continue;
+        first = fmin(first, fmax(0, span[0]));
+    }
+    *steps += walk.looks;
+    return first;
+}

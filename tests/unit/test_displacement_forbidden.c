@@ -1,0 +1,196 @@
+/* displacement/optimum: forbidden sets of few and of many pieces, what they cover, and what is free of them; against
+ * looking at every piece. Pieces are rectangles, grown, so that the oracle needs no more than a distance. */
+#include "random.h"
+
+#include "displacement/optimum/region.h"
+#include "displacement/optimum/tuning.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { MOST = 400 };
+
+typedef struct set {
+    sunder_i_forbidden forbidden;
+    sunder_i_forbidden_piece piece[MOST];
+    sunder_i_obstacle_edge edge[4 * MOST];
+    double box[MOST][4], radius[MOST]; /* what the oracle knows */
+    size_t n;
+} set;
+
+static void add(set *s, const double box[4], double radius)
+{
+    sunder_i_forbidden *f = &s->forbidden;
+    const double corner[8] = {box[0], box[1], box[2], box[1], box[2], box[3], box[0], box[3]};
+    sunder_i_forbidden_piece *p = &s->piece[f->pieces++];
+    *p = (sunder_i_forbidden_piece){.edge = (uint32_t)f->edges, .radius = radius};
+    p->edges = (uint32_t)sunder_i_obstacle_edges(corner, 4, s->edge + f->edges);
+    f->edges += p->edges;
+    sunder_i_box_grow(box, radius, p->box);
+    memcpy(s->box[s->n], box, sizeof s->box[0]);
+    s->radius[s->n++] = radius;
+    for (int c = 0; c < 4; c++) f->size = fmax(f->size, fabs(p->box[c]));
+    f->grain = 0x1p-46 * f->size;
+}
+
+/* n rectangles about the middle, so many that they overlap; some are grown by nothing. */
+static void make(rng *r, size_t n, set *s)
+{
+    memset(s, 0, sizeof *s);
+    s->forbidden = (sunder_i_forbidden){.piece = s->piece, .edge = s->edge, .size = 128};
+    for (size_t k = 0; k < n; k++) {
+        double box[4];
+        for (int c = 0; c < 2; c++) {
+            box[c] = (double)rng_int(r, -200, 160) / 4;
+            box[c + 2] = box[c] + (double)rng_int(r, 1, 60) / 4;
+        }
+        add(s, box, rng_once_in(r, 4) ? 0 : 1.5);
+    }
+}
+
+/* How deep a place is in the deepest piece that it is in, by the oracle; else 0. */
+static double depth_of(const set *s, double x, double y)
+{
+    double depth = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const double *b = s->box[k];
+        const double dx = fmax(b[0] - x, x - b[2]), dy = fmax(b[1] - y, y - b[3]);
+        const double distance = dx > 0 && dy > 0 ? hypot(dx, dy) : fmax(dx, dy);
+        depth = fmax(depth, s->radius[k] - distance);
+    }
+    return depth;
+}
+
+/* Lines that the oracle draws are right up to this: coordinates are below 2^7, and it asks for nothing finer. */
+static const double hair = 0x1p-26;
+
+static void check_places(rng *r, const set *s)
+{
+    for (int k = 0; k < 60; k++) {
+        const double u[2] = {(double)rng_int(r, -240, 240) / 4, (double)rng_int(r, -240, 240) / 4};
+        const double angle = (double)rng_int(r, 0, 62) / 10 + 0.05, dir[2] = {cos(angle), sin(angle)};
+        const double depth = sunder_i_forbidden_depth(&s->forbidden, u), oracle = depth_of(s, u[0], u[1]);
+        assert_true(fabs(depth - oracle) <= hair);
+        const double way = sunder_i_forbidden_exit(&s->forbidden, u, dir);
+        assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
+        for (int e = 1; e < 8 && way > 1; e++) {
+            /* On the way out all is forbidden, but for seams of pieces that touch. */
+            const double on = way * e / 8, off = on + 0x1p-10;
+            assert_true(depth_of(s, u[0] + on * dir[0], u[1] + on * dir[1]) > 0 ||
+                        depth_of(s, u[0] + off * dir[0], u[1] + off * dir[1]) > 0);
+        }
+        if (oracle > 0) continue;
+        uint64_t steps = 0;
+        const double entry = sunder_i_forbidden_entry(&s->forbidden, u, dir, 100, &steps);
+        assert_true(entry >= 0 && entry <= 100 && steps > 0);
+        for (int e = 0; e < 8; e++)
+            assert_true(depth_of(s, u[0] + entry * e / 8 * dir[0], u[1] + entry * e / 8 * dir[1]) <= hair);
+        const double past = entry + 0x1p-20;
+        if (entry < 100) assert_true(depth_of(s, u[0] + past * dir[0], u[1] + past * dir[1]) >= -hair);
+    }
+}
+
+/* What is said to be covered is; what is not for a gap has it. */
+static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
+{
+    size_t covered = 0;
+    for (int k = 0; k < 40; k++) {
+        const double centre[2] = {(double)rng_int(r, -160, 160) / 4, (double)rng_int(r, -160, 160) / 4};
+        sunder_i_region region;
+        double gap[2];
+        uint64_t steps = 0;
+        sunder_i_region_init(&region, centre, (double)rng_int(r, 1, 80) / 8);
+        const double turn[2] = {0.6, 0.8};
+        sunder_i_region_clip(&region, turn, 0.6 * centre[0] + 0.8 * centre[1] - 0.5, 0, s->forbidden.grain);
+        if (sunder_i_region_is_covered(&region, &s->forbidden, NULL, gap, &steps)) {
+            covered++;
+            assert_true(isnan(gap[0]));
+            for (uint32_t c = 0; c < region.n; c++) {
+                const double *p = region.xy + 2 * (size_t)c, *q = region.xy + 2 * (size_t)((c + 1) % region.n);
+                assert_true(depth_of(s, p[0], p[1]) > 0);
+                assert_true(depth_of(s, (p[0] + q[0]) / 2, (p[1] + q[1]) / 2) > 0);
+            }
+        } else if (isfinite(gap[0]) && depth_of(s, gap[0], gap[1]) == 0) {
+            const double down[2] = {1, 0};
+            const size_t known = reflex->n;
+            double least = gap[0];
+            assert_true(sunder_i_reflex_seek(reflex, &s->forbidden, &region, gap, down, &steps));
+            for (size_t m = known; m < reflex->n; m++) {
+                const double *p = reflex->place[m];
+                assert_true(depth_of(s, p[0], p[1]) <= 64 * WALL_HAIR * s->forbidden.size);
+                least = fmax(least, p[0]);
+            }
+            assert_true(reflex->n > known && least >= gap[0]);
+        }
+    }
+    return covered;
+}
+
+static void check(size_t n, size_t i)
+{
+    static set s;
+    rng r = rng_start(test_seed(), i);
+    sunder_i_reflex reflex = {0};
+    make(&r, n, &s);
+    /* Sorted on memory of its own. */
+    assert_true(sunder_i_forbidden_index(&s.forbidden));
+    assert_true(sunder_i_forbidden_is_many(&s.forbidden) == (n > MANY_PIECES));
+    check_places(&r, &s);
+    const size_t covered = check_cover(&r, &s, &reflex);
+    if (n == MOST) assert_true(covered > 0);
+    sunder_i_free(reflex.place);
+    sunder_i_free(s.forbidden.tree.box);
+}
+
+static void test_few_and_many(void **state)
+{
+    static const size_t sizes[] = {1, 7, 30, MANY_PIECES, MANY_PIECES + 1, 200, MOST};
+    (void)state;
+    for (size_t i = 0; i < test_count(12); i++)
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) check(sizes[k], 16 * i + k);
+}
+
+/* A wall with a notch: the way down leads to the notch's ground, wherever it begins. */
+static void test_down_into_a_notch(void **state)
+{
+    (void)state;
+    static set s;
+    sunder_i_reflex reflex = {0};
+    memset(&s, 0, sizeof s);
+    s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
+    for (int k = 0; k < 110; k++) {
+        /* A saw: left of x = 0, but for a notch whose ground is at (-8, 0), between slopes made of steps. */
+        const double y = k < 55 ? -8 - k / 8.0 : 8 + (k - 55) / 8.0;
+        add(&s, (double[4]){-40, y - 1, 0, y + 1}, 0);
+    }
+    add(&s, (double[4]){-40, -9, -8, 9}, 0);
+    assert_true(sunder_i_forbidden_index(&s.forbidden));
+    assert_true(sunder_i_forbidden_is_many(&s.forbidden));
+    const double home[2] = {0, 0}, from[2] = {4, 3}, down[2] = {-0.8, 0.6};
+    sunder_i_region region;
+    uint64_t steps = 0;
+    sunder_i_region_init(&region, home, 12);
+    assert_true(sunder_i_reflex_seek(&reflex, &s.forbidden, &region, from, down, &steps));
+    double least = INFINITY, place[2] = {0, 0};
+    for (size_t k = 0; k < reflex.n; k++) {
+        const double d = -(down[0] * reflex.place[k][0] + down[1] * reflex.place[k][1]);
+        if (d >= least) continue;
+        least = d;
+        memcpy(place, reflex.place[k], sizeof place);
+    }
+    assert_true(fabs(place[0] + 8) <= 0x1p-20 && fabs(place[1] - 7) <= 0x1p-20);
+    sunder_i_free(reflex.place);
+    sunder_i_free(s.forbidden.tree.box);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
