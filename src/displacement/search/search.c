@@ -5,6 +5,21 @@
 #include <math.h>
 #include <string.h>
 
+/* The mean size of the bodies that are not parts of barriers: how long those are says nothing of how far a
+ * body has to go. */
+static double mean_extent(const sunder_i_model *model, const uint32_t *body, size_t n)
+{
+    size_t counted = 0;
+    double extent = 0;
+    for (size_t k = 0; k < n; k++) counted += !sunder_i_is_barrier_body(model, &model->body[body[k]]);
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *b = &model->body[body[k]];
+        if (b->pieces && !sunder_i_is_barrier_body(model, b))
+            extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)counted;
+    }
+    return extent;
+}
+
 bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const uint32_t *body, size_t n,
                           double margin, const double *move)
 {
@@ -28,8 +43,8 @@ bool sunder_i_search_init(sunder_i_search *s, const sunder_i_model *model, const
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
         s->mass[k] = sunder_i_may_move(b) ? 0.5 / b->weight : 0;
-        if (b->pieces) s->extent += fmax(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)n;
     }
+    s->extent = mean_extent(model, body, n);
     memcpy(s->t, move, 2 * n * sizeof *s->t);
     s->program.bodies = n;
     s->program.mass = s->mass;
