@@ -438,6 +438,9 @@ typedef struct sunder_layer_options {
     uint64_t seed;    /* of what search is random; nothing is yet */
     bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
     bool keep_pushes; /* for sunder_report_pushes() */
+    /* Barriers may have been left out that no feature comes too near to, nor crosses, by a move no longer than this;
+     * INFINITY (the default): none were. No less than the longest max_shift; need_shift is no more. */
+    double barrier_reach;
 } sunder_layer_options;
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */

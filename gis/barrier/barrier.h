@@ -24,13 +24,18 @@ typedef struct gis_barrier_request {
 bool gis_barrier_parse(const char *text, gis_barrier_request *out, gis_error *error);
 void gis_barrier_request_clear(gis_barrier_request *request);
 
+/* Boxes of what barriers may be in the way of. NULL: memory is out. */
+typedef struct gis_barrier_targets gis_barrier_targets;
+gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n);
+void gis_barrier_targets_free(gis_barrier_targets *targets);
+
 /* The layer that barriers stand around. */
 typedef struct gis_barrier_surroundings {
     OGRSpatialReferenceH crs; /* of the layer; NULL: none */
     const gis_crs_units *units;
-    double box[4]; /* of all that conflicts with anything; empty (box[0] > box[2]): there is nothing */
-    double reach;  /* no feature moves farther; INFINITY: some may go anywhere */
-    double gap;    /* of barriers that have none of their own */
+    const gis_barrier_targets *targets; /* of all that conflicts with anything */
+    double reach;                       /* no feature moves farther; INFINITY: some may go anywhere */
+    double gap;                         /* of barriers that have none of their own */
     gis_invalid_policy invalid;
     const char *output; /* which may not replace a barrier's dataset; NULL: there is none */
     bool update;        /* ... unless it adds to it */
@@ -57,6 +62,15 @@ typedef struct gis_barriers {
 bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
                        gis_barriers *out, gis_error *error);
 void gis_barriers_clear(gis_barriers *barriers);
+
+/* ---- reach.c, for read.c ----------------------------------------------------------------------------------------- */
+
+/* May what lies in the box be in the way, if it keeps so far off? */
+bool gis_barrier_is_near(const gis_barrier_surroundings *around, const double box[4], double distance);
+/* The box of all that such a barrier may be in the way of. False: there is none, it may be anywhere. */
+bool gis_barrier_reach_box(const gis_barrier_surroundings *around, double distance, double box[4]);
+/* The greatest number in a field, null and what is not positive being 0. False: there is no telling. */
+bool gis_barrier_greatest(OGRLayerH layer, const char *field, double *greatest);
 
 /* ---- transform.c, for read.c ------------------------------------------------------------------------------------- */
 

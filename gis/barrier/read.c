@@ -2,9 +2,10 @@
  * as they are, arcs as their chords, each with its width.
  *
  * Only what is within reach is read: what is farther from all features than any may move and the barrier's distance
- * besides stands in the way of nothing. The source is asked for what meets that box, which is its index's affair; what
- * comes all the same and does not meet it is let go. Where widths come from a field the box is each feature's own, so
- * that all are looked at. Where some feature may move any distance everything is within reach. */
+ * besides stands in the way of nothing. The source is asked for what meets the box of all that, which is its index's
+ * affair; where widths come from a field, for what the widest would reach, which takes a look at that field alone.
+ * What comes and is near no feature is let go as it is read, or once its coordinates are the layer's; of lines each
+ * segment is asked. Where some feature may move any distance everything is within reach. */
 #include "barrier/barrier.h"
 
 #include "base/array.h"
@@ -27,6 +28,7 @@ typedef struct reading {
     gis_source *source;
     OGRCoordinateTransformationH to_layer; /* NULL: coordinates stay as they are */
     double width, distance;                /* of all, unless there is a field: the width, and from its edge */
+    double widest;                         /* no feature is wider */
     int width_field;
     gis_polygonal_part part;
     gis_barriers *out;
@@ -45,26 +47,24 @@ static void name_feature(const reading *r, size_t i, char *who, size_t size)
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
 
-/* What a barrier that keeps so far off can be in the way of. False: everything. */
-static bool reach_box(const gis_barrier_surroundings *around, double distance, double box[4])
-{
-    double grow = around->reach + distance;
-    for (int k = 0; k < 4; k++) {
-        double v = around->box[k] + (k < 2 ? -grow : grow);
-        box[k] = nextafter(v, k < 2 ? -INFINITY : INFINITY); /* the sums are off by less */
-        box[k] = nextafter(box[k], k < 2 ? -INFINITY : INFINITY);
-    }
-    return isfinite(grow);
-}
-
 static bool is_within_reach(const reading *r, OGRGeometryH geometry, double width)
 {
-    double box[4];
     OGREnvelope e;
-    if (r->around->box[0] > r->around->box[2]) return false;
-    if (!reach_box(r->around, width / 2 + r->distance, box)) return true;
     OGR_G_GetEnvelope(geometry, &e);
-    return e.MinX <= box[2] && e.MaxX >= box[0] && e.MinY <= box[3] && e.MaxY >= box[1];
+    return gis_barrier_is_near(r->around, (double[4]){e.MinX, e.MinY, e.MaxX, e.MaxY}, width / 2 + r->distance);
+}
+
+/* Does some segment of its lines, or a point, come within reach? */
+static bool any_is_within_reach(const reading *r, const gis_barrier_feature *feature)
+{
+    const gis_lines *lines = &feature->lines;
+    for (size_t i = 0, k = 0; i < lines->lines; k = lines->end[i++])
+        for (size_t first = k; k < lines->end[i]; k++) {
+            const double *p = lines->xy + 2 * k, *q = k > first ? p - 2 : p;
+            const double box[4] = {fmin(p[0], q[0]), fmin(p[1], q[1]), fmax(p[0], q[0]), fmax(p[1], q[1])};
+            if (gis_barrier_is_near(r->around, box, feature->width / 2 + r->distance)) return true;
+        }
+    return false;
 }
 
 /* ---- One feature ------------------------------------------------------------------------------------------------- */
@@ -148,7 +148,7 @@ static bool take_feature(reading *r, size_t i, gis_error *error)
     bool ok = !near || take_geometry(r, geometry, who, &feature, error);
     if (geometry != own) OGR_G_DestroyGeometry(geometry);
     ok = ok && (gis_array_reserve(&out->feature, &out->capacity, out->n + 1, sizeof feature) || gis_no_memory(error));
-    if (ok && (feature.shape || feature.lines.lines))
+    if (ok && (feature.shape || any_is_within_reach(r, &feature)))
         out->feature[out->n++] = feature;
     else
         clear_feature(&feature);
@@ -158,15 +158,33 @@ static bool take_feature(reading *r, size_t i, gis_error *error)
 /* ---- One layer --------------------------------------------------------------------------------------------------- */
 
 /* The box that is asked of the source, in its CRS. */
-static bool within(const void *user, OGRSpatialReferenceH crs, double box[4])
+static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4])
 {
-    const reading *r = user;
+    reading *r = user;
+    const char *field = r->request->width_field;
     double here[4];
-    if (r->request->width_field || !reach_box(r->around, r->width / 2 + r->distance, box)) return false;
+    gis_error ignored;
+    r->widest = field ? INFINITY : r->width;
+    if (!isfinite(r->around->reach)) return false; /* nor need anybody look */
+    gis_length widest = {0, GIS_LAYER_UNIT};
+    if (field &&
+        (!gis_barrier_greatest(layer, field, &widest.value) ||
+         (widest.value > 0 && !gis_length_in_layer_units(&widest, r->around->units, field, &r->widest, &ignored))))
+        return false;
+    if (field && !(widest.value > 0)) r->widest = 0;
+    if (!gis_barrier_reach_box(r->around, r->widest / 2 + r->distance, box)) return false;
     if (gis_crs_may_be_same(crs, r->around->crs)) return true;
     if (!gis_barrier_box(box, r->around->crs, crs, here)) return false;
     memcpy(box, here, sizeof here);
     return true;
+}
+
+/* Is it worth keeping? In another CRS that is seen later. */
+static bool wants(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature)
+{
+    const reading *r = user;
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    return geometry && (!gis_crs_may_be_same(crs, r->around->crs) || is_within_reach(r, geometry, r->widest));
 }
 
 static bool open_source(reading *r, gis_error *error)
@@ -180,7 +198,8 @@ static bool open_source(reading *r, gis_error *error)
         .layer_option = "layer=",
         .where_option = "where=",
         .within = within,
-        .within_user = r,
+        .wants = wants,
+        .user = r,
     };
     gis_error why;
     if (!gis_source_open(&source, &r->source, &why)) {

@@ -58,15 +58,22 @@ static bool open_source(gis_layer_input *input, gis_error *error)
     return gis_field_find(input->source, "--id-field", input->request->id_field, &input->id_field, error);
 }
 
+/* Of what conflicts with anything. */
+static bool feature_box(const gis_layer_input *input, size_t i, double box[4])
+{
+    if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) return false;
+    if (input->feature && input->feature[i].ignored) return false;
+    sunder_shape_box(input->shape[i], box);
+    return true;
+}
+
 void gis_layer_box(const gis_layer_input *input, double box[4])
 {
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
     for (size_t i = 0; i < input->n; i++) {
         double one[4];
-        if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) continue;
-        if (input->feature && input->feature[i].ignored) continue;
-        sunder_shape_box(input->shape[i], one);
+        if (!feature_box(input, i, one)) continue;
         for (int k = 0; k < 2; k++) {
             box[k] = fmin(box[k], one[k]);
             box[k + 2] = fmax(box[k + 2], one[k + 2]);
@@ -92,6 +99,10 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     return true;
 }
 
+/* Barriers are known for moves of so many times the longest limit: which longer one would free a conflict is asked,
+ * too. */
+static const double limits_known = 4;
+
 /* The longest way that any feature may go. */
 static double longest_limit(const gis_layer_input *input)
 {
@@ -102,27 +113,50 @@ static double longest_limit(const gis_layer_input *input)
     return longest;
 }
 
+/* Where barriers matter: about each feature; or anywhere between where all are and where all were, for a check. */
+static gis_barrier_targets *find_targets(const gis_layer_input *input)
+{
+    const double *also = input->request->also;
+    double(*box)[4] = calloc(input->n + 1, sizeof *box), all[4];
+    size_t n = 0;
+    if (!box) return NULL;
+    gis_layer_box(input, all);
+    if (also) {
+        for (int k = 0; k < 4; k++) box[0][k] = k < 2 ? fmin(all[k], also[k]) : fmax(all[k], also[k]);
+        n = box[0][0] <= box[0][2];
+    }
+    for (size_t i = 0; !also && i < input->n; i++) n += feature_box(input, i, box[n]);
+    gis_barrier_targets *targets = gis_barrier_targets_new((const double(*)[4])box, n);
+    free(box);
+    return targets;
+}
+
 static bool read_barriers(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
-    gis_barrier_surroundings around = {
+    if (request->barriers == 0) return true;
+    gis_barrier_targets *targets = find_targets(input);
+    if (!targets) return gis_no_memory(error);
+    input->barrier_reach = limits_known * longest_limit(input);
+    const gis_barrier_surroundings around = {
         .crs = gis_source_crs(input->source),
         .units = &input->units,
-        .reach = longest_limit(input),
+        .targets = targets,
+        .reach = input->barrier_reach,
         .gap = input->gap,
         .invalid = request->invalid,
         .output = request->output,
         .update = request->update,
     };
-    gis_layer_box(input, around.box);
-    for (int k = 0; k < 4 && request->also; k++)
-        around.box[k] = k < 2 ? fmin(around.box[k], request->also[k]) : fmax(around.box[k], request->also[k]);
-    return gis_barriers_read(request->barrier, request->barriers, &around, &input->barriers, error);
+    const bool ok = gis_barriers_read(request->barrier, request->barriers, &around, &input->barriers, error);
+    gis_barrier_targets_free(targets);
+    return ok;
 }
 
 static bool start_reading(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
-    *out = (gis_layer_input){.request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1};
+    *out = (gis_layer_input){
+        .request = request, .id_field = -1, .max_shift = INFINITY, .tolerance = -1, .barrier_reach = INFINITY};
     if (!open_source(out, error)) return false;
     out->units = gis_crs_units_of(gis_source_crs(out->source), request->scale);
     out->shape = calloc(out->n + 1, sizeof *out->shape);

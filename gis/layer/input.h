@@ -41,6 +41,7 @@ typedef struct gis_layer_input {
     sunder_shape **shape;    /* [n] NULL: nothing that could conflict */
     sunder_feature *feature; /* [n] */
     gis_barriers barriers;
+    double barrier_reach; /* who moves no farther comes near to none but these */
     sunder_layer *layer;
     int id_field;         /* -1: none */
     size_t invalid, null; /* features whose geometry is invalid; that have none, or an empty one */

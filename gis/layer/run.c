@@ -29,6 +29,7 @@ static sunder_layer_options core_options(const gis_layer_input *input)
     core.keep_trees = rules->keep_trees;
     core.keep_pushes = rules->keep_pushes;
     core.threads = rules->threads;
+    core.barrier_reach = input->barrier_reach;
     core.allow_jumps = input->points || rules->allow_jumps;
     return core;
 }

@@ -97,7 +97,7 @@ static bool select_features(gis_source *source, const gis_source_request *reques
         OGR_L_SetSpatialFilterRect(source->layer, request->bbox[0], request->bbox[1], request->bbox[2],
                                    request->bbox[3]);
     double box[4];
-    if (request->within && request->within(request->within_user, source->crs, box))
+    if (request->within && request->within(request->user, source->layer, source->crs, box))
         OGR_L_SetSpatialFilterRect(source->layer, box[0], box[1], box[2], box[3]);
     if (!request->where) return true;
     source->where = CPLStrdup(request->where);
@@ -150,7 +150,7 @@ static bool keep(gis_source *source, OGRFeatureH feature)
     return true;
 }
 
-static bool read_features(gis_source *source, gis_error *error)
+static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     OGR_L_ResetReading(source->layer);
     for (OGRFeatureH feature; (feature = OGR_L_GetNextFeature(source->layer)) != NULL;) {
@@ -160,20 +160,20 @@ static bool read_features(gis_source *source, gis_error *error)
             return gis_fail(error, "layer %s, FID %" PRId64 ": a coordinate is not a finite number", source->name,
                             (int64_t)fid);
         }
-        if (!keep(source, feature)) {
-            OGR_F_Destroy(feature);
-            return gis_no_memory(error);
-        }
+        const bool wanted = !request->wants || request->wants(request->user, source->crs, feature);
+        const bool kept = wanted && keep(source, feature);
+        if (!kept) OGR_F_Destroy(feature);
+        if (wanted && !kept) return gis_no_memory(error);
         if (!gis_go_on(error)) return false;
     }
     return gis_go_on(error); /* a statement that is cut short may look like the last feature */
 }
 
-static bool read_all(gis_source *source, gis_error *error)
+static bool read_all(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    bool done = read_features(source, error);
+    bool done = read_features(source, request, error);
     gis_listen_end();
     if (done && listener.failures && source->where && source->n == 0)
         done = gis_fail_usage(error, "%s \"%s\": %s", source->where_option, source->where,
@@ -225,7 +225,7 @@ static bool fill(gis_source *source, const gis_source_request *request, gis_erro
         source->name = CPLStrdup(OGR_L_GetName(source->layer));
     }
     return gis_layer_fits(source->layer, source->name, request->takes, error) && choose_crs(source, request, error) &&
-           select_features(source, request, error) && read_all(source, error) && look_at_fids(source, error);
+           select_features(source, request, error) && read_all(source, request, error) && look_at_fids(source, error);
 }
 
 bool gis_source_open(const gis_source_request *request, gis_source **out, gis_error *error)

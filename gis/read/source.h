@@ -30,10 +30,12 @@ typedef struct gis_source_request {
     const char *layer_option;        /* how messages call what chooses the layer, and the features; NULL: as above */
     const char *where_option;
     const char *layer_like; /* where no layer is named: one of this name, if there is one */
-    /* NULL, or tells, once the layer's CRS is known, which box features have to meet; false: any will do. Not together
-     * with bbox or sql. */
-    bool (*within)(const void *user, OGRSpatialReferenceH crs, double box[4]);
-    const void *within_user;
+    /* NULL, or tells, once the layer and its CRS are known, which box features have to meet; false: any will do. It may
+     * read the layer. Not together with bbox or sql. */
+    bool (*within)(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4]);
+    /* NULL, or says of each feature as it is read whether it is to be kept. */
+    bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature);
+    void *user; /* of these two */
 } gis_source_request;
 
 typedef struct gis_source gis_source;

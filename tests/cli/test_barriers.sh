@@ -100,9 +100,43 @@ rm -f tie.gpkg
 printf 'id,WKT\n1,"POLYGON((0 100,9 113,9 100,0 113,0 100))"\n' | layer tie.gpkg tie POLYGON
 expect 0 check in.gpkg -l houses --barrier tie.gpkg,width=8,gap=1 --invalid fail
 refused 1 'layer tie, FID 1' check in.gpkg -l houses --barrier tie.gpkg,gap=71 --invalid fail
-expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 60 --invalid fail
-refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 70 --invalid fail
+# Four limits away, since it is asked which longer one would free a conflict.
+expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 15 --invalid fail
+refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 17.5 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg --invalid fail
+# In the box around all, but near none of them; the widest of the layer says what is asked of the source.
+layer apart.gpkg a POLYGON <<'X'
+id,WKT
+1,"POLYGON((-200 0,-190 0,-190 10,-200 10,-200 0))"
+2,"POLYGON((200 300,210 300,210 310,200 310,200 300))"
+X
+expect 0 check apart.gpkg --barrier tie.gpkg,gap=150 --invalid fail
+refused 1 'layer tie, FID 1' check apart.gpkg --barrier tie.gpkg,gap=220 --invalid fail
+layer wide.gpkg w GEOMETRY <<'X'
+id,w,WKT
+1,8,"POLYGON((0 100,9 113,9 100,0 113,0 100))"
+2,9,"LINESTRING(0 1000,9 1000)"
+X
+expect 0 check in.gpkg -l houses --barrier wide.gpkg,width-field=w,gap=1 --invalid fail
+refused 1 'layer w, FID 1' check in.gpkg -l houses --barrier wide.gpkg,width-field=w,gap=71 --invalid fail
+# A longer limit would not free what a barrier beyond the limit stands in the way of.
+layer shut.gpkg s POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
+2,"POLYGON((5 -40,30 -40,30 50,5 50,5 -40))"
+X
+layer wall.gpkg w LINESTRING <<'X'
+id,WKT
+1,"LINESTRING(-3 -500,-3 500)"
+X
+for barrier in '' '--barrier wall.gpkg'; do
+    # shellcheck disable=SC2086
+    expect 3 separate shut.gpkg o.gpkg -q --overwrite --no-blocks --fixed-where 'id = 2' --max-shift 1 $barrier
+    same "$(value o.gpkg s_conflicts 1 reason)" max_shift
+    value o.gpkg s_conflicts 1 need_shift >"need$((${#barrier} > 0))"
+done
+awk '{ exit !($1 >= 5 && $1 < 5.1) }' need0 || fail "need_shift is $(cat need0) where nothing else stands"
+same "$(cat need1)" '(null)' "need_shift, with a wall in the way"
 
 # ---- Separate ----
 expect 0 separate in.gpkg o.gpkg -l houses -q --overwrite --barrier roads.gpkg,layer=roads,width=4,gap=2 --stats s.json

@@ -18,6 +18,7 @@ void sunder_layer_options_init(sunder_layer_options *options)
     options->contained = SUNDER_CONTAINMENT_BLOCK;
     options->threads = 1;
     options->effort = 1;
+    options->barrier_reach = INFINITY;
 }
 
 static unsigned processors(void)
@@ -42,6 +43,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
         return sunder_i_fail(err, SUNDER_EARG, "what counts as thin, %g, is negative or not finite", o->thin);
     if (!(o->effort >= 0) || !isfinite(o->effort))
         return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", o->effort);
+    if (!(o->barrier_reach >= 0))
+        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number", o->barrier_reach);
     rules->gap = o->gap;
     rules->tolerance = tolerance;
     rules->touch_joins = !o->no_blocks && !o->no_touch;

@@ -84,6 +84,7 @@ static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c,
     sunder_i_surroundings a = {0};
     if (members_that_move(model, c->a) + members_that_move(model, c->b) > NEED_MOST) return SUNDER_OK;
     sunder_status status = sunder_i_surround(g->solver, c, &a, err);
+    a.farthest = fmin(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
     if (!status) status = need_shift(g, &a, c, err);
     if (!status) status = need_gap(g, &a, c, err);
     if (!status) status = need_gone(g, &a, c, err);
