@@ -714,10 +714,14 @@ SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_repor
  * anchor on its right. Any u at which the straight way of the anchor, as the other part sees it, does not meet the
  * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: no clearance is asked.
  *
+ * Where `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation
+ * v, no longer than minus the clearance, that leaves them disjoint interiors: it is the same at all such nodes of the
+ * pair, and their ways are about u = t_B + v - t_A, of which it is asked to leave the parts disjoint interiors.
+ *
  * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
  * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
- * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|: no such
- * moves are within the limits. */
+ * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|, and over
+ * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits. */
 typedef struct sunder_proof_way {
     double n[2], d;
     size_t next;
@@ -735,6 +739,7 @@ typedef struct sunder_proof_node {
     size_t corners_a, corners_b;
     double clearance;
     bool shadow;      /* one of the parts is an anchor: see above */
+    bool slack;       /* the second part is moved by the pair's slack, too: see above */
     size_t way, ways; /* its first way, and how many; none: a leaf */
     size_t force, forces;
 } sunder_proof_node;

@@ -139,6 +139,7 @@ static void put_ways(proof_writer *w, const sunder_proof *proof, const sunder_pr
     put_thing(w, "b", node->b);
     put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
     put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
+    if (node->slack) gis_json_put_bool(&w->json, "slack", true);
     if (node->shadow)
         gis_json_put_bool(&w->json, "shadow", true);
     else

@@ -218,12 +218,36 @@ def ask_more(told):
     return False
 
 
+def drop_slack(told):
+    for node in told["proof"]:
+        if node.pop("slack", False):
+            return ("a move that is no worse has no way",)
+    return False
+
+
+def claim_slack(told):
+    for node in told["proof"]:
+        if "clearance" in node and not node.get("slack"):
+            node["slack"] = True
+            return ("slack, where nothing", "has no way")
+    return False
+
+
+def shorten_slack(told):
+    for node in told["proof"]:
+        if node.get("slack"):
+            node["clearance"] *= 0.9
+            return ("more than it had",)
+    return False
+
+
 def blame(told):
     told["blocked_by"] = told["blocked_by"][1:] if told["blocked_by"] else [told["a"]]
     return ("blocked_by",)
 
 
-VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "blamed": blame}
+VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slack": drop_slack,
+            "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame}
 
 
 # ---- Mutations of the whole

@@ -60,6 +60,16 @@ proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier si
 grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
 refuted side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg --need side --need "side anchor"
 
+# A house on the bend of a road, by an edge that wants it to go east: either leg of the road lets it, but no one
+# translation as long as what parted it from the road at the start would part it from both.
+printf 'WKT,w\n"LINESTRING(-20 8,8 8,8 -20)",1\n' | layer bend.gpkg bend LINESTRING
+printf 'WKT,w\n"LINESTRING(-0.4 -9,-0.4 19)",1\n' | layer edge.gpkg edge LINESTRING
+printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n' | layer bent.gpkg buildings POLYGON
+bend=(--gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side=no)
+proved bend bent.gpkg "${bend[@]}"
+grep -q '"reason": "no_room"' bend.jsonl || fail "a house on a bend has no proof: $(cat bend.jsonl)"
+refuted bend bent.gpkg "${bend[@]}" --need slack --need "claimed slack" --need "short slack"
+
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"

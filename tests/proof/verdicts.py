@@ -48,12 +48,16 @@ class Verdict:
         parts = problem.demand_part(a, node["A"]), problem.demand_part(b, node["B"])
         clearance = Fraction(node["clearance"]) * self.unit
         self.check_clearance(a, b, clearance)
-        self.check_ways(difference(*parts), ways, clearance)
+        if node.get("slack"):
+            demand(self.is_listed(a, b) and clearance < 0, "slack, where nothing is held to an overlap")
+        self.check_ways(difference(*parts), ways, 0 if node.get("slack") else clearance)
+
+    def is_listed(self, a, b):
+        return self.key(a, b) in self.kinds and self.key(a, b) != self.own
 
     def check_clearance(self, a, b, clearance):
         """No more than the pair owes, or than it had at the start where it is another listed one."""
-        listed = self.key(a, b) in self.kinds and self.key(a, b) != self.own
-        if not listed:
+        if not self.is_listed(a, b):
             demand(clearance <= self.problem.required(a, b), "more is asked of", a, b, "than they owe")
             return
         demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
@@ -109,8 +113,10 @@ class Verdict:
             x, y = force * number(way["n"][0]), force * number(way["n"][1])
             won += sign * force * number(way["d"])
             size += force * abs(number(way["d"]))
-            for key, side in ((node["a"], -sign), (node["b"], sign)):
-                body = key if self.problem.is_barrier(key) else self.problem.block(key)
+            sides = [(self.body_of(node["a"]), -sign), (self.body_of(node["b"]), sign)]
+            if node.get("slack"):
+                sides.append((("slack", self.key(node["a"], node["b"]), node["clearance"]), sign))
+            for body, side in sides:
                 g = net.get(body, (0, 0, 0))
                 net[body] = g[0] + side * x, g[1] + side * y, g[2] + abs(x) + abs(y)
         lost = number(0)
@@ -126,8 +132,13 @@ class Verdict:
             lost += number(limit) * (math.hypot(x, y) if number is float else root_above(x * x + y * y))
         return won - lost > margin * size
 
+    def body_of(self, key):
+        return key if self.problem.is_barrier(key) else self.problem.block(key)
+
     def limit_of(self, body):
-        """0 for a barrier, None where there is none."""
+        """0 for a barrier, None where there is none; of a slack, told by its pair and its clearance, that."""
+        if isinstance(body, tuple) and body[0] == "slack":
+            return -body[2]
         return self.problem.body_limit(body) if isinstance(body, tuple) else 0
 
 

@@ -49,7 +49,12 @@ static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *
         const double depth = hypot(t->shift[0], t->shift[1]);
         const uint32_t b = sunder_i_whole_of(model, t->b);
         if (!is_conflict_now(s, t) || (n && required[n - 1].a == t->a && required[n - 1].b == b)) continue;
-        required[n++] = (sunder_i_requirement){t->a, b, t->inside ? -INFINITY : depth > 0 ? -depth : t->gap};
+        required[n++] = (sunder_i_requirement){t->a,
+                                               b,
+                                               t->inside   ? -INFINITY
+                                               : depth > 0 ? -depth
+                                                           : t->gap,
+                                               {t->shift[0], t->shift[1]}};
     }
     return n;
 }
@@ -139,7 +144,7 @@ typedef struct proposal {
 static bool is_held(const asking *g, const sunder_i_relaxation *t, const sunder_i_relaxation *asked)
 {
     const sunder_i_model *model = &g->solver->model;
-    const sunder_i_requirement key = {t->a, sunder_i_whole_of(model, t->b), 0};
+    const sunder_i_requirement key = {.a = t->a, .b = sunder_i_whole_of(model, t->b)};
     if (key.a == asked->a && key.b == sunder_i_whole_of(model, asked->b)) return false;
     return bsearch(&key, g->required, g->required_n, sizeof key, sunder_i_by_id_pair) != NULL;
 }

@@ -162,7 +162,12 @@ static size_t list_requirements(const sunder_i_model *model, sunder_i_requiremen
         const double shift = hypot(t->shift[0], t->shift[1]);
         if (!t->infeasible) continue;
         const uint32_t b = sunder_i_whole_of(model, t->b);
-        required[n++] = (sunder_i_requirement){t->a, b, t->inside ? -INFINITY : shift > 0 ? -shift : t->gap};
+        required[n++] = (sunder_i_requirement){t->a,
+                                               b,
+                                               t->inside   ? -INFINITY
+                                               : shift > 0 ? -shift
+                                                           : t->gap,
+                                               {t->shift[0], t->shift[1]}};
     }
     return n;
 }

@@ -45,8 +45,9 @@ static void cut(area *p, const double n[2], double d)
 static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
 {
     area room = {.n = DISC_SIDES};
-    const uint32_t i = sunder_i_branching_place(c, o->p), j = sunder_i_branching_place(c, o->q);
-    const double last = sunder_i_branching_limit(c, &c->model->body[o->q]),
+    const uint32_t i = sunder_i_branching_place(c, o->p),
+                   j = o->slack ? sunder_i_branching_slack(c, o->slack) : sunder_i_branching_place(c, o->q);
+    const double last = o->slack ? -o->slack->clearance : sunder_i_branching_limit(c, &c->model->body[o->q]),
                  reach = sunder_i_branching_limit(c, &c->model->body[o->p]) + last;
     const double r = reach / cos(TURN / (2 * DISC_SIDES));
     for (int k = 0; k < DISC_SIDES; k++) {
@@ -139,6 +140,7 @@ static bool add_branch(sunder_i_branching *c, const sunder_i_violation *o, size_
     node->part_b = o->b;
     node->clearance = o->clearance;
     node->shadow = o->shadow;
+    node->slack = o->slack != NULL;
     node->ways = ways;
     memcpy(c->way + c->ways, c->scratch, ways * sizeof *c->way);
     c->ways += ways;
@@ -166,7 +168,8 @@ static bool push(sunder_i_branching *c, uint32_t i, uint32_t j, size_t node, siz
 static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
-    const uint32_t i = sunder_i_branching_join(c, o->p), j = sunder_i_branching_join(c, o->q);
+    const uint32_t i = sunder_i_branching_join(c, o->p),
+                   j = o->slack ? sunder_i_branching_join_slack(c, o->slack) : sunder_i_branching_join(c, o->q);
     if (c->failed) return sunder_i_no_memory(err);
     const size_t first = c->node[node].way, end = first + c->node[node].ways, claims = c->claims, bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
@@ -179,7 +182,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
     for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INFEASIBLE; way++) {
         sunder_i_levels used;
         size_t below = 0;
-        memset(c->t, 0, 2 * c->bodies * sizeof *c->t);
+        sunder_i_branching_begin(c, bodies);
         memcpy(c->t, t, 2 * bodies * sizeof *t);
         const size_t before = c->claims;
         bool ok = push(c, i, j, node, way, false, level);
@@ -231,8 +234,7 @@ sunder_status sunder_i_branching_search(sunder_i_branching *c, unsigned level, s
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
     size_t n = look(c, deepest);
-    while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c))
-        n = look(c, deepest);
+    while (n == 0 && !c->failed && !sunder_i_branching_is_over(c) && sunder_i_branching_widen(c)) n = look(c, deepest);
     if (n == 0 && !c->failed) *verdict = SUNDER_I_FEASIBLE;
     if (n == 0 || c->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
         return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;

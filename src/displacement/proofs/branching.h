@@ -20,6 +20,13 @@ typedef struct sunder_i_levels {
     uint64_t bit[SUNDER_I_LEVELS / 64];
 } sunder_i_levels;
 
+/* A feature that is held to an overlap with a barrier: what stands for the translation that parts them takes part like
+ * a body, whose limit is how long that may be. */
+typedef struct sunder_i_slack {
+    const sunder_i_requirement *required;
+    uint32_t place;
+} sunder_i_slack;
+
 /* What a branch of the tree says: that a pair is beyond a line, or behind it. */
 typedef struct sunder_i_claim {
     uint32_t i, j;  /* places in sunder_i_branching.body, or SUNDER_I_GROUND: what does not move */
@@ -36,6 +43,7 @@ typedef struct sunder_i_node {
     const sunder_i_body_piece *part_a, *part_b;
     double clearance;
     bool shadow; /* one part is an anchor, which may not pass the other */
+    bool slack;  /* the ways are those of the second part when it is moved by the pair's slack */
     size_t way, ways, force, forces;
 } sunder_i_node;
 
@@ -43,9 +51,11 @@ typedef struct sunder_i_branching {
     const sunder_i_subproblem *subproblem;
     const sunder_i_model *model;
     /* Those that may move and take part so far, in the order in which they came in. */
-    uint32_t *body;
+    uint32_t *body;                           /* SUNDER_I_NOBODY: a slack */
     double *limit, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
     size_t bodies;
+    sunder_i_slack *slack;
+    size_t slacks, slack_capacity;
     size_t body_capacity, limit_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
     double longest;        /* limit */
     double hair;           /* a length far below the limits, and far above rounding */
@@ -89,6 +99,12 @@ static inline double sunder_i_branching_limit(const sunder_i_branching *c, const
 uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t body);
 /* The same, and it is taken in if it was not there; SUNDER_I_GROUND: it cannot move. */
 uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body);
+/* The place of a slack; SUNDER_I_GROUND: it does not take part. And it is taken in if it was not there. */
+uint32_t sunder_i_branching_slack(const sunder_i_branching *branching, const sunder_i_requirement *required);
+uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sunder_i_requirement *required);
+/* Those that take part from the first-th place on stand where they begin: at home, slacks at what parted their pairs.
+ */
+void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 /* Takes in those of the reserve that could meet one that takes part; false if there are none. */
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What features f and g of two bodies owe each other; false if nothing. */
@@ -117,9 +133,10 @@ typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
-    bool shadow;  /* a or b is an anchor, and in the shadow of the other */
-    bool known;   /* nobody joins for it: both take part already, or one of them never moves */
-    bool closely; /* as of sunder_i_branching */
+    const sunder_i_requirement *slack; /* NULL, or of which pair, a being of the feature and b of the barrier */
+    bool shadow;                       /* a or b is an anchor, and in the shadow of the other */
+    bool known;                        /* nobody joins for it: both take part already, or one of them never moves */
+    bool closely;                      /* as of sunder_i_branching */
 } sunder_i_violation;
 
 /* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */

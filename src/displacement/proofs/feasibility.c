@@ -17,6 +17,7 @@
 
 static void clear(sunder_i_branching *c)
 {
+    sunder_i_free(c->slack);
     sunder_i_free(c->limit);
     sunder_i_free(c->shift);
     sunder_i_free(c->net);
@@ -31,7 +32,7 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->near.item);
 }
 
-/* The candidate, by ascending bodies. */
+/* The candidate, by ascending bodies; slacks, which come last then, are none of it. */
 static sunder_i_solution take_solution(sunder_i_branching *c)
 {
     for (size_t k = 1; k < c->bodies; k++) {
@@ -45,7 +46,7 @@ static sunder_i_solution take_solution(sunder_i_branching *c)
         c->body[at] = body;
         memcpy(c->t + 2 * at, t, sizeof t);
     }
-    return (sunder_i_solution){c->body, c->t, c->bodies};
+    return (sunder_i_solution){c->body, c->t, c->bodies - c->slacks};
 }
 
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err)

@@ -15,6 +15,7 @@ typedef enum sunder_i_verdict {
 typedef struct sunder_i_requirement {
     uint32_t a, b;
     double clearance;
+    double shift[2]; /* where that is negative: a translation of b, about as long, that parted them */
 } sunder_i_requirement;
 
 typedef struct sunder_i_subproblem {
@@ -33,6 +34,9 @@ typedef struct sunder_i_subproblem {
     /* Lines between pairs may be short by this share of how far the two may go: then proofs are smaller, and a
      * solution is none; 0: what is feasible is so up to a hair. */
     double coarse;
+    /* What is held to an overlap with a barrier has one translation that parts them all, not one for each two parts:
+     * proofs are larger, and some are found only so. */
+    bool slack;
     bool every_side; /* the sides of barriers that are not among them are heeded, too */
     bool any_jump;   /* features may jump over each other */
     bool every_way;  /* the ways of all members of `body` are heeded, whoever else is not */

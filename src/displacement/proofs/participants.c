@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Limits and features, by which lengths a branch and bound tells what is small: a hair is 2^-40 of the longest
  * limit, and more than what rounding does to places (ways.c). */
@@ -23,13 +24,9 @@ uint32_t sunder_i_branching_place(const sunder_i_branching *c, uint32_t body)
     return SUNDER_I_GROUND;
 }
 
-uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
+/* One more place. */
+static uint32_t add(sunder_i_branching *c, uint32_t body, double limit)
 {
-    const uint32_t known = sunder_i_branching_place(c, body);
-    const double limit = sunder_i_branching_limit(c, &c->model->body[body]);
-    if (known != SUNDER_I_GROUND) return known;
-    set_scale(c, &c->model->body[body], limit);
-    if (!(limit > 0)) return SUNDER_I_GROUND;
     const size_t n = c->bodies + 1;
     if (!sunder_i_reserve(&c->body, &c->body_capacity, n, sizeof *c->body) ||
         !sunder_i_reserve(&c->limit, &c->limit_capacity, n, sizeof *c->limit) ||
@@ -45,6 +42,47 @@ uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
     c->limit[at] = limit;
     c->t[2 * at] = c->t[2 * at + 1] = c->shift[2 * at] = c->shift[2 * at + 1] = 0;
     return at;
+}
+
+uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
+{
+    const uint32_t known = sunder_i_branching_place(c, body);
+    const double limit = sunder_i_branching_limit(c, &c->model->body[body]);
+    if (known != SUNDER_I_GROUND) return known;
+    set_scale(c, &c->model->body[body], limit);
+    return limit > 0 ? add(c, body, limit) : SUNDER_I_GROUND;
+}
+
+uint32_t sunder_i_branching_slack(const sunder_i_branching *c, const sunder_i_requirement *required)
+{
+    for (size_t k = 0; k < c->slacks; k++)
+        if (c->slack[k].required == required) return c->slack[k].place;
+    return SUNDER_I_GROUND;
+}
+
+uint32_t sunder_i_branching_join_slack(sunder_i_branching *c, const sunder_i_requirement *required)
+{
+    const uint32_t known = sunder_i_branching_slack(c, required);
+    if (known != SUNDER_I_GROUND) return known;
+    if (!sunder_i_reserve(&c->slack, &c->slack_capacity, c->slacks + 1, sizeof *c->slack)) {
+        c->failed = true;
+        return 0;
+    }
+    c->longest = fmax(c->longest, -required->clearance);
+    c->hair = fmax(c->hair, c->longest * 0x1p-40);
+    const uint32_t place = add(c, SUNDER_I_NOBODY, -required->clearance);
+    if (c->failed) return 0;
+    c->slack[c->slacks++] = (sunder_i_slack){required, place};
+    sunder_i_branching_begin(c, place);
+    return place;
+}
+
+void sunder_i_branching_begin(sunder_i_branching *c, size_t first)
+{
+    memset(c->t + 2 * first, 0, 2 * (c->bodies - first) * sizeof *c->t);
+    for (size_t k = 0; k < c->slacks; k++)
+        if (c->slack[k].place >= first)
+            memcpy(c->t + 2 * (size_t)c->slack[k].place, c->slack[k].required->shift, 2 * sizeof *c->t);
 }
 
 /* Could the two, moving as far as they may, come nearer than the gap? By their boxes. */
@@ -86,7 +124,7 @@ bool sunder_i_branching_widen(sunder_i_branching *c)
     const size_t before = c->bodies;
     c->near.n = 0;
     for (size_t i = 0; i < before && c->subproblem->reserves && !c->failed; i++)
-        if (!find_in_reach(c, c->body[i])) c->failed = true;
+        if (c->body[i] != SUNDER_I_NOBODY && !find_in_reach(c, c->body[i])) c->failed = true;
     c->near.n = sunder_i_set_make(c->near.item, c->near.n);
     for (size_t k = 0; k < c->near.n && !c->failed; k++) sunder_i_branching_join(c, c->near.item[k]);
     return c->bodies > before;
@@ -136,7 +174,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *c, uint32_t f, uint32_t g,
                                 nextafter(reach, INFINITY)))
         return false;
     *clearance = sunder_i_owed_below(model, f, g) + q->margin;
-    const sunder_i_requirement key = {whole[f > g], whole[f < g], 0};
+    const sunder_i_requirement key = {.a = whole[f > g], .b = whole[f < g]};
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =
         is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);

@@ -57,6 +57,7 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->b = from->b;
     to->clearance = from->clearance;
     to->shadow = from->shadow;
+    to->slack = from->slack;
     to->corners_a = from->part_a->corners;
     to->corners_b = from->part_b->corners;
     to->part_a = copy_part(g, from->part_a);

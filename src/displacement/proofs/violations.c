@@ -1,10 +1,12 @@
 /* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece or
  * crossed a side, and the ways out. */
+#include "displacement/layer/barriers.h"
 #include "displacement/layer/sides.h"
 #include "displacement/obstacles/shadow.h"
 #include "displacement/proofs/branching.h"
 #include "displacement/proofs/tuning.h"
 
+#include "base/list.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -69,6 +71,13 @@ static standing stand(const sunder_i_branching *c, uint32_t body)
     return s;
 }
 
+/* Is that what a slack is for? */
+static bool has_slack(const sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body *q, double clearance)
+{
+    return c->subproblem->slack && clearance < 0 &&
+           (sunder_i_is_barrier_body(c->model, p) || sunder_i_is_barrier_body(c->model, q));
+}
+
 static void look_at(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
 {
     const sunder_i_body *p = s->body, *q = r->body;
@@ -91,9 +100,11 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             const sunder_i_body_piece *b = &c->model->piece[l];
             if (!sunder_i_box_meet(box, b->box)) continue;
             if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) continue;
+            if (has_slack(c, p, q, clearance)) continue;
             const double depth = depth_of(c, fill_ways(c, p, a, q, b, clearance, false, c->closely ? u : NULL), u);
             if (depth > worst->depth)
-                *worst = (sunder_i_violation){s->number, r->number, a, b, clearance, depth, false, false, c->closely};
+                *worst =
+                    (sunder_i_violation){s->number, r->number, a, b, clearance, depth, NULL, false, false, c->closely};
         }
     }
 }
@@ -105,7 +116,66 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
 {
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
     const double depth = depth_of(c, fill_ways(c, s->body, a, r->body, b, 0, true, NULL), u);
-    if (depth > worst->depth) *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, true, false, false};
+    if (depth > worst->depth)
+        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false};
+}
+
+/* The move of the barrier, as the feature's body sees it, that is to part the two. */
+static void move_of_slack(const sunder_i_branching *c, const sunder_i_requirement *required, const double *t,
+                          double u[2])
+{
+    const uint32_t place = sunder_i_branching_slack(c, required);
+    const double *v = place == SUNDER_I_GROUND ? required->shift : c->t + 2 * (size_t)place;
+    for (size_t x = 0; x < 2; x++) u[x] = v[x] - t[x];
+}
+
+/* Does the slack part the pieces of feature f from this part of the barrier? */
+static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, uint32_t part, const double u[2],
+                         const sunder_i_requirement *required, sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const sunder_i_body *p = s->body, *q = &model->body[model->body_of[part]];
+    for (uint32_t k = p->piece; k < p->piece + p->pieces; k++) {
+        const sunder_i_body_piece *a = &model->piece[k];
+        double box[4];
+        for (uint32_t x = 0; x < 4; x++) box[x] = a->box[x] + p->origin[x & 1] - q->origin[x & 1] - u[x & 1];
+        c->looked++;
+        if (a->feature != f || !sunder_i_box_meet(box, q->box)) continue;
+        c->looked += q->pieces / 4;
+        for (uint32_t l = q->piece; l < q->piece + q->pieces; l++) {
+            const sunder_i_body_piece *b = &model->piece[l];
+            if (!sunder_i_box_meet(box, b->box)) continue;
+            const double depth = depth_of(c, fill_ways(c, p, a, q, b, 0, false, NULL), u);
+            if (depth > worst->depth)
+                *worst = (sunder_i_violation){.p = s->number,
+                                              .q = model->body_of[part],
+                                              .a = a,
+                                              .b = b,
+                                              .clearance = required->clearance,
+                                              .depth = depth,
+                                              .slack = required,
+                                              .known = true};
+        }
+    }
+}
+
+/* A feature and a barrier that it is held to an overlap with. */
+static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder_i_requirement *required,
+                          sunder_i_violation *worst)
+{
+    const sunder_i_model *model = c->model;
+    const uint32_t f = required->a,
+                   end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, required->b)];
+    double u[2], box[4], clearance;
+    if (!model->present[f] || !sunder_i_branching_owe(c, f, required->b, &clearance) || !(clearance < 0)) return;
+    move_of_slack(c, required, s->t, u);
+    for (uint32_t x = 0; x < 4; x++) box[x] = model->box[4 * (size_t)f + x] - u[x & 1];
+    c->looked += LOOK_WORK;
+    c->near.n = 0;
+    if (!sunder_i_rtree_query(&model->tree, box, &c->near)) c->failed = true;
+    for (size_t k = 0; k < c->near.n && !c->failed; k++)
+        if (c->near.item[k] >= required->b && c->near.item[k] < end)
+            look_at_part(c, s, f, c->near.item[k], u, required, worst);
 }
 
 /* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
@@ -209,12 +279,34 @@ static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, con
     return n;
 }
 
+/* Those of the slacks of a body's members. Returns how many there are now. */
+static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_violation deepest[SUNDER_I_CHOICES],
+                             size_t n)
+{
+    const sunder_i_subproblem *q = c->subproblem;
+    for (uint32_t m = 0; m < s->body->members && q->slack; m++) {
+        const uint32_t f = c->model->member[s->body->member + m];
+        const sunder_i_requirement key = {.a = f, .b = (uint32_t)c->model->features};
+        for (size_t k = sunder_i_lower_bound(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);
+             k < q->required_n && q->required[k].a == f && !c->failed; k++) {
+            sunder_i_violation o = {.depth = 2 * c->hair};
+            if (q->required[k].clearance < 0 && q->required[k].clearance > -INFINITY)
+                look_at_slack(c, s, &q->required[k], &o);
+            n = insert(deepest, n, &o);
+        }
+    }
+    return n;
+}
+
 size_t sunder_i_branching_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = 0;
     for (uint32_t i = 0; i < c->bodies; i++) {
+        if (c->body[i] == SUNDER_I_NOBODY) continue;
         const standing s = stand(c, c->body[i]);
+        n = look_at_slacks(c, &s, deepest, n);
         for (uint32_t j = i + 1; j < c->bodies; j++) {
+            if (c->body[j] == SUNDER_I_NOBODY) continue;
             sunder_i_violation o = {.depth = 2 * c->hair};
             const standing r = stand(c, c->body[j]);
             look_at_all(c, &s, &r, &o);
@@ -245,8 +337,10 @@ static int by_nearness(const void *a, const void *b)
 size_t sunder_i_branching_ways(sunder_i_branching *c, const sunder_i_violation *o)
 {
     const standing s = stand(c, o->p), r = stand(c, o->q);
-    const double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
-    const size_t n = fill_ways(c, s.body, o->a, r.body, o->b, o->clearance, o->shadow, o->closely ? u : NULL);
+    double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
+    if (o->slack) move_of_slack(c, o->slack, s.t, u);
+    const size_t n =
+        fill_ways(c, s.body, o->a, r.body, o->b, o->slack ? 0 : o->clearance, o->shadow, o->closely ? u : NULL);
     depth_of(c, n, u);
     if (n) qsort(c->scratch, n, sizeof *c->scratch, by_nearness);
     return n;

@@ -46,9 +46,10 @@ static sunder_status below_distance(const sunder_feature *a, const sunder_featur
 }
 
 /* What is demanded of a feature and a barrier; see below. */
-static sunder_status find_barrier_requirement(const sunder_i_model *model, const sunder_conflict *c, double *clearance,
-                                              sunder_error *err)
+static sunder_status find_barrier_requirement(const sunder_i_model *model, const sunder_conflict *c,
+                                              sunder_i_requirement *required, sunder_error *err)
 {
+    double *clearance = &required->clearance;
     const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
     sunder_i_barrier_stance stance;
     bool inside;
@@ -59,6 +60,8 @@ static sunder_status find_barrier_requirement(const sunder_i_model *model, const
     if (status) return status;
     if (stance.overlap) {
         *clearance = -nextafter(stance.least.distance, INFINITY);
+        required->shift[0] = -stance.least.dx;
+        required->shift[1] = -stance.least.dy;
         return SUNDER_OK;
     }
     *clearance = 0;
@@ -76,15 +79,16 @@ static sunder_status find_barrier_requirement(const sunder_i_model *model, const
 
 /* Disjoint, it may come no nearer than it was; meeting, its depth may not grow: the double nearest to that length is
  * taken one step up. What lies in another may stay there. */
-static sunder_status find_requirement(const sunder_i_solver *s, const sunder_conflict *c, double *clearance,
-                                      sunder_error *err)
+static sunder_status find_requirement(const sunder_i_solver *s, const sunder_conflict *c,
+                                      sunder_i_requirement *required, sunder_error *err)
 {
+    double *clearance = &required->clearance;
     const sunder_i_model *model = &s->model;
     const sunder_i_relation *start = sunder_i_relations_find(&s->start, (uint32_t)c->a, (uint32_t)c->b);
     *clearance = -INFINITY;
     if (start && start->contained) return SUNDER_OK;
     const sunder_feature *feature = model->layer->feature;
-    if (sunder_i_is_barrier(model, (uint32_t)c->b)) return find_barrier_requirement(model, c, clearance, err);
+    if (sunder_i_is_barrier(model, (uint32_t)c->b)) return find_barrier_requirement(model, c, required, err);
     if (!start || !start->overlap) {
         const sunder_status status = below_distance(&feature[c->a], &feature[c->b], c->before, clearance, err);
         *clearance = fmin(model->rules.gap, *clearance);
@@ -106,8 +110,8 @@ static sunder_status find_some_requirements(void *context, size_t begin, size_t 
     const requiring *g = context;
     for (size_t k = begin; k < end; k++) {
         const sunder_conflict *c = &g->report->conflict[g->listed[k]];
-        g->required[k] = (sunder_i_requirement){(uint32_t)c->a, (uint32_t)c->b, 0};
-        const sunder_status status = find_requirement(g->solver, c, &g->required[k].clearance, err);
+        g->required[k] = (sunder_i_requirement){.a = (uint32_t)c->a, .b = (uint32_t)c->b};
+        const sunder_status status = find_requirement(g->solver, c, &g->required[k], err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -182,7 +186,8 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_proof 
 typedef struct matter {
     uint32_t root, conflict;
     bool open;
-    bool fine; /* by coarse lines there is a solution */
+    bool fine;  /* by coarse lines there is a solution */
+    bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
 } matter;
 
 typedef struct asking {
@@ -204,8 +209,21 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     return farthest;
 }
 
-/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. First by lines that are a
- * little coarse, which make smaller proofs; where that has a solution, as finely as can be. */
+/* The next of the ways to ask: first by lines that are a little coarse, which make smaller proofs; where that has a
+ * solution, as finely as can be; and where that has one, with a slack for what is held to overlaps. */
+static bool ask_closer(const asking *g, matter *m)
+{
+    bool overlaps = false;
+    for (size_t k = 0; k < g->required_n && m->fine; k++)
+        overlaps = overlaps || (g->required[k].clearance < 0 && g->required[k].clearance > -INFINITY &&
+                                sunder_i_is_barrier(&g->solver->model, g->required[k].b));
+    if (m->slack || (m->fine && !overlaps)) return false;
+    m->slack = m->fine;
+    m->fine = true;
+    return true;
+}
+
+/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
 static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     sunder_report *report = g->report;
@@ -215,15 +233,14 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2; /* it is met where it is near */
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
-    q->coarse = m->fine ? 0 : COARSE;
-    sunder_i_decision decision;
-    sunder_status status = sunder_i_decide(q, &decision, err);
-    if (!status && !m->fine && decision.verdict == SUNDER_I_FEASIBLE) {
+    sunder_i_decision decision = {0};
+    sunder_status status = SUNDER_OK;
+    do {
         sunder_i_decision_clear(&decision);
-        m->fine = true;
-        q->coarse = 0;
+        q->coarse = m->fine ? 0 : COARSE;
+        q->slack = m->slack;
         status = sunder_i_decide(q, &decision, err);
-    }
+    } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(g, m));
     sunder_proof **proof = &report->proof[m->conflict];
     *proof = decision.proof;
     decision.proof = NULL;
@@ -270,7 +287,8 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, const
         const sunder_conflict *c = &report->conflict[listed[k]];
         if (c->reason != SUNDER_REASON_UNRESOLVED) continue;
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
-        list[open++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false};
+        list[open++] =
+            (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), listed[k], true, false, false};
     }
     if (open) qsort(list, open, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < open; k++)
