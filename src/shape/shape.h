@@ -101,6 +101,12 @@ bool sunder_i_shape_measure_pieces(sunder_shape *shape);
 /* The largest convex piece in doubles, first of equals; *from is its first corner. */
 uint32_t sunder_i_largest_piece(const sunder_shape *shape, uint32_t *from);
 
+/* The centroid of a convex piece of n corners to the nearest doubles, in doubles (anchor.c). False, and xy undefined,
+ * where they do not suffice. */
+bool sunder_i_anchor_in_doubles(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
+/* The same, always. */
+void sunder_i_anchor_exactly(const sunder_shape *shape, const uint32_t *corner, uint32_t n, double xy[2]);
+
 /* Checks every invariant above (exactly, slowly); for tests and debug builds. NULL if all hold, else a sentence; NULL
  * too where memory runs out, since nothing is known then. */
 const char *sunder_i_shape_check(const sunder_shape *shape);

@@ -104,11 +104,25 @@ static bool anchor_is_a_centroid(const sunder_shape *s, const double anchor[2])
     return found;
 }
 
+/* Do doubles suffice for the centroid of a piece? Then they say what numbers of any size do. */
+static bool is_anchored_in_doubles(const sunder_shape *s)
+{
+    double quick[2], exact[2];
+    uint32_t from;
+    if (s->pieces == 0 || s->rational) return false;
+    const uint32_t largest = sunder_i_largest_piece(s, &from), n = s->piece_end[largest] - from;
+    if (!sunder_i_anchor_in_doubles(s, s->piece_vertex + from, n, quick)) return false;
+    sunder_i_anchor_exactly(s, s->piece_vertex + from, n, exact);
+    assert_true(quick[0] == exact[0] && quick[1] == exact[1]);
+    return true;
+}
+
 static void test_area_and_anchor_without_memory(void **state)
 {
     (void)state;
     rng g = rng_start(test_seed(), 91);
     const size_t n = test_count(300);
+    size_t quick = 0;
     for (size_t i = 0; i < n; i++) {
         polyset set;
         polyset_init(&set);
@@ -129,9 +143,11 @@ static void test_area_and_anchor_without_memory(void **state)
             fail_msg("SUNDER_SEED=%llu, case %zu: area", (unsigned long long)test_seed(), i);
         else if (s->pieces && !anchor_is_a_centroid(s, anchor))
             fail_msg("SUNDER_SEED=%llu, case %zu: anchor", (unsigned long long)test_seed(), i);
+        quick += is_anchored_in_doubles(s);
         sunder_shape_free(s);
         polyset_free(&set);
     }
+    assert_true(quick > 0);
 }
 
 /* Of a repaired shape both were worked out when it was made, and making it fails where there is no memory for that. */
