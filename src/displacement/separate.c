@@ -63,6 +63,12 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
+/* Most layers leave nothing to be proved. */
+static sunder_status find_seams_for_proofs(sunder_i_solver *s, bool wanted, sunder_error *err)
+{
+    return wanted ? sunder_i_model_find_seams(&s->model, err) : SUNDER_OK;
+}
+
 /* Solves, looks again at what was given up, asks it once more, looks for better sides. Progress goes from `from` to
  * `to`. known: nothing is to be solved but what comes of looking again. */
 static sunder_status seek(sunder_i_solver *s, bool known, double from, double to, sunder_error *err)
@@ -72,7 +78,8 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
     sunder_status status = known ? SUNDER_OK : sunder_i_solver_choose_holders(s, err);
     if (!status && !known) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
     for (int round = 0; round < RECONSIDERED && again && !status; round++) {
-        status = sunder_i_solver_reconsider(s, &again, err);
+        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
+        if (!status) status = sunder_i_solver_reconsider(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from + 3 * step, from + 4 * step, err);
         known = known && !again;
     }
@@ -86,7 +93,8 @@ static sunder_status seek(sunder_i_solver *s, bool known, double from, double to
     }
     again = true;
     for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
-        status = sunder_i_solver_ask_one_by_one(s, &again, err);
+        status = find_seams_for_proofs(s, s->model.given_up_n > 0, err);
+        if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
         if (!status && again) status = sunder_i_solver_settle(s, from + 6 * step, to, err);
     }
     return status;
@@ -185,6 +193,13 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     return status;
 }
 
+static bool has_conflicts(const sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->now.n; k++)
+        if (sunder_i_is_conflict_of_bodies(&s->model, &s->now.pair[k])) return true;
+    return false;
+}
+
 /* Relations once more from nothing, so that the verdict leans on no earlier one; and what is proved of them. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
@@ -200,7 +215,8 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     report->summary.seconds_solve = solved - began;
     report->summary.seconds_verify = sunder_i_now() - solved;
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
-    status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    status = find_seams_for_proofs(s, has_conflicts(s), err);
+    if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pair_trees(report, s, err);

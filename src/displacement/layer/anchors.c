@@ -1,4 +1,5 @@
-/* Anchors, and what holds them: a feature whose anchor lies in another, closed, may leave it.
+/* Anchors, what holds them, and how much room they have: a feature whose anchor lies in another, closed, may leave it;
+ * and what moves by less than to the nearest of all others jumps over none.
  *
  * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()), whichever those are: for a sliver they
  * may lie beside it. The rule is about the anchor as those doubles say it, so it is exact whatever they are; an anchor
@@ -7,32 +8,79 @@
 
 #include "separation/separation.h"
 
+#include <math.h>
 #include <stdlib.h>
 
-/* The pairs of another body's feature with the anchor in it. */
-static sunder_status find_holders(sunder_i_model *model, sunder_error *err)
+typedef struct looking {
+    sunder_i_model *model;
+    sunder_i_list near;
+    size_t capacity; /* of model->held */
+} looking;
+
+/* At most how far the outline of g, of a body with that origin, is from a: 0 where it holds it. Beyond one of its sides
+ * it is as far at least. */
+static double distance_to_outline(const sunder_i_model *model, uint32_t g, const double a[2])
 {
-    sunder_i_list near = {0};
-    size_t capacity = 0;
-    sunder_status status = SUNDER_OK;
-    for (uint32_t f = 0; f < model->features && !status; f++) {
-        const double *a = model->anchor_at + 2 * (size_t)f, box[4] = {a[0], a[1], a[0], a[1]};
-        if (!model->present[f]) continue;
-        near.n = 0;
-        if (!sunder_i_rtree_query(&model->tree, box, &near)) status = sunder_i_no_memory(err);
-        for (size_t k = 0; k < near.n && !status; k++) {
-            const uint32_t g = near.item[k];
-            bool holds;
-            if (sunder_i_is_barrier(model, g) || model->body_of[f] == model->body_of[g]) continue;
-            status = sunder_i_holds(model->layer->feature[g].shape, a, &holds, err);
-            if (status || !holds) continue;
-            if (!sunder_i_reserve(&model->held, &capacity, model->held_n + 1, sizeof *model->held))
-                status = sunder_i_no_memory(err);
-            else
-                model->held[model->held_n++] = (sunder_i_id_pair){f, g};
-        }
+    const sunder_i_body_piece *outline = &model->outline[g];
+    const double *origin = model->body[model->body_of[g]].origin, *corner = model->corner + 2 * (size_t)outline->corner;
+    const double at[2] = {a[0] - origin[0], a[1] - origin[1]};
+    double most = 0;
+    for (uint32_t k = 0; k < outline->corners; k++) {
+        const double *p = corner + 2 * (size_t)k, *q = corner + 2 * (size_t)(k + 1 < outline->corners ? k + 1 : 0);
+        const double e[2] = {q[0] - p[0], q[1] - p[1]}, over = e[1] * (at[0] - p[0]) - e[0] * (at[1] - p[1]);
+        if (over > 0) most = fmax(most, over / sqrt(e[0] * e[0] + e[1] * e[1]));
     }
-    sunder_i_free(near.item);
+    return most;
+}
+
+/* Does g hold the anchor of f? Then the pair is noted; else *clear is brought down to the distance of g. */
+static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
+{
+    sunder_i_model *model = l->model;
+    const double *a = model->anchor_at + 2 * (size_t)f, *box = model->box + 4 * (size_t)g;
+    bool holds = false;
+    if (!sunder_i_box_near_point(box, a[0], a[1], *clear)) return SUNDER_OK;
+    if (sunder_i_box_near_point(box, a[0], a[1], 0)) {
+        const sunder_status status = sunder_i_holds(model->layer->feature[g].shape, a, &holds, err);
+        if (status) return status;
+    }
+    if (!holds) *clear = fmin(*clear, distance_to_outline(model, g, a));
+    if (!holds) return SUNDER_OK;
+    if (!sunder_i_reserve(&model->held, &l->capacity, model->held_n + 1, sizeof *model->held))
+        return sunder_i_no_memory(err);
+    model->held[model->held_n++] = (sunder_i_id_pair){f, g};
+    return SUNDER_OK;
+}
+
+/* Who stands about the anchor of f: as far from it as its own edges, and two gaps beyond. */
+static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
+{
+    sunder_i_model *model = l->model;
+    const double *a = model->anchor_at + 2 * (size_t)f, *own = model->box + 4 * (size_t)f;
+    const double reach = fmax(own[2] - own[0], own[3] - own[1]) / 2 + 2 * model->rules.gap;
+    const double box[4] = {a[0] - reach, a[1] - reach, a[0] + reach, a[1] + reach};
+    sunder_status status = SUNDER_OK;
+    double clear = reach;
+    l->near.n = 0;
+    if (!sunder_i_rtree_query(&model->tree, box, &l->near)) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < l->near.n && !status; k++) {
+        const uint32_t g = l->near.item[k];
+        if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g])
+            status = look_at(l, f, g, &clear, err);
+    }
+    model->clear[f] = clear;
+    sunder_i_body *body = &model->body[model->body_of[f]];
+    body->clear = fmin(body->clear, clear);
+    return status;
+}
+
+static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
+{
+    looking l = {.model = model};
+    sunder_status status = SUNDER_OK;
+    for (uint32_t f = 0; f < model->features && !status; f++)
+        if (model->present[f]) status = look_about(&l, f, err);
+    sunder_i_free(l.near.item);
     if (model->held_n) qsort(model->held, model->held_n, sizeof *model->held, sunder_i_by_id_pair);
     return status;
 }
@@ -44,7 +92,8 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
     model->anchor = sunder_i_calloc(model->things, sizeof *model->anchor);
-    if (!model->anchor_at || !model->anchor) return sunder_i_no_memory(err);
+    model->clear = sunder_i_calloc(n, sizeof *model->clear);
+    if (!model->anchor_at || !model->anchor || !model->clear) return sunder_i_no_memory(err);
     if (model->corners + n >= UINT32_MAX)
         return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", model->corners + n);
     double *corner = sunder_i_realloc(model->corner, 2 * (model->corners + n), sizeof *corner);
@@ -65,8 +114,7 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
             sunder_i_box_join(body->anchors, anchor->box);
         }
     }
-    const sunder_status found = find_holders(model, err);
-    return found ? found : sunder_i_model_find_seams(model, err);
+    return look_about_all(model, err);
 }
 
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g)

@@ -136,6 +136,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
         body->piece = (uint32_t)model->pieces;
+        body->clear = INFINITY;
         sunder_i_box_clear(body->box);
         const uint32_t first = model->member[body->member];
         body->origin[0] = model->box[4 * first];

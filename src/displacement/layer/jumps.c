@@ -31,12 +31,19 @@ static const double *move_of(const sunder_i_jumps *jumps, const sunder_i_model *
     return jumps->own ? jumps->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];
 }
 
+static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
+{
+    const double *t = move_of(jumps, model, f);
+    return t[0] != 0 || t[1] != 0;
+}
+
 /* From home to where the feature stands, rounded outward. */
 static void set_way(sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
     const double *home = model->box + 4 * (size_t)f, *t = move_of(jumps, model, f);
     double *way = jumps->way + 4 * (size_t)f;
-    for (int c = 0; c < 4; c++) {
+    memcpy(way, home, 4 * sizeof *way);
+    for (int c = 0; c < 4 && has_moved(jumps, model, f); c++) {
         const double out = c < 2 ? -INFINITY : INFINITY, there = nextafter(home[c] + t[c & 1], out);
         way[c] = c < 2 ? fmin(home[c], there) : fmax(home[c], there);
     }
@@ -56,8 +63,10 @@ static sunder_status follow(sunder_i_jumps *jumps, const sunder_i_model *model, 
                             sunder_error *err)
 {
     for (size_t k = 0; k < n; k++) {
+        double *way = jumps->way + 4 * (size_t)moved[k], before[4];
+        memcpy(before, way, sizeof before);
         set_way(jumps, model, moved[k]);
-        sunder_i_rtree_move(&jumps->tree, moved[k], jumps->way + 4 * (size_t)moved[k]);
+        if (memcmp(before, way, sizeof before)) sunder_i_rtree_move(&jumps->tree, moved[k], way);
     }
     if (!sunder_i_rtree_is_worn(&jumps->tree)) return SUNDER_OK;
     sunder_i_rtree_free(&jumps->tree);
@@ -129,6 +138,12 @@ typedef struct pair_search {
     sunder_i_list *found; /* [asked] partners that broke the rule; of two that are asked the lesser has it */
 } pair_search;
 
+/* Of what is present, those that changed; where nothing is known, those that moved: two that did not break no rule. */
+static bool is_asked(const pair_search *s, uint32_t f)
+{
+    return s->changed ? s->changed[f] : has_moved(s->jumps, s->model, f);
+}
+
 static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list *list, sunder_error *err)
 {
     size_t kept = 0;
@@ -137,7 +152,7 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     for (size_t i = 0; i < list->n && !status; i++) {
         const uint32_t g = list->item[i];
         bool jumps = false;
-        if (g > f || (s->changed && !s->changed[g])) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
+        if (g > f || !is_asked(s, g)) status = ask_both(s->jumps, s->model, f, g, &jumps, err);
         if (jumps) list->item[kept++] = g;
     }
     list->n = kept;
@@ -190,9 +205,13 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
     for (uint32_t f = 0; f < model->features && !status; f++)
         if (model->present[f] && (!changed || changed[f])) asked[n++] = f;
     if (!status && jumps->way) status = follow(jumps, model, asked, n, err);
-    sunder_i_list *found = sunder_i_calloc(n, sizeof *found);
+    pair_search s = {jumps, model, changed, asked, NULL};
+    const size_t present = n;
+    n = 0;
+    for (size_t k = 0; k < present && !status; k++)
+        if (is_asked(&s, asked[k])) asked[n++] = asked[k];
+    sunder_i_list *found = s.found = sunder_i_calloc(n, sizeof *found);
     if (!status && !found) status = sunder_i_no_memory(err);
-    pair_search s = {jumps, model, changed, asked, found};
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, find_partners, &s, err);
     if (!status && !collect(jumps, &s, n)) status = sunder_i_no_memory(err);
     for (size_t k = 0; k < n && found; k++) sunder_i_free(found[k].item);

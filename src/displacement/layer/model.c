@@ -20,6 +20,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->anchor);
     sunder_i_free(model->anchor_at);
     sunder_i_free(model->held);
+    sunder_i_free(model->clear);
     sunder_i_free(model->seam);
     sunder_i_free(model->seam_at);
     sunder_i_free(model->side);

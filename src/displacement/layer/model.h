@@ -25,6 +25,7 @@ typedef struct sunder_i_body {
     double box[4];            /* of its pieces, relative to the origin */
     double anchors[4];        /* of its members' anchors, likewise */
     double side_anchors[4];   /* of their side anchors */
+    double clear;             /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
@@ -72,9 +73,11 @@ struct sunder_i_model {
     /* Where jumps are not allowed; else NULL: */
     sunder_i_body_piece *anchor; /* [things] each anchor as a piece of one corner; barriers have none */
     double *anchor_at;           /* [2 * features] the anchors as they are */
+    double *clear;               /* [features] nothing of another body that does not hold the anchor is nearer to it */
     sunder_i_body_piece *seam;   /* convex pieces of features about the diagonals between their pieces; seams.c */
     double *seam_at;             /* [8 * seams] their four corners as they are */
     size_t seams;
+    bool has_seams;
     sunder_i_id_pair *held; /* a feature, and one of another body that holds its anchor; sorted */
     size_t held_n;
     /* Where barriers have sides; else NULL: */
@@ -184,7 +187,8 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- seams.c ----------------------------------------------------------------------------------------------------- */
 
-/* The seams of all features; after the pieces are cut. */
+/* The seams of all features, unless they are known; after the pieces are cut. Proofs ask for them, the search does not.
+ * Pointers into model->corner are void then. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */

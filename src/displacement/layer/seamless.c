@@ -49,10 +49,11 @@ static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int 
     return (sunder_point){m.x + (w.x - m.x) * part, m.y + (w.y - m.y) * part};
 }
 
-/* Does p lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
-static bool is_within(sunder_point u, sunder_point v, sunder_point w, sunder_point p)
+/* Does p, which is towards(u, v, w, j), lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
+static bool is_within(sunder_point u, sunder_point v, sunder_point w, sunder_point p, int j)
 {
-    return sunder_orient(&u, &v, &p) > 0 && sunder_orient(&v, &w, &p) >= 0 && sunder_orient(&w, &u, &p) >= 0;
+    if (!(sunder_orient(&u, &v, &p) > 0)) return false;
+    return j == 0 || (sunder_orient(&v, &w, &p) >= 0 && sunder_orient(&w, &u, &p) >= 0);
 }
 
 /* The quadrilateral u - q - v - p about the diagonal, counter-clockwise; false if no doubles make one. corner: as of
@@ -65,7 +66,7 @@ static bool find_quadrilateral(const double *xy, const uint32_t corner[4], doubl
         for (int j = sum > HALVINGS ? sum - HALVINGS : 0; j <= sum && j <= HALVINGS; j++) {
             if (sum > 4 && j != sum / 2 && j != 0 && j != sum) continue; /* both alike, or one a corner */
             const sunder_point q = towards(u, v, right, j), p = towards(u, v, left, sum - j);
-            if (!is_within(v, u, right, q) || !is_within(u, v, left, p)) continue;
+            if (!is_within(v, u, right, q, j) || !is_within(u, v, left, p, sum - j)) continue;
             if (sunder_orient(&p, &u, &q) <= 0 || sunder_orient(&q, &v, &p) <= 0) continue;
             const double quadrilateral[8] = {u.x, u.y, q.x, q.y, v.x, v.y, p.x, p.y};
             memcpy(out, quadrilateral, sizeof quadrilateral);

@@ -56,6 +56,8 @@ static sunder_status put_corners(sunder_i_model *model, sunder_error *err)
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err)
 {
     gathering g = {.model = model};
+    if (model->has_seams || model->rules.jumps) return SUNDER_OK;
+    model->has_seams = true;
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
         body->seam = (uint32_t)model->seams;
