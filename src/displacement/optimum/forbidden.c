@@ -16,6 +16,7 @@
 #include "displacement/optimum/forbidden.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/layer/sides.h"
+#include "displacement/obstacles/shadow.h"
 #include "displacement/optimum/tuning.h"
 
 #include "base/watch.h"
@@ -163,6 +164,15 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
     return true;
 }
 
+/* May the piece cast a shadow from the anchor that is within reach? By their boxes; swapped: the anchor is of q. */
+static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
+                     bool swapped)
+{
+    const double way[4] = {-l->reach, -l->reach, l->reach, l->reach};
+    return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, way)
+                   : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
+}
+
 /* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
@@ -174,7 +184,7 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
         if (!anchor->corners) continue;
         for (uint32_t k = other->piece; k < other->piece + other->pieces; k++) {
             const sunder_i_body_piece *piece = &model->piece[k];
-            if (sunder_i_is_held(model, f, piece->feature)) continue;
+            if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(model, f, piece->feature)) continue;
             if (!add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece)) return false;
         }
     }
@@ -191,7 +201,7 @@ static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *p
         if (!anchor->corners) continue;
         for (uint32_t k = part->side; k < part->side + part->sides; k++) {
             const sunder_i_side *side = &model->side[k];
-            if (sunder_i_side_faces(model, side, f) &&
+            if (may_cast(l, anchor, &side->piece, swapped) && sunder_i_side_faces(model, side, f) &&
                 !add_shadow(l, swapped ? &side->piece : anchor, swapped ? anchor : &side->piece))
                 return false;
         }

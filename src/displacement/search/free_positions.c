@@ -45,7 +45,6 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
 typedef struct shading {
     sunder_i_obstacles *obstacles;
     double shift[2], far;
-    bool any;
 } shading;
 
 static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
@@ -63,18 +62,40 @@ static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void
     n = sunder_i_shadow_corners(edge, n, shade->far, corner);
     for (size_t k = 0; k < 2 * n; k++) corner[k] += shade->shift[k & 1];
     s->steps += OBSTACLE_WORK;
-    shade->any = true;
     sunder_i_obstacles_add(shade->obstacles, corner, n, fmax(gap, 0) + 2 * s->tolerance);
 }
 
-/* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. Are there any? */
-static bool add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const double t[2],
+/* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. */
+static void add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const double t[2],
                         const sunder_i_body *q, const double at[2], double reach)
 {
     const double u[2] = {at[0] - t[0], at[1] - t[1]};
-    shading shade = {o, {t[0], t[1]}, hypot(u[0], u[1]) + reach, false};
+    shading shade = {o, {t[0], t[1]}, hypot(u[0], u[1]) + reach};
     sunder_i_search_body_shadows(s, p, q, u, reach + s->gap - s->model->rules.gap, add_shadow, &shade);
-    return shade.any;
+}
+
+typedef struct shade {
+    const double *u;
+    bool deep;
+} shade;
+
+static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+{
+    shade *at = context;
+    double gap;
+    size_t n;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    at->deep = at->deep || (edge && sunder_i_search_support(part, edge, n, at->u).distance < gap);
+}
+
+/* Does the move `at` of q lie in a shadow between it and p, which moved by t? */
+static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t[2], const sunder_i_body *q,
+                      const double at[2])
+{
+    const double u[2] = {at[0] - t[0], at[1] - t[1]};
+    shade found = {u, false};
+    sunder_i_search_body_shadows(s, p, q, u, s->gap - s->model->rules.gap, take_shade, &found);
+    return found.deep;
 }
 
 static double extent(const double box[4]) { return fmax(box[2] - box[0], box[3] - box[1]); }
@@ -170,26 +191,29 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     return !beyond && isfinite(place[0]) && isfinite(place[1]);
 }
 
-typedef struct shade {
-    const double *u;
-    bool deep;
-} shade;
-
-static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+/* Free places of q about `target`, p as it is, no farther than `reach`. Most lie in no shadow: so those without shadows
+ * come first, and shadows are asked for where one does. outside: beyond everything will do. */
+static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, bool many,
+                          const double target[2], double reach, double spread, bool outside, size_t most,
+                          double (*places)[2])
 {
-    shade *at = context;
-    double gap;
-    size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
-    at->deep = at->deep || (edge && sunder_i_search_support(part, edge, n, at->u).distance < gap);
-}
-
-/* Does the relative move u lie in a shadow? */
-static bool is_shaded(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
-{
-    shade at = {u, false};
-    sunder_i_search_shadows(s, i, j, u, s->gap - s->model->rules.gap, take_shade, &at);
-    return at.deep;
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, none[2] = {0, 0};
+    const bool coarse_p = many && !sunder_i_is_barrier_body(s->model, p),
+               coarse_q = many && !sunder_i_is_barrier_body(s->model, q);
+    sunder_i_obstacles o;
+    memset(&o, 0, sizeof o);
+    add_obstacles(s, &o, p, coarse_p, q, coarse_q, offset, target, reach);
+    size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
+    if (n == 0 && outside && outside_all(&o, target, INFINITY, places[0])) n = 1;
+    bool shaded = false;
+    for (size_t k = 0; k < n && !shaded && !s->failed; k++) shaded = is_shaded(s, p, none, q, places[k]);
+    if (shaded) {
+        add_shadows(s, &o, p, none, q, target, reach);
+        n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
+    }
+    s->failed = s->failed || o.failed;
+    sunder_i_obstacles_free(&o);
+    return n;
 }
 
 size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double target[2], double spread,
@@ -197,7 +221,7 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
 {
     const sunder_i_model *model = s->model;
     const sunder_i_body *p = &model->body[s->body[i]], *q = &model->body[s->body[j]];
-    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, none[2] = {0, 0};
+    const double none[2] = {0, 0};
     const bool many = (uint64_t)p->pieces * q->pieces > MANY_PAIRS;
     const sunder_shape *ps = sunder_i_model_shape(model, s->body[i]), *qs = sunder_i_model_shape(model, s->body[j]);
     double shift;
@@ -205,19 +229,11 @@ size_t sunder_i_search_free_pair(sunder_i_search *s, uint32_t i, uint32_t j, con
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
     const double shallow = fmax(2 * s->gap, SHALLOW * fmin(extent(p->box), extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
-        free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, i, j, places[0]))
+        free_pair_exactly(s, ps, qs, target, shallow, places[0]) && !is_shaded(s, p, none, q, places[0]))
         return 1;
     const double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + s->gap);
     for (double reach = fmax(2 * s->gap, PAIR_REACH * fmin(extent(p->box), extent(q->box)));; reach *= PAIR_GROWTH) {
-        sunder_i_obstacles o;
-        memset(&o, 0, sizeof o);
-        add_obstacles(s, &o, p, many && !sunder_i_is_barrier_body(model, p), q,
-                      many && !sunder_i_is_barrier_body(model, q), offset, target, reach);
-        const bool shaded = add_shadows(s, &o, p, none, q, target, reach);
-        size_t n = sunder_i_free_places(&o, target, reach, spread, most, places, &s->steps, &s->failed);
-        if (n == 0 && reach > all && !shaded && outside_all(&o, target, INFINITY, places[0])) n = 1;
-        s->failed = s->failed || o.failed;
-        sunder_i_obstacles_free(&o);
+        const size_t n = find_beside(s, p, q, many, target, reach, spread, reach > all, most, places);
         if (n || s->failed) return n;
         if (reach > all) return 0;
     }
@@ -271,26 +287,93 @@ static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
     return (uint64_t)p->members * (q->pieces + q->sides) + (uint64_t)q->members * (p->pieces + p->sides);
 }
 
-/* Obstacles for body i from all the others, within reach of place `at`. Among very many pieces, shadows of large blocks
- * are left out: whoever is put into one clashes there. */
-static void surround(sunder_i_search *s, sunder_i_obstacles *o, uint32_t i, const double at[2], double reach,
-                     const sunder_i_list *foreign)
+/* The others about body i: those of the search, and foreign ones. */
+typedef struct others {
+    sunder_i_search *search;
+    uint32_t i;
+    sunder_i_list foreign;
+    bool coarse; /* parts are outlines */
+} others;
+
+/* The k-th of them, and where it stands; NULL: it is not there. */
+static const sunder_i_body *other_at(const others *all, size_t k, const double **t)
 {
+    const sunder_i_search *s = all->search;
     const sunder_i_model *model = s->model;
-    const sunder_i_body *p = &model->body[s->body[i]];
-    const bool coarse = (uint64_t)p->pieces * count_around(s, i, at, reach, foreign) > MANY_AROUND;
-    for (size_t k = 0; k < s->n + foreign->n && !s->failed; k++) {
-        if (k == i || (k < s->n && s->away[k])) continue;
-        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &model->body[body];
-        if (q->pieces == 0) continue;
-        const double *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
+    if (k == all->i || (k < s->n && s->away[k])) return NULL;
+    const uint32_t body = k < s->n ? s->body[k] : all->foreign.item[k - s->n];
+    *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
+    return model->body[body].pieces ? &model->body[body] : NULL;
+}
+
+static size_t count_others(const others *all) { return all->search->n + all->foreign.n; }
+
+/* Obstacles for body i from all the others, within reach of place `at`. */
+static void surround(others *all, sunder_i_obstacles *o, const double at[2], double reach)
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[all->i]];
+    all->coarse = (uint64_t)p->pieces * count_around(s, all->i, at, reach, &all->foreign) > MANY_AROUND;
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (!q) continue;
         /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
-        add_obstacles(s, o, q, coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p, coarse,
-                      offset, at, reach);
-        if (!coarse || count_shadows(p, q) <= MANY_SHADOWS) add_shadows(s, o, q, t, p, at, reach);
+        add_obstacles(s, o, q, all->coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p,
+                      all->coarse, offset, at, reach);
     }
+}
+
+/* Among very many pieces, shadows of large blocks are left out: whoever is put into one clashes there. */
+static bool has_shadows(const others *all, const sunder_i_body *p, const sunder_i_body *q)
+{
+    return !all->coarse || count_shadows(p, q) <= MANY_SHADOWS;
+}
+
+static bool is_shaded_by_others(const others *all, const double at[2])
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_body *p = &s->model->body[s->body[all->i]];
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (q && has_shadows(all, p, q) && is_shaded(s, q, t, p, at)) return true;
+    }
+    return false;
+}
+
+static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, const double at[2], double reach)
+{
+    sunder_i_search *s = all->search;
+    const sunder_i_body *p = &s->model->body[s->body[all->i]];
+    for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        if (q && has_shadows(all, p, q)) add_shadows(s, o, q, t, p, at, reach);
+    }
+}
+
+/* The free place nearest to `home`, no farther than reach; shadows are asked for where one is found in them. */
+static bool find_among(others *all, const double home[2], double reach, double place[2])
+{
+    sunder_i_search *s = all->search;
+    double best[1][2];
+    size_t n = 0;
+    sunder_i_obstacles o;
+    memset(&o, 0, sizeof o);
+    surround(all, &o, home, reach);
+    for (int shadows = 0; shadows < 2; shadows++) {
+        n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);
+        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
+        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, best[0])) break;
+        add_shadows_of_others(all, &o, home, reach);
+    }
+    s->failed = s->failed || o.failed;
+    sunder_i_obstacles_free(&o);
+    if (n) memcpy(place, best[0], sizeof best[0]);
+    return n > 0;
 }
 
 bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, double place[2])
@@ -303,24 +386,13 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
     if (!s->model->rules.jumps) all = fmin(all, now + FARTHEST_LEAP * (fmin(extent(p->box), s->extent) + s->gap));
     for (double reach = 2 * s->gap + fmax(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
-        sunder_i_list foreign = {0};
-        sunder_i_obstacles o;
-        memset(&o, 0, sizeof o);
+        others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
-        if (!find_others(s, p, box, &foreign)) s->failed = true;
-        surround(s, &o, i, home, reach, &foreign);
-        double best[1][2];
-        size_t n = sunder_i_free_places(&o, home, reach, 0, 1, best, &s->steps, &s->failed);
-        if (n == 0 && o.n && outside_all(&o, home, reach, best[0])) n = 1;
-        s->failed = s->failed || o.failed;
-        sunder_i_obstacles_free(&o);
-        sunder_i_free(foreign.item);
-        if (n) {
-            place[0] = best[0][0];
-            place[1] = best[0][1];
-        }
+        if (!find_others(s, p, box, &about.foreign)) s->failed = true;
+        const bool found = find_among(&about, home, reach, place);
+        sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
-        if (n || s->failed) return n != 0 && !s->failed;
+        if (found || s->failed) return found && !s->failed;
         if (reach >= limit || reach > all) return false;
     }
 }

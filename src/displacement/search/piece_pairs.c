@@ -1,6 +1,7 @@
 /* What two bodies of a cluster owe each other, piece by piece: the gap, or what they are held to where they are left in
  * conflict; and the edges of one that keep the other inside. */
 #include "displacement/search/search.h"
+#include "displacement/search/tuning.h"
 
 #include "base/watch.h"
 
@@ -8,6 +9,7 @@
 
 double sunder_i_search_owed(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
+    if (!sunder_i_is_barrier(s->model, a->feature) && !sunder_i_is_barrier(s->model, b->feature)) return s->gap;
     return s->gap + (sunder_i_owed_above(s->model, a->feature, b->feature) - s->model->rules.gap);
 }
 
@@ -68,13 +70,15 @@ static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, c
 {
     part->inclusion = SUNDER_I_LAPSED;
     if (part->relaxed) part->relaxation = sunder_i_search_relaxation(s, a, b);
-    return sunder_i_is_included(s->model, a->feature, b->feature) || (part->relaxation && part->relaxation->inside);
+    return (s->model->inclusions && sunder_i_is_included(s->model, a->feature, b->feature)) ||
+           (part->relaxation && part->relaxation->inside);
 }
 
-/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. */
-void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n, const sunder_i_body *other,
-                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped, bool walls,
-                           sunder_i_visit_piece_pair visit, void *context)
+/* Parts of `from` that may stand within `reach` of parts of `to` at `v`; walls: `from` holds what it is in. Inline: the
+ * innermost loop of the search. */
+static inline void visit_all(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n,
+                             const sunder_i_body *other, const double v[2], double reach, sunder_i_piece_pair *part,
+                             bool swapped, bool walls, sunder_i_visit_piece_pair visit, void *context)
 {
     const sunder_i_model *model = s->model;
     for (uint32_t k = 0; k < n; k++) {
@@ -98,6 +102,13 @@ void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, 
     }
 }
 
+void sunder_i_search_visit(sunder_i_search *s, const sunder_i_body_piece *from, uint32_t n, const sunder_i_body *other,
+                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped, bool walls,
+                           sunder_i_visit_piece_pair visit, void *context)
+{
+    visit_all(s, from, n, other, v, reach, part, swapped, walls, visit, context);
+}
+
 void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context)
 {
@@ -108,8 +119,10 @@ void sunder_i_search_piece_pairs(sunder_i_search *s, uint32_t i, uint32_t j, con
     double shift = 0;
     part.relaxed = yields && sunder_i_search_is_relaxed(s, s->body[i], s->body[j], &shift);
     reach += shift;
-    sunder_i_search_visit(s, model->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
-    sunder_i_search_body_shadows(s, p, q, u, reach - shift - model->rules.gap, visit, context);
+    visit_all(s, model->piece + p->piece, p->pieces, q, v, reach, &part, false, false, visit, context);
+    /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
+    const double ahead = fmin(reach - shift - s->gap, s->gap / LEAST_REACH);
+    sunder_i_search_body_shadows(s, p, q, u, s->gap - model->rules.gap + ahead, visit, context);
     if (!part.relaxed && model->inclusions == 0) return;
     if (p->walls)
         sunder_i_search_visit(s, model->wall + p->wall, p->walls, q, v, reach, &part, false, true, visit, context);

@@ -141,9 +141,18 @@ double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, con
 /* All shadows of bodies i and j that may lie within reach of relative position u. */
 void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                              sunder_i_visit_piece_pair visit, void *context);
-/* The same between any two bodies of the model. */
-void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
-                                  const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
+/* The same between any two bodies of the model. Most go by less than there is room about their anchors. */
+void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
+                                   const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
+
+static inline void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
+                                                const double u[2], double reach, sunder_i_visit_piece_pair visit,
+                                                void *context)
+{
+    const double far = (u[0] < 0 ? -u[0] : u[0]) + (u[1] < 0 ? -u[1] : u[1]) + reach;
+    if (p->clear > far && q->clear > far && p->sides + q->sides == 0) return;
+    sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
+}
 /* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are
  * within reach of it, and do not stand within reach of each other there. */
 void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,

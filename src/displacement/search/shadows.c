@@ -18,15 +18,27 @@
 
 /* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
 
-/* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
+/* The same for a box of p and one of the other body; swapped: p is the second of the two. */
+static bool may_reach(const double p[4], const double other[4], const double offset[2], const double way[4],
+                      bool swapped)
+{
+    return swapped ? sunder_i_shadow_may_reach(other, p, offset, way)
+                   : sunder_i_shadow_may_reach(p, other, offset, way);
+}
+
+/* Shadows of pieces of `other` from the anchors of `p`, of those that may reach `far`; swapped: p is the second of the
+ * two. */
 static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
-                       sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
+                       double far, sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit,
+                       void *context)
 {
     const sunder_i_model *model = s->model;
     for (uint32_t m = 0; m < p->members; m++) {
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->anchor[f];
-        if (!anchor->corners) continue;
+        if (!anchor->corners || model->clear[f] > far ||
+            !may_reach(anchor->box, other->box, part->offset, way, swapped))
+            continue;
         for (uint32_t l = other->piece; l < other->piece + other->pieces && !s->failed; l++) {
             const sunder_i_body_piece *piece = &model->piece[l];
             const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
@@ -40,6 +52,7 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
         }
         if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
     }
+    if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
 
 /* Lines of `other`, part of a barrier, from the side anchors of `p`. */
@@ -50,7 +63,7 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
     for (uint32_t m = 0; m < p->members; m++) {
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
-        if (!anchor->corners) continue;
+        if (!anchor->corners || !may_reach(anchor->box, other->box, part->offset, way, swapped)) continue;
         for (uint32_t l = other->side; l < other->side + other->sides && !s->failed; l++) {
             const sunder_i_side *side = &model->side[l];
             part->a = swapped ? &side->piece : anchor;
@@ -63,6 +76,7 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
         }
         if (!sunder_i_steps(1 + other->sides / 8)) s->failed = true;
     }
+    if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
 
 /* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
@@ -74,22 +88,28 @@ static bool may_cross(const sunder_i_body *p, const sunder_i_body *q, const doub
     return q->sides && sunder_i_shadow_may_reach(p->side_anchors, q->box, offset, way);
 }
 
-void sunder_i_search_body_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double u[2],
-                                  double reach, sunder_i_visit_piece_pair visit, void *context)
+/* May one of them jump over the other, were it not for the rule? */
+static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
-    sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}, .shadow = true};
+    return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);
+}
+
+void sunder_i_search_visit_shadows(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q,
+                                   const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context)
+{
+    const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
+    const double far = fabs(u[0]) + fabs(u[1]) + reach;
     double way[4];
     bool swapped;
-    if (!sunder_i_forbids_ways(s->model)) return;
     sunder_i_shadow_way(u, reach, way);
-    part.inclusion = SUNDER_I_LAPSED;
-    if (may_cross(p, q, part.offset, way, &swapped))
-        visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
-    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q)) return;
-    if (sunder_i_shadow_may_reach(p->anchors, q->box, part.offset, way))
-        visit_from(s, p, q, way, &part, false, visit, context);
-    if (sunder_i_shadow_may_reach(p->box, q->anchors, part.offset, way))
-        visit_from(s, q, p, way, &part, true, visit, context);
+    const bool crosses = may_cross(p, q, offset, way, &swapped), jumps = may_jump(s->model, p, q),
+               from_p = jumps && p->clear <= far && sunder_i_shadow_may_reach(p->anchors, q->box, offset, way),
+               from_q = jumps && q->clear <= far && sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
+    if (!crosses && !from_p && !from_q) return;
+    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
+    if (crosses) visit_sides(s, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
+    if (from_p) visit_from(s, p, q, way, far, &part, false, visit, context);
+    if (from_q) visit_from(s, q, p, way, far, &part, true, visit, context);
 }
 
 void sunder_i_search_shadows(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -131,34 +151,34 @@ bool sunder_i_search_may_pass(const sunder_i_search *s, const double *t, uint32_
     if (!sunder_i_forbids_ways(s->model)) return false;
     sunder_i_shadow_way(u, reach - s->model->rules.gap, way);
     if (may_cross(p, q, offset, way, &swapped)) return true;
-    if (s->model->rules.jumps || sunder_i_is_barrier_body(s->model, p) || sunder_i_is_barrier_body(s->model, q))
-        return false;
+    if (!may_jump(s->model, p, q)) return false;
     return sunder_i_shadow_may_reach(p->anchors, q->box, offset, way) ||
            sunder_i_shadow_may_reach(p->box, q->anchors, offset, way);
 }
 
-/* The shortest way from an anchor out of its body's own box. Whoever jumped over one and stands clear of it by more
- * than `reach` has gone farther than that and the reach together. */
-static double least_depth(const sunder_i_search *s)
+/* Who passed another, and stands clear of it by more than the gap, has gone farther than this and the gap: to the
+ * nearest of all others that does not hold its anchor; or out of its own box, with its side anchor. */
+static double least_way(const sunder_i_search *s)
 {
     double least = INFINITY;
     for (size_t k = 0; k < s->n; k++) {
         const sunder_i_body *b = &s->model->body[s->body[k]];
-        if (b->pieces == 0) continue;
-        for (int c = 0; c < 2; c++) {
-            if (!s->model->rules.jumps)
-                least = fmin(least, fmin(b->anchors[c] - b->box[c], b->box[c + 2] - b->anchors[c + 2]));
-            if (s->model->sides)
-                least = fmin(least, fmin(b->side_anchors[c] - b->box[c], b->box[c + 2] - b->side_anchors[c + 2]));
-        }
+        if (b->clear < least) least = b->clear;
+        for (int c = 0; c < 2 && s->model->sides && b->pieces; c++)
+            least = fmin(least, fmin(b->side_anchors[c] - b->box[c], b->box[c + 2] - b->side_anchors[c + 2]));
     }
     return least;
 }
 
+static double length_of(const double *t, size_t k) { return sqrt(t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]); }
+
 static double longest(const sunder_i_search *s, const double *t)
 {
     double square = 0;
-    for (size_t k = 0; k < s->n; k++) square = fmax(square, t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]);
+    for (size_t k = 0; k < s->n; k++) {
+        const double of_k = t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1];
+        if (of_k > square) square = of_k;
+    }
     return sqrt(square);
 }
 
@@ -178,20 +198,23 @@ void sunder_i_search_passing(sunder_i_search *s, const double *t, double reach, 
                              void *context)
 {
     if (!sunder_i_forbids_ways(s->model) || s->n < 2) return;
-    /* Two that passed are apart by more than the reach along an axis; half of it is given to each. */
-    if (2 * longest(s, t) + reach - s->model->rules.gap < least_depth(s) + reach) return;
+    /* Of two that passed, moves together are longer than this. */
+    const double least = least_way(s) + s->model->rules.gap, most = longest(s, t);
+    if (2 * most < least) return;
     swept *list = sunder_i_alloc(s->n, sizeof *list);
     if (!list) {
         s->failed = true;
         return;
     }
+    size_t n = 0;
     for (uint32_t k = 0; k < s->n; k++) {
-        box_of_body(s, t, k, list[k].box);
-        list[k].body = k;
+        if (length_of(t, k) + most < least) continue;
+        box_of_body(s, t, k, list[n].box);
+        list[n++].body = k;
     }
-    qsort(list, s->n, sizeof *list, by_left);
-    for (size_t x = 0; x < s->n && !s->failed; x++)
-        for (size_t y = x + 1; y < s->n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
+    qsort(list, n, sizeof *list, by_left);
+    for (size_t x = 0; x < n && !s->failed; x++)
+        for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !s->failed; y++) {
             const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
                            j = list[x].body ^ list[y].body ^ i;
             if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
