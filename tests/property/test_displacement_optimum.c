@@ -101,7 +101,10 @@ static void judge(const hamlet *t, size_t i, tally *sum)
         const double over = cost - fmin(answer.low, cost);
         sum->solved++;
         sum->optimal += over <= 1e-6 * cost + 1e-7;
-        sum->dearer += answer.high < cost - 1e-6 * cost - 1e-7;
+        if (answer.high < cost - 1e-6 * cost - 1e-7) {
+            sum->dearer++;
+            printf("case %zu: cost %.9g, optimum %.9g\n", i, cost, answer.high);
+        }
         if (cost > 0) sum->worst = fmax(sum->worst, over / cost);
     }
     for (size_t k = 0; k < n; k++) check_verdict(t, c, n, &c[k], i, sum);

@@ -81,6 +81,72 @@ static bool attempt(void *context)
     return status == SUNDER_OK;
 }
 
+/* A house in which a road ends; or it and another, between the road and an area. */
+typedef struct lane {
+    size_t houses;
+    double limit;
+} lane;
+
+static sunder_status separate_in_lane(const lane *l, sunder_shape *const shape[3], sunder_report **report)
+{
+    static const double xy[] = {-5, 5, 2, 5};
+    static const size_t line_end[] = {2};
+    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 1}, 0.5, 0.25, true},
+                                       {{.shape = shape[2]}, 0, -1, true}};
+    sunder_feature feature[2];
+    sunder_layer_options options;
+    sunder_layer *layer = NULL;
+    sunder_layer_options_init(&options);
+    options.gap = 1;
+    for (size_t k = 0; k < l->houses; k++)
+        feature[k] = (sunder_feature){.shape = shape[k], .weight = 1, .max_shift = l->limit, .block = -1};
+    sunder_status status = sunder_layer_new(feature, l->houses, &layer, NULL);
+    if (!status) status = sunder_layer_set_barriers(layer, barrier, 2, NULL);
+    if (!status) status = sunder_layer_separate(layer, &options, report, NULL);
+    sunder_layer_free(layer);
+    return status;
+}
+
+static bool attempt_lane(void *context)
+{
+    static const double at[3][2] = {{0, 0}, {11.5, 0}, {22, 0}};
+    const size_t ring_end = 4, poly_end = 1;
+    const lane *l = context;
+    sunder_shape *shape[3] = {NULL, NULL, NULL};
+    sunder_report *report = NULL;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < 3 && !status; k++) {
+        const double x = at[k][0], y = at[k][1], xy[8] = {x, y, x + 10, y, x + 10, y + 10, x, y + 10};
+        status = sunder_shape_from_rings(xy, &ring_end, &poly_end, 1, SUNDER_VALIDITY_STRICT, &shape[k], NULL);
+    }
+    if (!status) status = separate_in_lane(l, shape, &report);
+    if (status) {
+        assert_int_equal(status, SUNDER_ENOMEM);
+        assert_null(report);
+    } else {
+        sunder_layer_summary summary;
+        sunder_report_summary(report, &summary);
+        assert_true(summary.before.barrier == 1 && summary.before.barrier_near == l->houses - 1 && summary.verified);
+        assert_int_equal(summary.after.barrier, l->limit < INFINITY);
+        assert_int_equal(summary.after.barrier_near, 0);
+    }
+    sunder_report_free(report);
+    for (size_t k = 0; k < 3; k++) sunder_shape_free(shape[k]);
+    return status == SUNDER_OK;
+}
+
+static void run_in_lane(size_t houses, double limit)
+{
+    lane l = {houses, limit};
+    failing_begin();
+    const bool sound = failing_loop(attempt_lane, &l, true);
+    failing_end();
+    assert_true(sound);
+}
+
+static void check_separate_beside_barriers(void **state) { run_in_lane(2, INFINITY); }
+static void check_separate_beside_barriers_without_room(void **state) { run_in_lane(1, 1); }
+
 static void run_beside(bool check, double gap, double limit, bool barriers)
 {
     street s = {.check = check, .limit = limit, .barriers = barriers};
@@ -120,6 +186,8 @@ int main(void)
         cmocka_unit_test(check_separate_with_gap),
         cmocka_unit_test(check_separate_without_room),
         cmocka_unit_test(check_beside_barriers),
+        cmocka_unit_test(check_separate_beside_barriers),
+        cmocka_unit_test(check_separate_beside_barriers_without_room),
         cmocka_unit_test(check_moves_beside_barriers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

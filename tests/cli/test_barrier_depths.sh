@@ -1,0 +1,10 @@
+# shellcheck shell=bash disable=SC1091
+# How deep features lie in barriers, how far they are, and which stand worse (barrier_depths.py), against fractions.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+/usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }
+
+cases=500
+[ "${SUNDER_LAWS:-}" != all ] || cases=10000
+/usr/bin/python3 "$SUNDER_SOURCE/tests/cli/barrier_depths.py" "$SUNDER" "$((cases * ${SUNDER_TEST_SCALE:-1}))" "${SUNDER_SEED:-1}" ||
+    trouble=1
+finish
