@@ -1,9 +1,14 @@
-/* Sparse Cholesky: minimum degree order, left-looking factorisation.
+/* Sparse Cholesky: minimum degree order, left-looking factorisation by panels.
  *
  * Who is in contact with few goes first. Bodies in a plane touch few others, and an outline that holds hundreds of
  * houses comes last of them all, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5].
  * Eliminating a node joins its neighbours to each other; the lists of neighbours at that moment are the columns of the
- * factor. */
+ * factor.
+ *
+ * Nodes that are eliminated late have the same neighbours as those after them, but for themselves. In postorder of the
+ * elimination tree such columns stand side by side, and are used as one panel: what they take from an entry of another
+ * column is summed up before it is stored. For a grid of 20,000 that, and the order among equal degrees, took the
+ * factor from 0.22 to 0.11 s. */
 #include "displacement/programs/sparse.h"
 
 #include "base/invariant.h"
@@ -23,6 +28,8 @@ void sunder_i_sparse_free(sunder_i_sparse *m)
     sunder_i_free(m->link);
     sunder_i_free(m->at);
     sunder_i_free(m->y);
+    sunder_i_free(m->panel);
+    sunder_i_free(m->across);
     memset(m, 0, sizeof *m);
 }
 
@@ -35,7 +42,7 @@ void sunder_i_sparse_free(sunder_i_sparse *m)
 typedef struct graph {
     size_t n;
     sunder_i_list *near;
-    uint32_t *head, *next, *prev; /* [n] of each degree, and of each node; END ends a list */
+    uint32_t *head, *tail, *next, *prev; /* [n] of each degree, and of each node; END ends a list */
     sunder_i_list merged;
 } graph;
 
@@ -45,16 +52,25 @@ static void unlist(graph *g, uint32_t v)
         g->next[g->prev[v]] = g->next[v];
     else
         g->head[g->near[v].n] = g->next[v];
-    if (g->next[v] != END) g->prev[g->next[v]] = g->prev[v];
+    if (g->next[v] != END)
+        g->prev[g->next[v]] = g->prev[v];
+    else
+        g->tail[g->near[v].n] = g->prev[v];
 }
 
+/* At the end: of equal degrees those come first that have had theirs for longest, so that the elimination goes on all
+ * over the graph at once. Where it went on beside the last one a grid of 20,000 took a third more work. */
 static void enlist(graph *g, uint32_t v)
 {
-    uint32_t *head = &g->head[g->near[v].n];
-    g->prev[v] = END;
-    g->next[v] = *head;
-    if (*head != END) g->prev[*head] = v;
-    *head = v;
+    const size_t degree = g->near[v].n;
+    const uint32_t last = g->head[degree] == END ? END : g->tail[degree];
+    g->prev[v] = last;
+    g->next[v] = END;
+    g->tail[degree] = v;
+    if (last == END)
+        g->head[degree] = v;
+    else
+        g->next[last] = v;
 }
 
 static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *pair, size_t pairs)
@@ -63,9 +79,10 @@ static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *pair, size_t 
     g->n = n;
     g->near = sunder_i_calloc(n, sizeof *g->near);
     g->head = sunder_i_alloc(n, sizeof *g->head);
+    g->tail = sunder_i_alloc(n, sizeof *g->tail);
     g->next = sunder_i_alloc(n, sizeof *g->next);
     g->prev = sunder_i_alloc(n, sizeof *g->prev);
-    if (!g->near || !g->head || !g->next || !g->prev) return false;
+    if (!g->near || !g->head || !g->tail || !g->next || !g->prev) return false;
     for (size_t k = 0; k < pairs; k++)
         if (!sunder_i_list_push(&g->near[pair[k].a], pair[k].b) || !sunder_i_list_push(&g->near[pair[k].b], pair[k].a))
             return false;
@@ -74,8 +91,7 @@ static bool graph_init(graph *g, size_t n, const sunder_i_id_pair *pair, size_t 
         near->n = sunder_i_set_make(near->item, near->n);
         g->head[v] = END;
     }
-    /* Backwards, so that of equal degrees the lowest number comes first. */
-    for (size_t v = n; v-- > 0;) enlist(g, (uint32_t)v);
+    for (size_t v = 0; v < n; v++) enlist(g, (uint32_t)v);
     return true;
 }
 
@@ -84,6 +100,7 @@ static void graph_free(graph *g)
     for (size_t v = 0; g->near && v < g->n; v++) sunder_i_free(g->near[v].item);
     sunder_i_free(g->near);
     sunder_i_free(g->head);
+    sunder_i_free(g->tail);
     sunder_i_free(g->next);
     sunder_i_free(g->prev);
     sunder_i_free(g->merged.item);
@@ -132,6 +149,44 @@ static bool eliminate(graph *g, uint32_t *rank)
     return true;
 }
 
+/* The same elimination in another order: each node directly after all those that are below it in the elimination tree,
+ * where the parent of a node is the first of its neighbours whose turn comes. That changes no column, and columns with
+ * the same rows become neighbours. Ranks are given from the last node on, each before those below it. */
+static bool rank_in_postorder(const graph *g, uint32_t *rank)
+{
+    uint32_t *by_rank = sunder_i_alloc(g->n, sizeof *by_rank), *parent = sunder_i_alloc(g->n, sizeof *parent),
+             *below = sunder_i_calloc(g->n, sizeof *below), *end = sunder_i_alloc(g->n, sizeof *end);
+    const bool ok = by_rank && parent && below && end;
+    for (uint32_t v = 0; ok && v < g->n; v++) by_rank[rank[v]] = v;
+    for (size_t r = 0; ok && r < g->n; r++) {
+        const sunder_i_list *near = &g->near[by_rank[r]];
+        parent[r] = END;
+        for (size_t k = 0; k < near->n; k++)
+            if (rank[near->item[k]] < parent[r]) parent[r] = rank[near->item[k]];
+        if (parent[r] != END) below[parent[r]] += below[r] + 1;
+    }
+    /* end[r]: one more than the last rank that is left for what is below r. */
+    uint32_t left = (uint32_t)g->n;
+    for (size_t r = g->n; ok && r-- > 0;) {
+        uint32_t *from = parent[r] == END ? &left : &end[parent[r]];
+        end[r] = *from - 1;
+        *from -= below[r] + 1;
+        rank[by_rank[r]] = end[r];
+    }
+    sunder_i_free(by_rank);
+    sunder_i_free(parent);
+    sunder_i_free(below);
+    sunder_i_free(end);
+    return ok;
+}
+
+/* Does column k have the rows of the one before it, but for itself? */
+static bool continues_panel(const sunder_i_sparse *m, uint32_t k)
+{
+    return k > 0 && m->column[k] > m->column[k - 1] && m->row[m->column[k - 1]] == k &&
+           m->column[k] - m->column[k - 1] == m->column[k + 1] - m->column[k] + 1;
+}
+
 /* Columns from the neighbours, by rank. */
 static bool fill_columns(sunder_i_sparse *m, const graph *g)
 {
@@ -150,6 +205,7 @@ static bool fill_columns(sunder_i_sparse *m, const graph *g)
         if (n) qsort(row, n, sizeof *row, sunder_i_by_number);
         m->work += n * (n + 1) / 2;
     }
+    for (uint32_t k = 0; k < m->n; k++) m->panel[k] = continues_panel(m, k) ? m->panel[k - 1] : k;
     return true;
 }
 
@@ -179,9 +235,13 @@ bool sunder_i_sparse_init(sunder_i_sparse *m, size_t n, const sunder_i_id_pair *
     m->link = sunder_i_alloc(n, sizeof *m->link);
     m->at = sunder_i_alloc(2 * n, sizeof *m->at);
     m->y = sunder_i_alloc(2 * n, sizeof *m->y);
-    if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y) return false;
+    m->panel = sunder_i_alloc(n, sizeof *m->panel);
+    m->across = sunder_i_alloc(4 * n, sizeof *m->across);
+    if (!m->rank || !m->column || !m->diagonal || !m->first || !m->link || !m->at || !m->y || !m->panel || !m->across)
+        return false;
     graph g;
-    const bool ok = graph_init(&g, n, pair, pairs) && eliminate(&g, m->rank) && fill_columns(m, &g);
+    const bool ok = graph_init(&g, n, pair, pairs) && eliminate(&g, m->rank) && rank_in_postorder(&g, m->rank) &&
+                    fill_columns(m, &g);
     graph_free(&g);
     SUNDER_I_CHECK(ok ? check(m) : NULL, n);
     return ok;
@@ -208,23 +268,51 @@ double *sunder_i_sparse_block(sunder_i_sparse *m, uint32_t a, uint32_t b, bool *
 
 /* ---- The factor -------------------------------------------------------------------------------------------------- */
 
-/* c -= a b' */
-static inline void subtract_product(double *c, const double *a, const double *b)
+/* Columns that have the same rows below them, but for themselves, are updated from, and used, as one: a panel. Row q
+ * after those of its own columns, the last of which is `last`, is in column k at entry: */
+static inline size_t entry_of(const sunder_i_sparse *m, uint32_t k, uint32_t last, size_t q)
 {
-    c[0] -= a[0] * b[0] + a[1] * b[1];
-    c[1] -= a[0] * b[2] + a[1] * b[3];
-    c[2] -= a[2] * b[0] + a[3] * b[1];
-    c[3] -= a[2] * b[2] + a[3] * b[3];
+    return m->column[k] + (last - k) + q;
 }
 
-/* Column k waits for the next row in which it has an entry, if there is one from position `from` on. */
-static void wait_for_next(sunder_i_sparse *m, uint32_t k, size_t from)
+/* c -= sum of a_k b_k' over columns from..last of a panel, where a_k is row q, and b_k lies in m->across. */
+static inline void subtract_products(const sunder_i_sparse *m, double *c, uint32_t from, uint32_t last, size_t q)
 {
-    m->at[m->n + k] = from;
-    if (from == m->column[k + 1]) return;
-    const uint32_t r = m->row[from];
-    m->link[k] = m->first[r];
-    m->first[r] = k;
+    const double *b = m->across;
+    double c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3];
+    for (uint32_t k = from; k <= last; k++, b += 4) {
+        const double *a = m->block + 4 * entry_of(m, k, last, q);
+        c0 -= a[0] * b[0] + a[1] * b[1];
+        c1 -= a[0] * b[2] + a[1] * b[3];
+        c2 -= a[2] * b[0] + a[3] * b[1];
+        c3 -= a[2] * b[2] + a[3] * b[3];
+    }
+    c[0] = c0;
+    c[1] = c1;
+    c[2] = c2;
+    c[3] = c3;
+}
+
+/* Column j, whose entries m->at tells, less what columns from..last, of one panel, make of their row q, which is j. */
+static void update_column(sunder_i_sparse *m, uint32_t j, uint32_t from, uint32_t last, size_t q)
+{
+    const size_t rows = m->column[last + 1] - m->column[last];
+    const uint32_t *row = m->row + m->column[last];
+    for (uint32_t k = from; k <= last; k++)
+        memcpy(m->across + 4 * (size_t)(k - from), m->block + 4 * entry_of(m, k, last, q), 4 * sizeof *m->across);
+    subtract_products(m, m->diagonal + 4 * (size_t)j, from, last, q);
+    for (q++; q < rows; q++) subtract_products(m, m->block + 4 * m->at[row[q]], from, last, q);
+}
+
+/* A panel waits, in the list of its last column, for the next row in which it has an entry, if there is one from q
+ * on. */
+static void wait_for_next(sunder_i_sparse *m, uint32_t last, size_t q)
+{
+    m->at[m->n + last] = q;
+    if (q == m->column[last + 1] - m->column[last]) return;
+    const uint32_t r = m->row[m->column[last] + q];
+    m->link[last] = m->first[r];
+    m->first[r] = last;
 }
 
 static bool finish_column(sunder_i_sparse *m, uint32_t j)
@@ -251,19 +339,16 @@ bool sunder_i_sparse_factor(sunder_i_sparse *m)
     for (size_t r = 0; r < m->n; r++) m->first[r] = END;
     for (uint32_t j = 0; j < m->n; j++) {
         for (size_t p = m->column[j]; p < m->column[j + 1]; p++) m->at[m->row[p]] = p;
-        double *d = m->diagonal + 4 * (size_t)j;
-        for (uint32_t k = m->first[j], after; k != END; k = after) {
-            after = m->link[k];
-            const size_t p = m->at[m->n + k];
-            const double *b = m->block + 4 * p;
-            subtract_product(d, b, b);
-            /* Whatever column k has below row j, column j has too. */
-            for (size_t q = p + 1; q < m->column[k + 1]; q++)
-                subtract_product(m->block + 4 * m->at[m->row[q]], m->block + 4 * q, b);
-            wait_for_next(m, k, p + 1);
+        /* Whatever those have below row j, column j has too. */
+        for (uint32_t last = m->first[j], after; last != END; last = after) {
+            after = m->link[last];
+            const size_t q = m->at[m->n + last];
+            update_column(m, j, m->panel[last], last, q);
+            wait_for_next(m, last, q + 1);
         }
+        if (m->panel[j] < j) update_column(m, j, m->panel[j], j - 1, 0);
         if (!finish_column(m, j)) return false;
-        wait_for_next(m, j, m->column[j]);
+        if (j + 1 == m->n || m->panel[j + 1] > j) wait_for_next(m, j, 0);
     }
     return true;
 }
