@@ -259,35 +259,13 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
     return true;
 }
 
-/* How many pieces of others lie within reach of body i, by their boxes. */
-static uint64_t count_around(const sunder_i_search *s, uint32_t i, const double at[2], double reach,
-                             const sunder_i_list *foreign)
-{
-    const sunder_i_model *model = s->model;
-    const sunder_i_body *p = &model->body[s->body[i]];
-    uint64_t n = 0;
-    for (size_t k = 0; k < s->n + foreign->n; k++) {
-        const uint32_t body = k < s->n ? s->body[k] : foreign->item[k - s->n];
-        const sunder_i_body *q = &model->body[body];
-        if (k == i || q->pieces == 0 || (k < s->n && s->away[k])) continue;
-        const double *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
-        double box[4];
-        for (int c = 0; c < 4; c++)
-            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
-                     (c < 2 ? -1 : 1) * (reach + s->gap);
-        if (!sunder_i_box_meet(box, q->box)) continue;
-        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, model->piece[q->piece + l].box);
-    }
-    return n;
-}
-
 /* How many shadows two bodies may cast. */
 static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
 {
     return (uint64_t)p->members * (q->pieces + q->sides) + (uint64_t)q->members * (p->pieces + p->sides);
 }
 
-/* The others about body i: those of the search, and foreign ones. */
+/* The others about body i: those of the search, as its list `about` names them, and foreign ones. */
 typedef struct others {
     sunder_i_search *search;
     uint32_t i;
@@ -300,13 +278,35 @@ static const sunder_i_body *other_at(const others *all, size_t k, const double *
 {
     const sunder_i_search *s = all->search;
     const sunder_i_model *model = s->model;
-    if (k == all->i || (k < s->n && s->away[k])) return NULL;
-    const uint32_t body = k < s->n ? s->body[k] : all->foreign.item[k - s->n];
-    *t = k < s->n ? s->t + 2 * k : model->move + 2 * (size_t)body;
+    const bool own = k < s->about.n;
+    const uint32_t at = own ? s->about.item[k] : all->foreign.item[k - s->about.n], body = own ? s->body[at] : at;
+    if (own && (at == all->i || s->away[at])) return NULL;
+    *t = own ? s->t + 2 * (size_t)at : model->move + 2 * (size_t)body;
     return model->body[body].pieces ? &model->body[body] : NULL;
 }
 
-static size_t count_others(const others *all) { return all->search->n + all->foreign.n; }
+static size_t count_others(const others *all) { return all->search->about.n + all->foreign.n; }
+
+/* How many pieces of others lie within reach of body i, by their boxes. */
+static uint64_t count_around(const others *all, const double at[2], double reach)
+{
+    const sunder_i_search *s = all->search;
+    const sunder_i_model *model = s->model;
+    const sunder_i_body *p = &model->body[s->body[all->i]];
+    uint64_t n = 0;
+    for (size_t k = 0; k < count_others(all); k++) {
+        const double *t;
+        const sunder_i_body *q = other_at(all, k, &t);
+        double box[4];
+        if (!q) continue;
+        for (int c = 0; c < 4; c++)
+            box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
+                     (c < 2 ? -1 : 1) * (reach + s->gap);
+        if (!sunder_i_box_meet(box, q->box)) continue;
+        for (uint32_t l = 0; l < q->pieces; l++) n += sunder_i_box_meet(box, model->piece[q->piece + l].box);
+    }
+    return n;
+}
 
 /* Obstacles for body i from all the others, within reach of place `at`. */
 static void surround(others *all, sunder_i_obstacles *o, const double at[2], double reach)
@@ -314,7 +314,7 @@ static void surround(others *all, sunder_i_obstacles *o, const double at[2], dou
     sunder_i_search *s = all->search;
     const sunder_i_model *model = s->model;
     const sunder_i_body *p = &model->body[s->body[all->i]];
-    all->coarse = (uint64_t)p->pieces * count_around(s, all->i, at, reach, &all->foreign) > MANY_AROUND;
+    all->coarse = (uint64_t)p->pieces * count_around(all, at, reach) > MANY_AROUND;
     for (size_t k = 0; k < count_others(all) && !s->failed; k++) {
         const double *t;
         const sunder_i_body *q = other_at(all, k, &t);
@@ -388,8 +388,8 @@ bool sunder_i_search_free_body(sunder_i_search *s, uint32_t i, double limit, dou
         if (reach > limit) reach = limit;
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
-        if (!find_others(s, p, box, &about.foreign)) s->failed = true;
-        const bool found = find_among(&about, home, reach, place);
+        if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_about(s, i, r)) s->failed = true;
+        const bool found = !s->failed && find_among(&about, home, reach, place);
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return found && !s->failed;

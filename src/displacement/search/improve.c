@@ -75,7 +75,10 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         s->cap = below;
         s->patience = sunder_i_search_work(s) + NEAR_PATIENCE + sunder_i_search_work(s) / NEAR_SHARE;
         s->program.n = 0;
-        const bool found = sunder_i_search_descend(s) || (sunder_i_search_jump(s) && sunder_i_search_descend(s));
+        bool found = sunder_i_search_descend(s);
+        /* Who jumps would have to go down, too: in vain, without patience. */
+        if (!found && sunder_i_search_work(s) < s->patience && sunder_i_search_jump(s))
+            found = sunder_i_search_descend(s);
         s->cap = INFINITY;
         s->patience = UINT64_MAX;
         if (found && sunder_i_search_attempt(s, best, cost)) return;
@@ -137,8 +140,6 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
 /* Pairs in contact put to their other sides. */
 static void try_sides(sunder_i_search *s, double *best, double *cost)
 {
-    sunder_i_search_descend(s); /* for the forces */
-    memcpy(s->t, best, 2 * s->n * sizeof *best);
     size_t n;
     rank *order = rank_contacts(&s->program, &n);
     s->failed = s->failed || !order;
@@ -163,7 +164,7 @@ static void try_sides(sunder_i_search *s, double *best, double *cost)
     sunder_i_free(order);
 }
 
-/* Every place once, then every side once; in a large cluster with those about each only, and then all go down. */
+/* Every place once, then every side once; in a large cluster with those about each only, after which all go down. */
 static void try_once(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     sunder_i_neighbourhood about = {0};
@@ -172,8 +173,15 @@ static void try_once(sunder_i_search *s, rank *order, double *best, double *cost
     if (moving > MANY) s->neighbourhood = &about;
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     if (!s->failed) try_places(s, order, best, cost);
-    if (!s->failed) try_sides(s, best, cost);
+    /* All go down, which tells the forces too. */
     if (s->neighbourhood && !s->failed) sunder_i_search_attempt(s, best, cost);
+    if (!s->neighbourhood && !s->failed) {
+        sunder_i_search_descend(s);
+        memcpy(s->t, best, 2 * s->n * sizeof *best);
+    }
+    const double before = *cost;
+    if (has_time(s) && !s->failed) try_sides(s, best, cost);
+    if (s->neighbourhood && *cost < before && !s->failed) sunder_i_search_attempt(s, best, cost);
     s->neighbourhood = NULL;
     sunder_i_neighbourhood_free(&about);
 }

@@ -79,6 +79,9 @@ void sunder_i_search_free(sunder_i_search *s)
     sunder_i_free(s->clash);
     sunder_i_relaxations_free(&s->relaxations);
     sunder_i_free(s->restored);
+    sunder_i_rtree_free(&s->ways);
+    sunder_i_free(s->went);
+    sunder_i_free(s->about.item);
     sunder_i_free(s->scratch.xy);
     sunder_i_obstacle_cache_free(&s->cache);
     sunder_i_free(s->shifted);

@@ -38,6 +38,9 @@ typedef struct sunder_i_search {
     size_t restored_n, restored_capacity;
     double cap; /* no body is sent farther than this, whatever its limit; INFINITY unless set */
     struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
+    sunder_i_rtree ways;                          /* of a large cluster (ways.c) ... */
+    double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
+    sunder_i_list about;                          /* of the last question who is about */
     sunder_i_scratch scratch;
     sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
     sunder_i_obstacle_edge *shifted; /* one that is not kept there */
@@ -82,6 +85,12 @@ void sunder_i_search_near(sunder_i_search *search, const double *t, double reach
                           void *context);
 /* The same for every pair that might, were one of them, or both, where it came from. */
 void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context);
+
+/* ---- ways.c: who was where on the way ---------------------------------------------------------------------------- */
+
+/* The bodies that body i, put anywhere within reach of where it came from, could meet or pass, and perhaps others:
+ * their places, ascending, in search->about. False if memory is out. */
+bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach);
 
 /* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
 
