@@ -1,11 +1,38 @@
-/* A layer of hostile shapes: what separate leaves is what check finds on the features as moved, and no listed pair
- * stands worse than it stood. */
+/* A layer of hostile shapes, beside barriers as hostile: what separate leaves is what check finds on the features as
+ * moved, and no listed pair stands worse than it stood. */
 #include <string.h>
 
 #include "bytes.h"
 #include "upheld.h"
 
-enum { MOST = 6 };
+enum { MOST = 6, BARRIERS = 3, POINTS = 6 };
+
+typedef struct fuzz_barriers {
+    sunder_barrier barrier[BARRIERS];
+    sunder_shape *shape[BARRIERS];
+    double xy[BARRIERS][2 * POINTS];
+    size_t line_end[BARRIERS][2];
+    size_t n;
+} fuzz_barriers;
+
+/* None where no bytes are left: areas, two lines or points each; lengths down to none, and up to the scale's own. */
+static void take_barriers(fuzz_bytes *bytes, fuzz_scale scale, fuzz_barriers *out)
+{
+    *out = (fuzz_barriers){.n = 0};
+    for (size_t wanted = fuzz_byte(bytes) % (BARRIERS + 1); out->n < wanted && bytes->left > 0; ++out->n) {
+        const size_t k = out->n;
+        const unsigned kind = fuzz_byte(bytes);
+        if (kind & 1) out->shape[k] = fuzz_shape(bytes, scale, 8);
+        const size_t points = kind & 2 ? 1 + kind / 4 % POINTS : 0;
+        for (size_t i = 0; i < 2 * points; ++i) out->xy[k][i] = fuzz_coordinate(bytes, scale);
+        out->line_end[k][0] = points / 2;
+        out->line_end[k][1] = points;
+        out->barrier[k] = (sunder_barrier){{out->shape[k], out->xy[k], out->line_end[k], points ? 2 : 0},
+                                           (double)(fuzz_byte(bytes) % 16) / 4,
+                                           kind & 64 ? -1 : (double)(fuzz_byte(bytes) % 16) / 4,
+                                           (kind & 128) != 0};
+    }
+}
 
 static size_t count_between_blocks(const sunder_report *report)
 {
@@ -17,8 +44,8 @@ static size_t count_between_blocks(const sunder_report *report)
 }
 
 /* The features moved by their moves, in the blocks that the report gives them, and no others. */
-static void demand_agreement(const sunder_feature *features, size_t n, const sunder_layer_options *options,
-                             const sunder_report *report)
+static void demand_agreement(const sunder_feature *features, size_t n, const fuzz_barriers *barriers,
+                             const sunder_layer_options *options, const sunder_report *report)
 {
     sunder_feature moved[MOST];
     sunder_shape *shapes[MOST] = {0};
@@ -37,6 +64,7 @@ static void demand_agreement(const sunder_feature *features, size_t n, const sun
         moved[i].block = sunder_report_block(report, i);
     }
     if (complete && sunder_layer_new(moved, n, &layer, NULL) == SUNDER_OK &&
+        sunder_layer_set_barriers(layer, barriers->barrier, barriers->n, NULL) == SUNDER_OK &&
         sunder_layer_check(layer, &checked, &again, NULL) == SUNDER_OK)
         FUZZ_DEMAND(count_between_blocks(again) == count_between_blocks(report));
     sunder_report_free(again);
@@ -70,18 +98,22 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     sunder_layer *layer = NULL;
     sunder_report *report = NULL;
-    if (n > 0 && sunder_layer_new(features, n, &layer, NULL) == SUNDER_OK) {
+    fuzz_barriers barriers;
+    take_barriers(&bytes, scale, &barriers);
+    if (n > 0 && sunder_layer_new(features, n, &layer, NULL) == SUNDER_OK &&
+        sunder_layer_set_barriers(layer, barriers.barrier, barriers.n, NULL) == SUNDER_OK) {
         fuzz_fail_allocations(fail < 128 ? fail * 8 : 0);
         sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
         fuzz_fail_allocations(0);
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
         if (report) {
-            demand_agreement(features, n, &options, report);
+            demand_agreement(features, n, &barriers, &options, report);
             FUZZ_DEMAND(!upheld_breach(features, n, &options, report));
         }
     }
     sunder_report_free(report);
     sunder_layer_free(layer);
     for (size_t i = 0; i < n; ++i) sunder_shape_free((sunder_shape *)(uintptr_t)features[i].shape);
+    for (size_t k = 0; k < barriers.n; ++k) sunder_shape_free(barriers.shape[k]);
     return 0;
 }

@@ -73,7 +73,7 @@ char *upheld_breach(const sunder_feature *feature, size_t n, const sunder_layer_
     sunder_report *before = conflicts ? check(feature, n, options) : NULL;
     char *text = NULL;
     for (size_t k = 0; k < conflicts && !text; k++) {
-        if (c[k].inside_block || (is_within(c[k].kind) && was_within(before, &c[k]))) continue;
+        if (c[k].b >= n || c[k].inside_block || (is_within(c[k].kind) && was_within(before, &c[k]))) continue;
         if (sunder_shape_repaired(feature[c[k].a].shape) || sunder_shape_repaired(feature[c[k].b].shape)) continue;
         const char *wrong = breach(feature, &c[k], options->gap, report);
         if (wrong) text = test_format("%zu and %zu %s", c[k].a, c[k].b, wrong);

@@ -5,9 +5,9 @@
 #include "sunder.h"
 
 /* Which listed pair stands worse than it stood, in rationals by brute force (standing.h); NULL if none does, else a
- * sentence, freed by the caller. Each feature is compared as it was given and as it is written. Left out: pairs inside
- * a block, pairs that were contained or duplicates and still are (no worse by definition), and repaired features,
- * whose corners are no doubles. */
+ * sentence, freed by the caller. Each feature is compared as it was given and as it is written. Left out: pairs with
+ * barriers, pairs inside a block, pairs that were contained or duplicates and still are (no worse by definition), and
+ * repaired features, whose corners are no doubles. */
 char *upheld_breach(const sunder_feature *feature, size_t n, const sunder_layer_options *options,
                     const sunder_report *report);
 
