@@ -159,6 +159,37 @@ same "$(value o.gpkg s 1 sunder_st)" blocked
 grep -q 'roads:1' <<<"$(value o.gpkg s_conflicts 1 blocked_by) $(value o.gpkg s_conflicts 2 blocked_by)" ||
     fail "blocked_by names no barrier"
 
+# ---- Nothing, everything, everywhere: whatever barriers are, what is said of the result is verified ----
+layer three.gpkg t POLYGON <<'X'
+id,WKT
+1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
+2,"POLYGON((12 0,22 0,22 10,12 10,12 0))"
+3,"POLYGON((0 14,10 14,10 24,0 24,0 14))"
+X
+beside() { # WKT KEYS STATUS WITH LIMIT: solved without a limit, unless there is nothing to do
+    local limit status=0
+    rm -f k.gpkg
+    printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
+    for limit in '' '--max-shift 8'; do
+        [ -z "$limit" ] || status=$3
+        # shellcheck disable=SC2086
+        expect "$status" separate three.gpkg o.gpkg -q --overwrite --gap 1 $limit --barrier "k.gpkg$2" --stats s.json
+        same "$(jq .verified s.json)" true "$1 $limit: verified"
+    done
+}
+beside 'LINESTRING EMPTY' ,width=9 0
+beside 'GEOMETRYCOLLECTION EMPTY' ,width=9 0
+beside 'MULTILINESTRING((5 5,5 5),(11 5,11 5,11 5))' ,width=3 0          # of no length
+beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 3                         # far on both sides
+beside 'POLYGON((-1e15 -1e15,1e15 -1e15,1e15 1e15,-1e15 1e15,-1e15 -1e15))' '' 3
+beside 'POLYGON((0 0,10 0,10 10,0 10,0 0))' '' 3                         # a feature itself
+beside 'LINESTRING(-5 12,50 12)' ,width=0,gap=0 0                        # in nobody's way
+beside 'LINESTRING(11 -20,11 40)' ,width=1e9 3
+beside 'MULTIPOINT((5 5),(5 5.0000000001),(5 5.000000000000001))' '' 0   # hardly different
+for ((k = 0; k < 60; k++)); do printf '%s5 %s,15 5.%03d' "$([ $k = 0 ] || echo '),(')" 5 $k; done >fan
+beside "MULTILINESTRING(($(cat fan)))" ,width=1 0                        # many at one place
+refused 2 'too much for a double' separate three.gpkg never.gpkg --barrier k.gpkg,width=1e308,gap=1.7e308
+
 # ---- What is wrong ----
 wrong() { refused 2 "$1" check in.gpkg -l houses --barrier "$2"; }
 wrong 'roads is none of layer=' roads.gpkg,roads
