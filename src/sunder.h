@@ -554,11 +554,13 @@ typedef struct sunder_layer_summary {
     sunder_conflict_counts before, after; /* of check: both the same */
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t moved, blocked, skipped, rounded;
-    double total, mean, max;  /* of the lengths of moves; mean over the moved */
-    size_t max_feature;       /* whose move is longest; SIZE_MAX if nothing moved */
-    double cost, lower_bound; /* sum of weight * length^2; no placement that solves every pair not listed costs less */
-    double pair_bound;        /* the part of that which bound pairs alone prove */
-    bool verified;            /* every pair but those listed and those in blocks was proved apart (or
+    double total, mean, max; /* of the lengths of moves; mean over the moved */
+    size_t max_feature;      /* whose move is longest; SIZE_MAX if nothing moved */
+    /* Sum of weight * length^2; no placement costs less that solves every pair not listed, and leaves none that is
+     * listed nearer than it stood. */
+    double cost, lower_bound;
+    double pair_bound; /* the part of that which bound pairs alone prove */
+    bool verified;     /* every pair but those listed and those in blocks was proved apart (or
                                              inside, where that may overlap), and none listed stands worse */
     double seconds_solve, seconds_verify;
 } sunder_layer_summary;
@@ -648,6 +650,9 @@ typedef struct sunder_bound_piece {
     size_t part_a, part_b; /* their first corners, as they stood at the start */
     size_t corners_a, corners_b;
     bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
+    /* NAN: they owe each other what pairs owe. Else the pair is left in conflict, and held to this: to no more than the
+     * distance that it had. */
+    double clearance;
 } sunder_bound_piece;
 
 typedef enum sunder_bound_cut_kind {

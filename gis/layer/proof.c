@@ -246,6 +246,7 @@ static void put_piece(proof_writer *w, const sunder_bound_tree *tree, const sund
     put_thing(w, "a", piece->a);
     put_thing(w, "b", piece->b);
     if (piece->shadow) gis_json_put_bool(&w->json, "shadow", true);
+    if (!isnan(piece->clearance)) gis_json_put_double(&w->json, "clearance", piece->clearance);
     put_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
     put_corners(w, "B", tree->corner + 2 * piece->part_b, piece->corners_b);
     gis_json_close(&w->json, '}');

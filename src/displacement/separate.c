@@ -113,7 +113,9 @@ static sunder_status solve(sunder_i_solver *s, sunder_error *err)
     if (!status && lifted) status = seek(s, !back, FOUND_WITHOUT_LIMITS, FOUND, err);
     if (!status && back) status = sunder_i_solver_optimise(s, err);
     if (!status) status = sunder_i_solver_uphold(s, err);
-    if (!status) status = sunder_i_solver_gather_groups(s, err);
+    /* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
+    if (!status) status = sunder_i_solver_optimise(s, err);
+    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
     return status ? status : sunder_i_solver_gather(s, err);
 }
 

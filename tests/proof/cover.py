@@ -82,7 +82,7 @@ class Piece:
                 q = fine[k + 1 - len(fine)]
                 ex, ey = q[0] - p[0], q[1] - p[1]
                 self.edges.append((p[0], p[1], ex, ey, ex * ex + ey * ey))
-        self.near = (FINE * owed - 1) ** 2 if owed else 0
+        self.near = max(int(FINE * owed) - 1, 0) ** 2
 
     def holds_origin(self):
         return len(self.edges) > 0 and all(ex * y >= ey * x for x, y, ex, ey, _ in self.edges)

@@ -157,6 +157,15 @@ def fill_shadow(tree):
     return False
 
 
+def hold_farther(tree):
+    """A pair that is left in conflict, held to more than it had."""
+    for piece in tree["pieces"]:
+        if "clearance" in piece:
+            piece["clearance"] += 0.001
+            return ("than they owe", "more than it had")
+    return False
+
+
 def heavier(tree):
     for body in tree["bodies"]:
         if body["weight"] is not None:
@@ -189,7 +198,7 @@ def raise_tree(tree):
 TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewhere, "child": drop_child,
          "no forces": drop_forces_of_a_leaf, "unnamed": unname, "part": move_part, "anchor": move_anchor,
          "side": move_side, "side anchor": leave_feature,
-         "shadow": fill_shadow, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
+         "shadow": fill_shadow, "held": hold_farther, "heavier": heavier, "nailed": nail_down, "joined": join_bodies, "raised": raise_tree,
          **{kind: push_cut(kind) for kind in CUTS}}
 
 
@@ -272,7 +281,7 @@ def raise_bound(lines):
 
 
 def list_pair(lines):
-    piece = next((p for p in lines[-1]["pieces"] if not p.get("shadow")), None)
+    piece = next((p for p in lines[-1]["pieces"] if not p.get("shadow") and "clearance" not in p), None)
     if piece is None:
         return False
     lines.insert(1, {"conflict": 0, "a": piece["a"], "b": piece["b"], "kind": "too_close", "reason": "unresolved",

@@ -133,7 +133,8 @@ class Problem:
             self.lattice.hold(barrier[4])
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
-        self.owed, self.fixed, self.blocks, self.listed, self.joined = {}, fixed, {}, set(), {}
+        self.owed, self.fixed, self.blocks, self.joined = {}, fixed, {}, {}
+        self.listed, self.stood = set(), {}  # pairs; the squares of the distances that they had, -1: they overlapped
         self.sides = set()
         for key, polygons, lines, width, gap, side in barriers:
             demand(key not in self.things, "two barriers are called", key)
@@ -252,6 +253,24 @@ class Problem:
         demand(a not in self.ignored and b not in self.ignored, a, "or", b, "is ignored")
         if not self.is_barrier(a) and not self.is_barrier(b):
             demand(not self.joins(a, b), a, "and", b, "join one block")
+
+    def clearance(self, a, b, told):
+        """How far apart the two are held, in units of the lattice: listed ones to no more than the distance that they had, where
+        their interiors did not meet."""
+        required, pair = self.required(a, b), tuple(sorted((str(a), str(b))))
+        if told is None:
+            demand(pair not in self.listed, a, "and", b, "are listed")
+            return required
+        clearance = Fraction(told) * self.lattice.unit
+        demand(0 <= clearance <= required, "more is asked of", a, b, "than they owe")
+        if pair in self.listed:
+            if pair not in self.stood:
+                p, q = (self.things[k].whole() for k in (a, b))
+                p, q = (p, q) if p.area else (q, p)
+                self.stood[pair] = -1 if plane.interiors_meet(p, q) else plane.distance_square(p, q)
+            demand(self.stood[pair] >= 0 and clearance * clearance <= self.stood[pair],
+                   "a listed pair is held to more than it had:", a, b)
+        return clearance
 
     def demand_part(self, key, corners):
         """Corners of a part of it, on the lattice."""

@@ -130,12 +130,11 @@ class Tree:
         if shadow:
             parts = problem.demand_shadow(a, told["A"], b, told["B"])
         else:
-            demand(tuple(sorted((str(a), str(b)))) not in problem.listed, a, "and", b, "are listed")
             if problem.options.contained == "ignore" and not (problem.is_barrier(a) or problem.is_barrier(b)):
                 self.root(i, j)
                 demand(not problem.may_be_inside(a, b, self.reach[i, j]), a, "and", b, "may lie in each other")
             parts = problem.demand_part(a, told["A"]), problem.demand_part(b, told["B"])
-        piece = Piece(*parts, 0 if shadow else problem.required(a, b), shadow)
+        piece = Piece(*parts, 0 if shadow else problem.clearance(a, b, told.get("clearance")), shadow)
         demand(not (shadow and piece.holds_origin()), "a shadow of what holds the anchor")
         return (i, j), piece
 

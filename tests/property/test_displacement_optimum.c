@@ -2,7 +2,7 @@
  * cost is no less than the optimum, its lower bound no more.
  *
  * A layer is a few features of convex parts (support/hamlet.c). Where pairs stay in conflict the optimum is that of all
- * others, and what is said to have no solution has none. */
+ * others, these being no nearer than they were, and what is said to have no solution has none. */
 #include "hamlet.h"
 #include "optimum.h"
 #include "random.h"
@@ -66,7 +66,8 @@ static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, c
     sum->proved += proved;
     sum->unresolved += !proved;
     sum->resolvable += !proved && solvable;
-    /* A proof may stand on other listed pairs, which are held to what they had; the problem leaves them out. */
+    /* A proof may stand on other listed pairs that overlapped, and are no deeper in each other; the problem leaves them
+     * out. */
     if (proved && solvable && (alone || n == 1))
         FAIL(i, "%zu and %zu (%s) are said to have no solution, but have one of cost %.17g", own->a, own->b,
              sunder_reason_string(own->reason), answer.high);

@@ -230,21 +230,65 @@ static void start(posing *p, const hamlet *t, optimum_problem *m)
     m->body[m->bodies++] = (optimum_body){1, 0};
 }
 
-static void keep_houses_apart(posing *p, size_t a, size_t b)
+/* Is all of q on the outer side of an edge of p, or on it? Counter-clockwise; of a segment on either side. */
+static bool is_beside(const double *p, size_t n, const double *q, size_t m)
 {
-    const house *g = &p->t->house[a], *h = &p->t->house[b];
-    for (size_t i = 0; i < g->parts; i++)
-        for (size_t j = 0; j < h->parts; j++)
-            optimum_keep_apart(p->m, p->body_of[a], p->body_of[b], g->part[i].xy, g->part[i].corners, h->part[j].xy,
-                               h->part[j].corners, p->t->gap);
+    for (size_t k = 0; k < n && n > 1; k++) {
+        const double *a = p + 2 * k, *b = p + 2 * ((k + 1) % n);
+        bool beside = a[0] != b[0] || a[1] != b[1];
+        for (size_t l = 0; l < m; l++)
+            beside = beside && (b[0] - a[0]) * (q[2 * l + 1] - a[1]) - (b[1] - a[1]) * (q[2 * l] - a[0]) <= 0;
+        if (beside) return true;
+    }
+    return false;
 }
 
-static void keep_off_barrier(posing *p, size_t a, size_t k)
+/* From the corners of p to the sides of q. */
+static double corners_distance(const double *p, size_t n, const double *q, size_t m)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < m; l++) {
+            const double *a = q + 2 * l, *b = q + 2 * ((l + 1) % m);
+            const double dx = b[0] - a[0], dy = b[1] - a[1], wx = p[2 * k] - a[0], wy = p[2 * k + 1] - a[1];
+            const double square = dx * dx + dy * dy, s = square > 0 ? (wx * dx + wy * dy) / square : 0;
+            const double at = fmin(1, fmax(0, s));
+            least = fmin(least, hypot(wx - at * dx, wy - at * dy));
+        }
+    return least;
+}
+
+/* How far apart two convex parts stand, up to rounding no more than that; negative where the interior of one meets the
+ * other. */
+static double part_distance(const double *p, size_t n, const double *q, size_t m)
+{
+    if (!is_beside(p, n, q, m) && !is_beside(q, m, p, n)) return -1;
+    return fmin(corners_distance(p, n, q, m), corners_distance(q, m, p, n)) * (1 - 1e-12);
+}
+
+/* A pair that is listed keeps the distance that it had, and owes nothing where it overlapped. */
+static void keep_houses_apart(posing *p, size_t a, size_t b, bool listed)
+{
+    const house *g = &p->t->house[a], *h = &p->t->house[b];
+    double radius = p->t->gap;
+    for (size_t i = 0; i < g->parts && listed; i++)
+        for (size_t j = 0; j < h->parts; j++)
+            radius = fmin(radius, part_distance(g->part[i].xy, g->part[i].corners, h->part[j].xy, h->part[j].corners));
+    for (size_t i = 0; i < g->parts && radius >= 0; i++)
+        for (size_t j = 0; j < h->parts; j++)
+            optimum_keep_apart(p->m, p->body_of[a], p->body_of[b], g->part[i].xy, g->part[i].corners, h->part[j].xy,
+                               h->part[j].corners, radius);
+}
+
+static void keep_off_barrier(posing *p, size_t a, size_t k, bool listed)
 {
     const hamlet_barrier *b = &p->t->barrier[k];
     const house *h = &p->t->house[a];
-    const double radius = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
-    for (size_t i = 0; i < h->parts; i++)
+    double radius = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
+    for (size_t i = 0; i < h->parts && listed; i++)
+        for (size_t j = 0; j < barrier_parts(b); j++)
+            radius = fmin(radius, part_distance(h->part[i].xy, h->part[i].corners, b->xy + 2 * j, part_corners(b)));
+    for (size_t i = 0; i < h->parts && radius >= 0; i++)
         for (size_t j = 0; j < barrier_parts(b); j++)
             optimum_keep_apart(p->m, p->body_of[a], p->barriers, h->part[i].xy, h->part[i].corners, b->xy + 2 * j,
                                part_corners(b), radius);
@@ -284,11 +328,11 @@ static void keep_side(posing *p, size_t a, size_t k)
         optimum_keep_off(p->m, p->barriers, p->body_of[a], b->xy + 2 * j, part_corners(b), p->anchor[a]);
 }
 
-static bool is_asked(const sunder_conflict *listed, size_t n, const sunder_conflict *besides, size_t a, size_t b)
+static bool is_listed(const sunder_conflict *listed, size_t n, const sunder_conflict *besides, size_t a, size_t b)
 {
     for (size_t k = 0; k < n; k++)
-        if (listed[k].a == a && listed[k].b == b) return &listed[k] == besides;
-    return true;
+        if (listed[k].a == a && listed[k].b == b) return &listed[k] != besides;
+    return false;
 }
 
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
@@ -299,11 +343,11 @@ void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const
     for (size_t b = 0; b < t->n; b++) {
         for (size_t a = 0; a < b; a++) {
             if (p.body_of[a] == p.body_of[b]) continue;
-            if (is_asked(listed, n, besides, a, b)) keep_houses_apart(&p, a, b);
+            keep_houses_apart(&p, a, b, is_listed(listed, n, besides, a, b));
             if (!t->jumps) keep_from_jumps(&p, a, b);
         }
         for (size_t k = 0; k < t->barriers; k++) {
-            if (is_asked(listed, n, besides, b, t->n + k)) keep_off_barrier(&p, b, k);
+            keep_off_barrier(&p, b, k, is_listed(listed, n, besides, b, t->n + k));
             keep_side(&p, b, k);
         }
     }
@@ -314,9 +358,9 @@ void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, o
     posing p;
     start(&p, t, m);
     if (pair->b < t->n)
-        keep_houses_apart(&p, pair->a, pair->b);
+        keep_houses_apart(&p, pair->a, pair->b, false);
     else
-        keep_off_barrier(&p, pair->a, pair->b - t->n);
+        keep_off_barrier(&p, pair->a, pair->b - t->n, false);
     const size_t of_a = p.body_of[pair->a], of_b = pair->b < t->n ? p.body_of[pair->b] : SIZE_MAX;
     for (size_t x = 0; x < t->n; x++) {
         const bool with_a = p.body_of[x] == of_a, with_b = p.body_of[x] == of_b;

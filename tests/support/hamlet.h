@@ -64,8 +64,8 @@ typedef enum hamlet_rules {
     HAMLET_ALL = 7
 } hamlet_rules;
 
-/* The whole layer, but that of the listed pairs (their ways excepted) nothing is asked; of `besides`, one of them or
- * NULL, it is. */
+/* The whole layer, but that listed pairs (their ways excepted) are to keep the distance that they had, where they did
+ * not overlap; `besides`, one of them or NULL, owes all that it owes. */
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
                  optimum_problem *m);
 /* One pair alone; with the sides of both and their blocks towards all barriers, and the ways of these past each other,

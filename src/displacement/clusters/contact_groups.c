@@ -159,7 +159,39 @@ static void keep_proof(sunder_i_group *old, sunder_i_group *now)
     *now = kept;
 }
 
-/* The place of the group of each number in the last round; scratch of as many as there are bodies. */
+/* The number of the group that all bodies of an old one are of, and no guest of another's; SUNDER_I_NOBODY: there is
+ * none. */
+static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, const uint32_t *of)
+{
+    const uint32_t heir = of[old->number];
+    for (size_t m = 0; m < old->n + old->guests.n; m++) {
+        const uint32_t b = m < old->n ? old->body[m] : old->guests.item[m - old->n];
+        const bool guest = m >= old->n && of[b] == SUNDER_I_NOBODY;
+        if (!model->body[b].fixed && of[b] != heir && !guest) return SUNDER_I_NOBODY;
+    }
+    return heir;
+}
+
+/* What was proved of bodies holds wherever they stand. So a group knows what was proved of all those that went into
+ * it, until more is proved of it. at: the places of the groups by number. */
+static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_groups *now, const uint32_t *at)
+{
+    bool ok = true;
+    for (size_t k = 0; k < old->n && ok; k++) {
+        sunder_i_group *g = &old->group[k];
+        const uint32_t heir = g->bound > 0 ? heir_of(model, g, now->of) : SUNDER_I_NOBODY;
+        if (heir == SUNDER_I_NOBODY) continue;
+        sunder_i_group *to = &now->group[at[heir]];
+        if (to->done) continue;
+        to->bound = nextafter(to->bound + g->bound, -INFINITY);
+        for (size_t m = 0; m < g->guests.n && ok; m++) ok = sunder_i_list_push(&to->guests, g->guests.item[m]);
+        to->guests.n = sunder_i_set_make(to->guests.item, to->guests.n);
+        ok = ok && sunder_i_bound_trees_take(&to->trees, &g->trees);
+    }
+    return ok;
+}
+
+/* The place of the group of each number; scratch of as many as there are bodies. */
 static void index_groups(const sunder_i_groups *old, uint32_t *at, size_t bodies)
 {
     for (size_t b = 0; b < bodies; b++) at[b] = SUNDER_I_NOBODY;
@@ -185,6 +217,8 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
         for (size_t k = 0; k < group->n; k++)
             if (!s->model.body[group->body[k]].fixed) made.of[group->body[k]] = group->number;
     }
+    if (!status) index_groups(&made, at, s->model.bodies);
+    if (!status && !hand_on(&s->model, groups, &made, at)) status = sunder_i_no_memory(err);
     sunder_i_free(at);
     if (status) {
         sunder_i_groups_free(&made);

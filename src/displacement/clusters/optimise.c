@@ -2,10 +2,16 @@
  *
  * Each is looked into by itself, all from the places at the round's start; what one finds to be cheaper is taken.
  * Whoever is in its way, of another group, belongs to it in the next round; so do two groups that have invited the same
- * guest. What did not change from one round to the next keeps its proof. Rounds join groups, or better the layout by
- * what counts, so they end; there are only so many, and a body is worth only so many steps in all of them. */
+ * guest. What did not change from one round to the next keeps its proof, and what was proved of bodies is known of the
+ * group that they are in then, as long as the same is asked of their pairs. Rounds join groups, or better the layout by
+ * what counts, so they end; there are only so many, and a body is worth only so many steps in all of them.
+ *
+ * Pairs that are left in conflict are to stand no worse than they stood, which is asked exactly of what is taken; what
+ * rounding did to that is mended (uphold.c). So this comes once more after nothing stands worse, and nothing does after
+ * it. */
 #include "displacement/clusters/stages.h"
 #include "displacement/clusters/tuning.h"
+#include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/optimum/optimum.h"
 
@@ -18,38 +24,113 @@
 
 /* ---- Rounds ------------------------------------------------------------------------------------------------------ */
 
-sunder_status sunder_i_solver_waive(sunder_i_solver *s, sunder_error *err)
+/* Bodies of pairs that are in the one list, and not in the other. */
+static void mark_unlike(const sunder_i_model *model, const sunder_i_waiver *one, size_t n, const sunder_i_waiver *other,
+                        size_t m, bool *unlike)
 {
-    sunder_i_free(s->groups.waived);
-    s->groups.waived_n = 0;
-    s->groups.waived = sunder_i_alloc(s->now.n, sizeof *s->groups.waived);
-    if (!s->groups.waived) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < s->now.n; k++)
-        if (sunder_i_is_conflict(&s->now.pair[k]))
-            s->groups.waived[s->groups.waived_n++] =
-                (sunder_i_id_pair){s->now.pair[k].a, sunder_i_whole_of(&s->model, s->now.pair[k].b)};
-    return SUNDER_OK;
+    for (size_t k = 0; k < n; k++)
+        if (!m || !bsearch(&one[k], other, m, sizeof *other, sunder_i_by_id_pair))
+            unlike[model->body_of[one[k].a]] = unlike[model->body_of[one[k].b]] = true;
 }
 
-/* Groups with a pair that is listed, or a body that is pinned, are left as they stand: what they are held to is not
- * what is asked of others. */
-static bool hold(sunder_i_solver *s)
+/* A proof stands on what was asked of the group's pairs: where something else is asked now, it is made again. */
+static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, size_t n)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_groups *groups = &s->groups;
-    bool *held = sunder_i_calloc(model->bodies, sizeof *held);
-    if (!held) return false;
-    for (size_t k = 0; k < groups->waived_n; k++) {
-        const uint32_t i = model->body_of[groups->waived[k].a], j = model->body_of[groups->waived[k].b];
-        if (i != j) held[i] = held[j] = true;
-    }
-    for (size_t k = 0; k < groups->n; k++)
-        for (size_t m = 0; m < groups->group[k].n; m++) {
-            const uint32_t b = groups->group[k].body[m];
-            if (model->body[b].pinned || (held[b] && !model->body[b].fixed)) groups->group[k].held = true;
+    bool *unlike = sunder_i_calloc(model->bodies, sizeof *unlike);
+    if (!unlike) return false;
+    mark_unlike(model, before, n, groups->waived, groups->waived_n, unlike);
+    mark_unlike(model, groups->waived, groups->waived_n, before, n, unlike);
+    for (size_t k = 0; k < groups->n; k++) {
+        sunder_i_group *g = &groups->group[k];
+        for (size_t m = 0; m < g->n + g->guests.n; m++) {
+            const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
+            if (!unlike[b] || model->body[b].fixed) continue;
+            g->done = false;
+            g->bound = 0;
         }
-    sunder_i_free(held);
+    }
+    sunder_i_free(unlike);
     return true;
+}
+
+/* Did the interiors of the two, b any part of a barrier, meet at the start? */
+static bool overlapped(const sunder_i_solver *s, uint32_t a, uint32_t b)
+{
+    const sunder_i_relation key = {.a = a, .b = b};
+    size_t k = sunder_i_lower_bound(&key, s->start.pair, s->start.n, sizeof key, sunder_i_by_id_pair);
+    for (; k < s->start.n && s->start.pair[k].a == a && sunder_i_whole_of(&s->model, s->start.pair[k].b) == b; k++)
+        if (s->start.pair[k].overlap) return true;
+    return false;
+}
+
+/* How far apart the two stood at the start, rounded downwards; negative where they overlapped. */
+static sunder_status find_distance(const sunder_i_solver *s, uint32_t a, uint32_t b, double *distance,
+                                   sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    sunder_status status;
+    *distance = -1;
+    if (overlapped(s, a, b)) return SUNDER_OK;
+    if (sunder_i_is_barrier(model, b)) {
+        const sunder_i_translate home = sunder_i_at_home(model, a);
+        sunder_i_barrier_stance stance;
+        status = sunder_i_barrier_stand(model, &home, b, &stance, err);
+        *distance = stance.overlap ? -1 : stance.distance;
+    } else {
+        double on_a[2], on_b[2];
+        const sunder_feature *feature = model->layer->feature;
+        status = sunder_pair_distance(feature[a].shape, feature[b].shape, distance, on_a, on_b, err);
+    }
+    *distance *= 1 - 0x1p-50;
+    return status;
+}
+
+/* before: the list so far, [n]. */
+static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_waiver *before, size_t n,
+                               sunder_error *err)
+{
+    sunder_i_groups *groups = &s->groups;
+    const uint32_t a = r->a, b = sunder_i_whole_of(&s->model, r->b);
+    sunder_i_waiver *last = groups->waived_n ? &groups->waived[groups->waived_n - 1] : NULL;
+    if (last && last->a == a && last->b == b) {
+        last->overlap = last->overlap || r->overlap;
+        return SUNDER_OK;
+    }
+    double distance = -1;
+    sunder_status status = SUNDER_OK;
+    const sunder_i_waiver key = {.a = a, .b = b},
+                          *known = n ? bsearch(&key, before, n, sizeof key, sunder_i_by_id_pair) : NULL;
+    if (known)
+        distance = known->distance;
+    else if (sunder_i_is_conflict_of_bodies(&s->model, r))
+        status = find_distance(s, a, b, &distance, err);
+    if (!status) groups->waived[groups->waived_n++] = (sunder_i_waiver){a, b, distance, r->overlap};
+    return status;
+}
+
+sunder_status sunder_i_solver_waive(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_groups *groups = &s->groups;
+    sunder_i_waiver *before = groups->waived;
+    const size_t n = groups->waived_n;
+    groups->waived_n = 0;
+    groups->waived = sunder_i_alloc(s->now.n, sizeof *groups->waived);
+    sunder_status status = groups->waived ? SUNDER_OK : sunder_i_no_memory(err);
+    for (size_t k = 0; k < s->now.n && !status; k++)
+        if (sunder_i_is_conflict(&s->now.pair[k])) status = list_pair(s, &s->now.pair[k], before, n, err);
+    if (!status && !forget_proofs(s, before, n)) status = sunder_i_no_memory(err);
+    sunder_i_free(before);
+    return status;
+}
+
+/* Groups with a body that is pinned are left as they stand. */
+static void hold(sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->groups.n; k++)
+        for (size_t m = 0; m < s->groups.group[k].n; m++)
+            if (s->model.body[s->groups.group[k].body[m]].pinned) s->groups.group[k].held = true;
 }
 
 /* What the group's bodies have left, of which each is worth so many steps. */
@@ -89,6 +170,7 @@ typedef struct taking {
     sunder_i_solver *solver;
     uint32_t *by;   /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
     double *before; /* [2 * bodies] */
+    size_t budget;  /* bodies that may yet be moved in vain */
 } taking;
 
 static void place(taking *t, size_t k, bool back)
@@ -145,29 +227,62 @@ static void part(taking *t, uint32_t a, uint32_t b, bool *any)
     if (!both || j > i) *any = put_back(t, j) || *any;
 }
 
-/* A conflict that is to be none. */
-static bool offends(const sunder_i_solver *s, const sunder_i_relation *r)
+static bool has_moved(const taking *t, uint32_t thing)
 {
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
-    return sunder_i_is_conflict_of_bodies(&s->model, r) && !sunder_i_is_waived(&s->model, &waived, r->a, r->b);
+    return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
 }
 
-/* Does a conflict stand that did not, or did one jump over another? Then who moved goes back: *any. */
-static void put_back_offenders(taking *t, bool *any)
+typedef enum offence { NONE, WORSE, CONFLICT } offence;
+
+/* A conflict that is to be none, or an overlap that had ended; or one that is listed, and stands worse than it stood.
+ */
+static sunder_status find_offence(const taking *t, const sunder_i_relation *r, offence *found, sunder_error *err)
+{
+    const sunder_i_solver *s = t->solver;
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
+    *found = NONE;
+    if (!sunder_i_is_conflict_of_bodies(&s->model, r) || (!has_moved(t, r->a) && !has_moved(t, r->b))) return SUNDER_OK;
+    const sunder_i_waiver *waiver = sunder_i_waiver_of(&s->model, &waived, r->a, r->b);
+    if (!waiver || (r->overlap && !waiver->overlap)) {
+        *found = CONFLICT;
+        return SUNDER_OK;
+    }
+    bool worse;
+    const sunder_status status = sunder_i_solver_is_worse(s, r, &worse, err);
+    if (!status && worse) *found = WORSE;
+    return status;
+}
+
+/* Does a conflict stand that did not, or worse, or did one jump over another? Then who moved goes back: *any. */
+static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
+    sunder_status status = SUNDER_OK;
     *any = false;
     memset(s->changed, 0, s->model.features * sizeof *s->changed);
-    for (size_t k = 0; k < s->now.n; k++)
-        if (offends(s, &s->now.pair[k])) part(t, s->now.pair[k].a, s->now.pair[k].b, any);
-    for (size_t k = 0; k < s->jumps.n; k++) part(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+    for (size_t k = 0; k < s->now.n && !status; k++) {
+        const sunder_i_relation r = s->now.pair[k];
+        offence found;
+        status = find_offence(t, &r, &found, err);
+        if (status || found == NONE) continue;
+        /* What rounding did may be mended; relations are others then, and all are asked about anew. */
+        bool mended = false;
+        if (found == WORSE && !*any) status = sunder_i_solver_mend(s, &r, &t->budget, &mended, err);
+        if (!status && mended) {
+            *any = true;
+            return SUNDER_OK;
+        }
+        if (!status) part(t, r.a, r.b, any);
+    }
+    for (size_t k = 0; k < s->jumps.n && !status; k++) part(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+    return status;
 }
 
 /* Takes over what was found to be cheaper, where exact relations bear it out: *any. */
 static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const size_t n = s->model.bodies;
-    taking t = {s, sunder_i_alloc(n, sizeof *t.by), sunder_i_alloc(2 * n, sizeof *t.before)};
+    taking t = {s, sunder_i_alloc(n, sizeof *t.by), sunder_i_alloc(2 * n, sizeof *t.before), IN_VAIN};
     sunder_status status = t.by && t.before ? SUNDER_OK : sunder_i_no_memory(err);
     bool again = false;
     *any = false;
@@ -183,7 +298,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     }
     while (!status && again) {
         status = sunder_i_solver_relate(s, err);
-        if (!status) put_back_offenders(&t, &again);
+        if (!status) status = put_back_offenders(&t, &again, err);
     }
     for (size_t k = 0; !status && k < s->groups.n; k++) {
         *any = *any || s->groups.group[k].improved || !s->groups.group[k].done;
@@ -221,20 +336,29 @@ static bool join(sunder_i_solver *s, bool *any)
     return ok;
 }
 
+/* One round over the groups as they stand: *again, if there should be one more. */
+static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
+{
+    bool moved = false;
+    hold(s);
+    sunder_status status =
+        sunder_i_parallel(s->model.rules.threads, s->groups.n, SUNDER_I_GRAIN_WHOLE, prove_groups, s, err);
+    if (!status) charge(s);
+    if (!status) status = join(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
+    *again = *again || moved;
+    return status;
+}
+
 sunder_status sunder_i_solver_optimise(sunder_i_solver *s, sunder_error *err)
 {
     bool again = s->model.rules.effort > 0;
-    sunder_status status = SUNDER_OK;
+    if (!again) return SUNDER_OK;
+    sunder_status status = sunder_i_solver_waive(s, err);
+    if (!status) status = sunder_i_solver_gather_groups(s, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        bool moved = false;
-        status = sunder_i_solver_waive(s, err);
-        if (!status) status = sunder_i_solver_gather_groups(s, err);
-        if (!status && !hold(s)) status = sunder_i_no_memory(err);
-        if (!status)
-            status = sunder_i_parallel(s->model.rules.threads, s->groups.n, SUNDER_I_GRAIN_WHOLE, prove_groups, s, err);
-        if (!status) charge(s);
-        if (!status) status = join(s, &again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
-        again = again || moved;
+        status = prove_all(s, &again, err);
+        if (again && !status) status = sunder_i_solver_waive(s, err);
+        if (again && !status) status = sunder_i_solver_gather_groups(s, err);
     }
     return status;
 }

@@ -23,8 +23,8 @@ typedef struct sunder_i_entry {
 typedef struct sunder_i_groups {
     sunder_i_group *group;
     size_t n;
-    uint32_t *of;             /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
-    sunder_i_id_pair *waived; /* pairs of features that nothing was asked of; sorted */
+    uint32_t *of;            /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
+    sunder_i_waiver *waived; /* pairs that are listed; sorted */
     size_t waived_n;
     sunder_i_id_pair *joined; /* bodies that proofs take together */
     size_t joins, capacity;

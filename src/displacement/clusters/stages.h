@@ -67,7 +67,7 @@ void sunder_i_groups_free(sunder_i_groups *groups);
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
-/* What is listed as things stand is not asked of anybody: s->groups.waived. */
+/* What is listed as things stand, and what is asked of it then: s->groups.waived. */
 sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err);
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
@@ -77,6 +77,10 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
 /* Does the pair, which is in conflict, stand worse than it stood? Exact. */
 sunder_status sunder_i_solver_is_worse(const sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);
+/* Puts one of the two, or a row, a hair beside where it stands, so that the pair stands no worse, and nothing else
+ * does: *well, if there is such a place. budget: bodies that may yet be moved in vain. */
+sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relation *r, size_t *budget, bool *well,
+                                   sunder_error *err);
 /* Takes back what rounding made worse, pair by pair. */
 sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err);
 /* Does no pair in conflict stand worse than it stood? */

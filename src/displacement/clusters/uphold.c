@@ -272,9 +272,10 @@ static const struct {
     unsigned along;
 } ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
 
-static sunder_status mend(sunder_i_solver *s, uint32_t i, uint32_t j, size_t *budget, bool *well, sunder_error *err)
+sunder_status sunder_i_solver_mend(sunder_i_solver *s, const sunder_i_relation *r, size_t *budget, bool *well,
+                                   sunder_error *err)
 {
-    const uint32_t pair[2] = {i, j};
+    const uint32_t pair[2] = {s->model.body_of[r->a], s->model.body_of[r->b]};
     trial t = {.solver = s, .budget = budget};
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
@@ -346,12 +347,13 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *s, sunder_error *err)
             if (status || !breaks || (!sunder_i_may_move(&s->model.body[i]) && !sunder_i_may_move(&s->model.body[j])))
                 continue;
             any = true;
-            status = mend(s, i, j, &budget, &well, err);
+            status = sunder_i_solver_mend(s, &r, &budget, &well, err);
             if (status || well) continue;
             pinned = true;
             status = pin(s, i, j, err);
         }
         if (pinned && !status) status = sunder_i_solver_settle(s, SOUGHT, SOUGHT, err);
     }
+    for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
     return status;
 }

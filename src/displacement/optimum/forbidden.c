@@ -2,8 +2,9 @@
  *
  * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
  * set (A + (-B)) grown by the disc of radius g. So of two bodies the forbidden set is a union of such pieces, arcs and
- * all. Nothing is asked of pairs that are listed in the report, nor of those of which one lies in the other, or could
- * get there, with leave to overlap it: leaving them out makes the set smaller, and a bound no more than weaker.
+ * all. Of pairs that are listed in the report it is asked that they stand no nearer than they stood, and nothing where
+ * they overlapped; nothing of those of which one lies in the other, or could get there, with leave to overlap it:
+ * leaving them out makes the set smaller, and a bound no more than weaker.
  * Courtyards are no matter: the pieces of a feature fill it, and nothing else. Shadows of what anchors may not pass,
  * and of the lines that side anchors may not cross, are further pieces, and nobody is let off them.
  *
@@ -44,16 +45,18 @@ typedef struct listing {
     size_t drawn_capacity, hull_capacity;
 } listing;
 
-bool sunder_i_is_waived(const sunder_i_model *model, const sunder_i_waived *w, uint32_t a, uint32_t b)
+const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *w, uint32_t a, uint32_t b)
 {
     const uint32_t f = sunder_i_whole_of(model, a), g = sunder_i_whole_of(model, b);
-    const sunder_i_id_pair key = f < g ? (sunder_i_id_pair){f, g} : (sunder_i_id_pair){g, f};
-    return w->n && bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair);
+    const sunder_i_waiver key = {.a = f < g ? f : g, .b = f < g ? g : f};
+    return w->n ? bsearch(&key, w->pair, w->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
-static bool owe(const listing *l, uint32_t f, uint32_t g)
+/* Do the two owe each other anything? waiver: NULL, or the pair's. */
+static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
 {
-    if (sunder_i_is_waived(l->model, l->waived, f, g)) return false;
+    *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
+    if (*waiver && (*waiver)->distance < 0) return false;
     if (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g)) return true;
     return !sunder_i_may_get_inside(&l->model->rules, l->model->box + 4 * (size_t)f, l->model->box + 4 * (size_t)g,
                                     nextafter(l->reach, INFINITY));
@@ -103,12 +106,15 @@ static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, c
     f->piece[f->pieces++] = *piece;
 }
 
-static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                      const sunder_i_waiver *waiver)
 {
     sunder_i_forbidden_piece piece;
     size_t n;
     if (!begin_piece(l, a, b, &piece, &n)) return false;
     piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
+    piece.waived = waiver != NULL;
+    if (waiver) piece.radius = fmin(piece.radius, waiver->distance);
     keep_piece(l->out, &piece, l->scratch.xy, n);
     return true;
 }
@@ -127,8 +133,9 @@ static bool add_pieces(listing *l)
         if (!sunder_i_box_meet(box, l->q->box)) continue;
         for (uint32_t m = l->q->piece; m < l->q->piece + l->q->pieces; m++) {
             const sunder_i_body_piece *b = &model->piece[m];
-            if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature)) continue;
-            if (!add_piece(l, a, b)) return false;
+            const sunder_i_waiver *waiver;
+            if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature, &waiver)) continue;
+            if (!add_piece(l, a, b, waiver)) return false;
         }
     }
     return true;

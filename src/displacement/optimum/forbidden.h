@@ -11,7 +11,7 @@
 typedef struct sunder_i_forbidden_piece {
     uint32_t edge, edges;             /* of K, in sunder_i_forbidden.edge */
     const sunder_i_body_piece *a, *b; /* what it is made of: a piece of each body; of a shadow one is an anchor */
-    bool shadow;
+    bool shadow, waived;              /* waived: its radius is less than what is owed */
     double radius, vague;
     double box[4]; /* of K grown */
 } sunder_i_forbidden_piece;
@@ -26,16 +26,24 @@ typedef struct sunder_i_forbidden {
     double grain;           /* more than rounding does to any point, distance or product of that size */
 } sunder_i_forbidden;
 
-/* What is not asked of pairs: things a < b that are listed in the report, sorted; a barrier by its first part, for a
- * pair with it is one, whichever part is near. */
+/* A pair that is listed in the report: things a < b, a barrier by its first part, for a pair with it is one, whichever
+ * part is near. What it owes is not asked of it, but to stand no nearer than it stood. */
+typedef struct sunder_i_waiver {
+    uint32_t a, b;
+    double distance; /* at the start, rounded downwards; negative: nothing is asked */
+    bool overlap;    /* as things stand */
+} sunder_i_waiver;
+
 typedef struct sunder_i_waived {
-    const sunder_i_id_pair *pair;
+    const sunder_i_waiver *pair; /* sorted */
     size_t n;
 } sunder_i_waived;
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */
 
-bool sunder_i_is_waived(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t a, uint32_t b);
+/* NULL: the pair owes all that it owes. */
+const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t a,
+                                          uint32_t b);
 /* The pieces of bodies p and q that meet the disc of radius reach around u = 0 (u: the move of q less that of p).
  * False if memory is out; failure leaves what sunder_i_forbidden_free() takes. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,

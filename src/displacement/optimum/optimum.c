@@ -14,10 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool sunder_i_group_is_optimal(const sunder_i_group *g)
-{
-    return g->cost - g->bound <= OPTIMAL_SHARE * g->cost + OPTIMAL_MORE;
-}
+static bool is_optimal(double cost, double bound) { return cost - bound <= OPTIMAL_SHARE * cost + OPTIMAL_MORE; }
+
+bool sunder_i_group_is_optimal(const sunder_i_group *g) { return is_optimal(g->cost, g->bound); }
 
 void sunder_i_group_free(sunder_i_group *g)
 {
@@ -77,7 +76,7 @@ static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, con
         bool found;
         status = sunder_i_cluster_descend(model, &cluster, g->cost, move, &found, err);
         const double cost = found ? cost_of(model, list, n, move) : INFINITY;
-        if (!status && cost < g->cost) {
+        if (!status && cost < g->cost * (1 - CHEAPER)) {
             sunder_i_free(g->body);
             sunder_i_free(g->move);
             g->body = list;
@@ -161,12 +160,11 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
     return status;
 }
 
-sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
-                                   sunder_i_group *g, uint64_t steps, sunder_error *err)
+/* known: what is proved already. If no more is to be proved, nothing is. */
+static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                  sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
 {
     bool better;
-    g->bound = 0;
-    sunder_i_bound_trees_free(&g->trees);
     g->done = true;
     g->cost = cost_of(model, g->body, g->n, g->move);
     if (!isfinite(g->cost)) return SUNDER_OK;
@@ -174,7 +172,7 @@ sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_w
     for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
     if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
     const sunder_status polished = attempt(model, g, g->body, g->move, g->n, &better, err);
-    if (polished) return polished;
+    if (polished || is_optimal(g->cost, known)) return polished;
     const size_t n = g->n;
     const sunder_i_task task = {.model = model,
                                 .waived = waived,
@@ -192,4 +190,23 @@ sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_w
     sunder_i_tree_free(&tree);
     if (status || g->joins.n || sunder_i_group_is_optimal(g) || movers <= FEW) return status;
     return prove_blocks(model, waived, g, steps, err);
+}
+
+sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                   sunder_i_group *g, uint64_t steps, sunder_error *err)
+{
+    sunder_i_group known = {.bound = g->bound, .guests = g->guests, .trees = g->trees};
+    g->bound = 0;
+    g->guests = (sunder_i_list){0};
+    g->trees = (sunder_i_bound_trees){0};
+    const sunder_status status = prove_afresh(model, waived, group_of, g, known.bound, steps, err);
+    if (!status && known.bound > g->bound) {
+        const sunder_i_group less = {.guests = g->guests, .trees = g->trees};
+        g->bound = known.bound;
+        g->guests = known.guests;
+        g->trees = known.trees;
+        known = less;
+    }
+    sunder_i_group_free(&known);
+    return status;
 }

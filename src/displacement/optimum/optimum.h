@@ -31,12 +31,15 @@ void sunder_i_group_free(sunder_i_group *group);
 /* tree_record.c */
 void sunder_i_bound_tree_free(sunder_bound_tree *tree);
 void sunder_i_bound_trees_free(sunder_i_bound_trees *trees);
+/* Trees of `from` go over to `to`. False if memory is out. */
+bool sunder_i_bound_trees_take(sunder_i_bound_trees *to, sunder_i_bound_trees *from);
 /* A lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
-/* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. group_of: of all
- * bodies, the number of their group, or SUNDER_I_NOBODY. */
+/* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. What is known of
+ * it (bound, guests, trees) stays, if no more is proved. group_of: of all bodies, the number of their group, or
+ * SUNDER_I_NOBODY. */
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
                                    sunder_i_group *group, uint64_t steps, sunder_error *err);
 

@@ -6,6 +6,9 @@
 #include "displacement/optimum/optimum.h"
 #include "displacement/optimum/tree.h"
 
+#include <math.h>
+#include <string.h>
+
 void sunder_i_bound_tree_free(sunder_bound_tree *tree)
 {
     sunder_i_free((void *)tree->body);
@@ -23,6 +26,16 @@ void sunder_i_bound_trees_free(sunder_i_bound_trees *trees)
     for (size_t k = 0; k < trees->n; k++) sunder_i_bound_tree_free(&trees->tree[k]);
     sunder_i_free(trees->tree);
     *trees = (sunder_i_bound_trees){0};
+}
+
+bool sunder_i_bound_trees_take(sunder_i_bound_trees *to, sunder_i_bound_trees *from)
+{
+    if (from->n == 0) return true;
+    if (!sunder_i_reserve(&to->tree, &to->capacity, to->n + from->n, sizeof *to->tree)) return false;
+    memcpy(to->tree + to->n, from->tree, from->n * sizeof *to->tree);
+    to->n += from->n;
+    from->n = 0;
+    return true;
 }
 
 typedef struct recording {
@@ -87,6 +100,7 @@ static bool name(recording *r, uint32_t pair, uint32_t piece, size_t *number)
         sunder_bound_piece *to = &r->piece[out->pieces];
         *to = (sunder_bound_piece){
             .i = p->i, .j = p->j, .a = from->a->feature, .b = from->b->feature, .shadow = from->shadow};
+        to->clearance = from->waived ? from->radius : NAN;
         if (!add_part(r, from->a, &to->part_a, &to->corners_a) || !add_part(r, from->b, &to->part_b, &to->corners_b))
             return false;
         *as = out->pieces++;

@@ -14,6 +14,8 @@
 /* A group is optimal whose cost is no more than its bound and this share of it and this much; as the interface says. */
 #define OPTIMAL_SHARE 1e-6
 #define OPTIMAL_MORE 1e-7
+/* A layout is cheaper by no less than this share. */
+#define CHEAPER 0x1p-40
 /* A length that does not count, as a share of the gap or, where that is 0, of the bodies. */
 #define SMALL_LENGTH 0x1p-17
 /* Of groups with more that move the branching gets a quarter of the steps, and blocks the rest; with no more than so

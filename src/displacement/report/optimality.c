@@ -1,8 +1,9 @@
 /* The lower bound of the layer: what is proved of its contact groups, added up.
  *
  * No layout costs less than the sum over disjoint sets of bodies of what each cannot do without. A group's bound owes
- * what all pairs of its bodies owe that were not listed when it was proved: so it counts if no other pair of them is
- * listed now, and if no body of it that may move was counted with another group. */
+ * what all pairs of its bodies owe that were not listed when it was proved, and of those that were that they stand no
+ * nearer than they stood: so it counts if no other pair of them is listed now, and if no body of it that may move was
+ * counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -30,7 +31,7 @@ static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
     const sunder_i_waived waived = {groups->waived, groups->waived_n};
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        if (!sunder_i_is_conflict(r) || sunder_i_is_waived(&s->model, &waived, r->a, r->b)) continue;
+        if (!sunder_i_is_conflict(r) || sunder_i_waiver_of(&s->model, &waived, r->a, r->b)) continue;
         for (int e = 0; e < 2; e++) {
             const uint32_t number = owner[s->model.body_of[e ? r->b : r->a]];
             if (number != SUNDER_I_NOBODY) listed[number] = true;
