@@ -122,6 +122,11 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
                     p.farthest = fmax(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));
             status = sunder_i_decide(&p, decision, err);
+            if (!status && decision->verdict == SUNDER_I_FEASIBLE && sunder_i_may_have_slack(&p)) {
+                sunder_i_decision_clear(decision);
+                p.slack = true;
+                status = sunder_i_decide(&p, decision, err);
+            }
             g->asked[q] = true;
             if (status || decision->verdict == SUNDER_I_FEASIBLE) break;
             sunder_i_decision_clear(decision);

@@ -58,6 +58,8 @@ typedef struct sunder_i_decision {
     uint64_t work;
 } sunder_i_decision;
 
+/* Is anything held to an overlap with a barrier? */
+bool sunder_i_may_have_slack(const sunder_i_subproblem *subproblem);
 /* The answer is to be cleared, also on failure. */
 sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, sunder_error *err);
 void sunder_i_decision_clear(sunder_i_decision *decision);

@@ -53,6 +53,18 @@ uint32_t sunder_i_branching_join(sunder_i_branching *c, uint32_t body)
     return limit > 0 ? add(c, body, limit) : SUNDER_I_GROUND;
 }
 
+static bool is_overlap(const sunder_i_model *model, const sunder_i_requirement *r)
+{
+    return r->clearance < 0 && r->clearance > -INFINITY && sunder_i_is_barrier(model, r->b);
+}
+
+bool sunder_i_may_have_slack(const sunder_i_subproblem *q)
+{
+    for (size_t k = 0; k < q->required_n; k++)
+        if (is_overlap(q->model, &q->required[k])) return true;
+    return false;
+}
+
 uint32_t sunder_i_branching_slack(const sunder_i_branching *c, const sunder_i_requirement *required)
 {
     for (size_t k = 0; k < c->slacks; k++)

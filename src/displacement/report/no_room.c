@@ -211,13 +211,9 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
 
 /* The next of the ways to ask: first by lines that are a little coarse, which make smaller proofs; where that has a
  * solution, as finely as can be; and where that has one, with a slack for what is held to overlaps. */
-static bool ask_closer(const asking *g, matter *m)
+static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
-    bool overlaps = false;
-    for (size_t k = 0; k < g->required_n && m->fine; k++)
-        overlaps = overlaps || (g->required[k].clearance < 0 && g->required[k].clearance > -INFINITY &&
-                                sunder_i_is_barrier(&g->solver->model, g->required[k].b));
-    if (m->slack || (m->fine && !overlaps)) return false;
+    if (m->slack || (m->fine && !sunder_i_may_have_slack(q))) return false;
     m->slack = m->fine;
     m->fine = true;
     return true;
@@ -240,7 +236,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         q->coarse = m->fine ? 0 : COARSE;
         q->slack = m->slack;
         status = sunder_i_decide(q, &decision, err);
-    } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(g, m));
+    } while (!status && decision.verdict == SUNDER_I_FEASIBLE && ask_closer(q, m));
     sunder_proof **proof = &report->proof[m->conflict];
     *proof = decision.proof;
     decision.proof = NULL;
