@@ -197,6 +197,7 @@ typedef struct asking {
     const size_t *first; /* [clusters + 1] matters, cluster after cluster */
     const sunder_i_requirement *required;
     size_t required_n;
+    uint64_t times; /* as much effort as without --effort */
 } asking;
 
 static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
@@ -259,8 +260,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             .model = &g->solver->model, .required = g->required, .required_n = g->required_n, .most = MOST_BODIES};
         q.reserve = sunder_i_solver_members(g->solver, first->root, &q.reserves);
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
-        uint64_t pool = EFFORT + EFFORT_EACH * (uint64_t)(q.reserves + 2);
-        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT && pool; effort *= GROWTH)
+        uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q.reserves + 2);
+        for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool; effort *= GROWTH)
             for (matter *m = first; m < last && pool; m++) {
                 if (!m->open) continue;
                 q.effort = effort < pool ? effort : pool;
@@ -310,7 +311,8 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     if (groups) {
         requiring h = {s, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
-        asking g = {s, report, list, first, required, n};
+        const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * fmin(s->model.rules.effort, MORE_UP_TO));
+        asking g = {s, report, list, first, required, n, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
     sunder_i_free(listed);

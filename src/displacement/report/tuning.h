@@ -15,6 +15,9 @@
 #define FIRST_EFFORT 10000u
 #define GROWTH 8
 #define MOST_EFFORT 8000000u
+/* For each unit of --effort, up to so many, the effort of a cluster and of one conflict is so many times as much more. */
+#define MORE_EFFORT 5
+#define MORE_UP_TO 1000
 #define MOST_BODIES 64
 /* What lines may be short by at first, as a share of how far two features may go. Tried at this value only. */
 #define COARSE 0x1p-8
