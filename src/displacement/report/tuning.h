@@ -15,7 +15,7 @@
 #define FIRST_EFFORT 10000u
 #define GROWTH 8
 #define MOST_EFFORT 8000000u
-/* For each unit of --effort, up to so many, the effort of a cluster and of one conflict is so many times as much more. */
+/* For each unit of --effort, up to so many, a cluster and one conflict are allowed so many times as much more. */
 #define MORE_EFFORT 5
 #define MORE_UP_TO 1000
 #define MOST_BODIES 64
