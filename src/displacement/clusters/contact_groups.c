@@ -22,6 +22,7 @@ void sunder_i_groups_free(sunder_i_groups *g)
     sunder_i_free(g->waived);
     sunder_i_free(g->joined);
     sunder_i_free(g->spent);
+    sunder_i_free(g->blunt);
     memset(g, 0, sizeof *g);
 }
 
@@ -142,6 +143,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
     for (size_t k = 0; k < n; k++) {
         const uint32_t b = out->body[k] = member[k].b;
         memcpy(out->move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *out->move);
+        out->blunt = out->blunt || s->groups.blunt[b];
         if (out->number == SUNDER_I_NOBODY && !s->model.body[b].fixed) out->number = b;
     }
     out->margin = sunder_i_solver_margin(s, out->body, n);
@@ -240,7 +242,8 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *s, sunder_error *er
                    .parent = sunder_i_alloc(s->model.bodies, sizeof *g.parent),
                    .counts = sunder_i_calloc(s->model.bodies, sizeof *g.counts)};
     if (!s->groups.spent) s->groups.spent = sunder_i_calloc(s->model.bodies, sizeof *s->groups.spent);
-    const bool ok = g.parent && g.counts && s->groups.spent && flood(&g) && list_members(&g);
+    if (!s->groups.blunt) s->groups.blunt = sunder_i_calloc(s->model.bodies, sizeof *s->groups.blunt);
+    const bool ok = g.parent && g.counts && s->groups.spent && s->groups.blunt && flood(&g) && list_members(&g);
     const sunder_status status = ok ? make_groups(&g, &s->groups, err) : sunder_i_no_memory(err);
     sunder_i_free(g.parent);
     sunder_i_free(g.counts);

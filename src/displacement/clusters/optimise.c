@@ -203,11 +203,13 @@ static bool put_back(taking *t, uint32_t k)
     if (!g || !g->improved) return false;
     g->improved = g->done = false;
     place(t, k, true);
-    /* What rounding ate into is looked for again with a wider margin. */
+    /* What rounding ate into is looked for again with a wider margin; a place without room is looked for no more. */
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
-        if (s->widened[b] < MOST_MARGINS_AGAIN)
+        if (g->tight)
+            s->groups.blunt[b] = true;
+        else if (s->widened[b] < MOST_MARGINS_AGAIN)
             s->widened[b]++;
         else
             g->done = true;

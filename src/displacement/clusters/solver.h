@@ -29,6 +29,7 @@ typedef struct sunder_i_groups {
     sunder_i_id_pair *joined; /* bodies that proofs take together */
     size_t joins, capacity;
     double *spent; /* [bodies] steps of proofs */
+    bool *blunt;   /* [bodies] a place without room did not hold for them */
 } sunder_i_groups;
 
 typedef struct sunder_i_solver {

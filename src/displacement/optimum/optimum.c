@@ -56,9 +56,28 @@ typedef struct standing {
     double t[2];
 } standing;
 
-/* Goes down from where the bodies stand; takes what is cheaper, with the guests that moved. */
-static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, const uint32_t *body, const double *t,
-                             size_t n, bool *better, sunder_error *err)
+/* Goes down from where the bodies stand, with a margin; without one, stays there: the cost, or INFINITY. */
+static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                            uint32_t *body, size_t n, bool tight, double *move, double *cost, sunder_error *err)
+{
+    const sunder_i_cluster cluster = {.body = body, .n = n, .margin = g->margin};
+    bool found;
+    *cost = INFINITY;
+    if (tight) {
+        if (!sunder_i_tight_place(model, waived, body, n, TIGHT_MARGIN * g->margin, move, &found))
+            return sunder_i_no_memory(err);
+    } else {
+        const sunder_status status = sunder_i_cluster_descend(model, &cluster, g->cost, move, &found, err);
+        if (status) return status;
+    }
+    if (found) *cost = cost_of(model, body, n, move);
+    return SUNDER_OK;
+}
+
+/* Takes what is cheaper, with the guests that moved. */
+static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                             const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
+                             sunder_error *err)
 {
     standing *at = sunder_i_alloc(n, sizeof *at);
     uint32_t *list = sunder_i_alloc(n, sizeof *list);
@@ -72,10 +91,8 @@ static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, con
             list[k] = at[k].body;
             memcpy(move + 2 * k, at[k].t, sizeof at[k].t);
         }
-        const sunder_i_cluster cluster = {.body = list, .n = n, .margin = g->margin};
-        bool found;
-        status = sunder_i_cluster_descend(model, &cluster, g->cost, move, &found, err);
-        const double cost = found ? cost_of(model, list, n, move) : INFINITY;
+        double cost;
+        status = settle(model, waived, g, list, n, tight, move, &cost, err);
         if (!status && cost < g->cost * (1 - CHEAPER)) {
             sunder_i_free(g->body);
             sunder_i_free(g->move);
@@ -84,6 +101,7 @@ static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, con
             g->n = n;
             g->cost = cost;
             g->improved = *better = true;
+            g->tight = tight;
             list = NULL;
             move = NULL;
         }
@@ -94,17 +112,21 @@ static sunder_status attempt(const sunder_i_model *model, sunder_i_group *g, con
     return status;
 }
 
-static sunder_status branch(const sunder_i_model *model, sunder_i_group *g, sunder_i_tree *tree, uint64_t steps,
-                            sunder_error *err)
+static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                            sunder_i_tree *tree, uint64_t steps, sunder_error *err)
 {
     for (;;) {
         bool better;
         const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, steps);
         if (tree->failed) return sunder_i_no_memory(err);
         if (outcome != SUNDER_I_TREE_FOUND) break;
-        const sunder_status status = attempt(model, g, tree->body, tree->program.t, tree->task.n, &better, err);
+        const double *t = tree->program.t, cost = cost_of(model, tree->body, tree->task.n, t);
+        bool tighter = false;
+        sunder_status status = attempt(model, waived, g, tree->body, t, tree->task.n, false, &better, err);
+        if (!status && !g->blunt && cost < g->cost * (1 - OPTIMAL_SHARE))
+            status = attempt(model, waived, g, tree->body, t, tree->task.n, true, &tighter, err);
         if (status) return status;
-        if (better) sunder_i_tree_lower_goal(tree, goal_of(model, g));
+        if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
     }
     g->bound = fmax(g->bound, sunder_i_tree_bound(tree));
     g->steps += tree->steps;
@@ -171,7 +193,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     size_t movers = 0;
     for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
     if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
-    const sunder_status polished = attempt(model, g, g->body, g->move, g->n, &better, err);
+    const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
     if (polished || is_optimal(g->cost, known)) return polished;
     const size_t n = g->n;
     const sunder_i_task task = {.model = model,
@@ -184,7 +206,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
                                 .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(model, g, &tree, movers > BRANCHED ? steps / 4 : steps, err);
+    if (!status) status = branch(model, waived, g, &tree, movers > BRANCHED ? steps / 4 : steps, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     sunder_i_tree_free(&tree);

@@ -20,6 +20,7 @@ typedef struct sunder_i_group {
     double *move;         /* [2 * n] as they stand; better ones, rounded, where such are found; owned */
     double cost, bound;   /* of the moves, rounded upwards; what no layout beats, rounded downwards */
     bool held;            /* its moves are to stay */
+    bool tight, blunt;    /* its moves leave no room for rounding; such did not hold, and are not looked for again */
     bool done, improved;  /* it was looked into; the moves are not what they were */
     sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
@@ -35,6 +36,10 @@ void sunder_i_bound_trees_free(sunder_i_bound_trees *trees);
 bool sunder_i_bound_trees_take(sunder_i_bound_trees *to, sunder_i_bound_trees *from);
 /* A lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
+/* tight_place.c: bodies' moves, good up to rounding, become such as keep what lies in steps to the last bit, and a
+ * margin elsewhere; *found: doubles can hold them. False if memory is out. */
+bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *body, size_t n,
+                          double margin, double *move, bool *found);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
 /* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. What is known of
