@@ -8,7 +8,11 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/list.h"
+#include "base/union_find.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 /* One step down, or up, covers the half unit that a single operation rounds by. */
 static double down(double v) { return nextafter(v, -INFINITY); }
@@ -25,24 +29,48 @@ static double weight_below(const sunder_i_model *model, const sunder_i_body *bod
     return w;
 }
 
-static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *load)
+/* Over the pairs that `which` lists, which hang together: so what is far from them has no say in when it ends. */
+static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, const sunder_i_id_pair *which, size_t n,
+                   double *load)
 {
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double moved = 0, scale = 0;
         for (size_t k = 0; k < n; k++) {
-            const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+            sunder_bound_pair *pair = &pairs[which[k].b];
+            const uint32_t i = model->body_of[pair->a], j = model->body_of[pair->b];
             const double mi = model->body[i].fixed ? 0 : 0.5 / model->body[i].weight;
             const double mj = model->body[j].fixed ? 0 : 0.5 / model->body[j].weight;
             if (!(mi + mj > 0)) continue;
-            double change = (pairs[k].least - mi * load[i] - mj * load[j]) / (mi + mj);
-            if (change < -pairs[k].multiplier) change = -pairs[k].multiplier;
-            pairs[k].multiplier += change;
-            load[i] += change;
-            load[j] += change;
+            double change = (pair->least - mi * load[i] - mj * load[j]) / (mi + mj);
+            if (change < -pair->multiplier) change = -pair->multiplier;
+            pair->multiplier += change;
+            if (mi > 0) load[i] += change;
+            if (mj > 0) load[j] += change;
             moved = fmax(moved, fabs(change) * (mi + mj));
-            scale = fmax(scale, pairs[k].least);
+            scale = fmax(scale, pair->least);
         }
         if (moved <= STILL * scale) break;
+    }
+}
+
+/* Each component of the pairs by itself; what is fixed holds none together. which: scratch for all pairs, by the
+ * component's root and their places. */
+static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, sunder_i_id_pair *which, size_t n,
+                       uint32_t *root, double *load)
+{
+    sunder_i_union_init(root, model->bodies);
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+        if (!model->body[i].fixed && !model->body[j].fixed) sunder_i_union_join(root, i, j);
+    }
+    for (size_t k = 0; k < n; k++) {
+        const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
+        which[k] = (sunder_i_id_pair){sunder_i_union_find(root, model->body[i].fixed ? j : i), (uint32_t)k};
+    }
+    qsort(which, n, sizeof *which, sunder_i_by_id_pair);
+    for (size_t k = 0, end; k < n; k = end) {
+        for (end = k + 1; end < n && which[end].a == which[k].a;) end++;
+        ascend(model, pairs, which + k, end - k, load);
     }
     for (size_t k = 0; k < n; k++)
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
@@ -54,8 +82,16 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
     *bound = 0;
     if (n == 0) return SUNDER_OK;
     double *load = sunder_i_calloc(model->bodies, sizeof *load);
-    if (!load) return sunder_i_no_memory(err);
-    ascend(model, pairs, n, load);
+    uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
+    sunder_i_id_pair *which = sunder_i_alloc(n, sizeof *which);
+    const bool ok = load && root && which;
+    if (ok) ascend_all(model, pairs, which, n, root, load);
+    sunder_i_free(root);
+    sunder_i_free(which);
+    if (!ok) {
+        sunder_i_free(load);
+        return sunder_i_no_memory(err);
+    }
     for (size_t b = 0; b < model->bodies; b++) load[b] = 0;
     double value = 0;
     for (size_t k = 0; k < n; k++) {
