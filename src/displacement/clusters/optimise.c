@@ -255,7 +255,25 @@ static sunder_status find_offence(const taking *t, const sunder_i_relation *r, o
     return status;
 }
 
-/* Does a conflict stand that did not, or worse, or did one jump over another? Then who moved goes back: *any. */
+/* The first pair that is listed and stands worse: what rounding did may be mended, after which relations are others; or
+ * who moved goes back. */
+static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
+{
+    sunder_i_solver *s = t->solver;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < s->now.n && !status && !*any; k++) {
+        const sunder_i_relation r = s->now.pair[k];
+        offence found;
+        status = find_offence(t, &r, &found, err);
+        if (status || found != WORSE) continue;
+        status = sunder_i_solver_mend(s, &r, &t->budget, any, err);
+        if (!status && !*any) part(t, r.a, r.b, any);
+    }
+    return status;
+}
+
+/* Does a conflict stand that did not, or worse, or did one jump over another? Then who moved goes back: *any. What
+ * stands worse waits until nothing else is put back, so that others of the layer have no say in what is mended. */
 static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -263,21 +281,13 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     *any = false;
     memset(s->changed, 0, s->model.features * sizeof *s->changed);
     for (size_t k = 0; k < s->now.n && !status; k++) {
-        const sunder_i_relation r = s->now.pair[k];
+        const sunder_i_relation *r = &s->now.pair[k];
         offence found;
-        status = find_offence(t, &r, &found, err);
-        if (status || found == NONE) continue;
-        /* What rounding did may be mended; relations are others then, and all are asked about anew. */
-        bool mended = false;
-        if (found == WORSE && !*any) status = sunder_i_solver_mend(s, &r, &t->budget, &mended, err);
-        if (!status && mended) {
-            *any = true;
-            return SUNDER_OK;
-        }
-        if (!status) part(t, r.a, r.b, any);
+        status = find_offence(t, r, &found, err);
+        if (!status && found == CONFLICT) part(t, r->a, r->b, any);
     }
     for (size_t k = 0; k < s->jumps.n && !status; k++) part(t, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
-    return status;
+    return status || *any ? status : mend_first(t, any, err);
 }
 
 /* Takes over what was found to be cheaper, where exact relations bear it out: *any. */
