@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The tables of DISPLACEMENT.md: building layers of ../shared/data beside their roads, optimality without them, points, and
-# peers on boxes.
+# The tables of DISPLACEMENT.md: building layers of ../shared/data beside their roads, a town in a large network,
+# optimality without barriers, points, and peers on boxes.
 #
-#   displacement.sh [roads|optimum|points|peers ...]      all of them unless some are named
+#   displacement.sh [roads|network|optimum|points|peers ...]      all of them unless some are named
 #
 #   SUNDER_BUILD          build directory (./build/release)
 #   SUNDER_BENCH_DATA     folder of the layers (../shared/data beside the repository)

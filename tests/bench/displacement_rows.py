@@ -10,6 +10,7 @@ import tempfile
 from collections import Counter
 
 sys.path.insert(0, os.path.join(os.environ["SUNDER_SOURCE"], "tests", "cli"))
+import road_network  # noqa: E402
 import rules  # noqa: E402
 import rules_layers  # noqa: E402
 from osgeo import ogr  # noqa: E402
@@ -207,6 +208,33 @@ def points():
             stats["peak_rss_bytes"] // 1000000, "yes" if not checker.breaches else f"{len(checker.breaches)} pairs not")
 
 
+def network():
+    """A town of 250 buildings, and three places far apart, in a network that is mostly elsewhere."""
+    subprocess.run([os.path.join(os.environ["SUNDER_BUILD"], "sunder-town"), "--buildings", "250", "--seed", "2",
+                    "--trouble", "0.5", "town.gpkg"], check=True, capture_output=True)
+    source = ogr.Open("town.gpkg")
+    buildings = source.GetLayerByName("buildings")
+    road_network.write_places("places.gpkg", buildings, 25600)
+    road_network.write("net.gpkg", buildings, 100000, 60000)
+    road_network.write("bare.gpkg", buildings, 100000, 60000, index=False)
+    road_network.write("long.gpkg", buildings, 20, 20000, corners=100000, step=2)
+    del source
+    head("layer", "barriers", "s", "MB", "check, s")
+    for layer, what, barrier in (("town", "none", None), ("town", "100,000 polylines", "net.gpkg,width=5"),
+                                 ("town", "without a spatial index", "bare.gpkg,width=5"),
+                                 ("town", "width-field", "net.gpkg,width-field=width"),
+                                 ("town", "20 polylines of 100,000 corners", "long.gpkg,width=5"),
+                                 ("places", "none", None), ("places", "100,000 polylines", "net.gpkg,width=5")):
+        words = ["--gap", "2", *(["--barrier", barrier] if barrier else [])]
+        try:
+            stats = separate(f"{layer}.gpkg", "buildings", [*words, "--max-shift", "10", "--effort", "0"])
+        except Failed as why:
+            row(layer, what, why)
+            continue
+        _, seconds, _ = timed([SUNDER, "check", f"{layer}.gpkg", "-q", "-l", "buildings", *words])
+        row(layer, what, number(stats["cpu"], 2), stats["peak_rss_bytes"] // 1000000, number(seconds, 2))
+
+
 # ---- Peers
 
 POINTS = 100.0  # of neato's points a metre; it prints two decimals of them
@@ -312,7 +340,7 @@ def main():
     here = tempfile.mkdtemp()
     os.chdir(here)
     try:
-        for table in (roads, optimum, points, peers):
+        for table in (roads, network, optimum, points, peers):
             if table.__name__ in wanted or "all" in wanted:
                 table()
     finally:
