@@ -155,6 +155,7 @@ static bool constrain_all(sunder_i_search *s, double reach)
     for (size_t k = 0; k < s->old_n && !s->failed; k++)
         if (sunder_i_is_tangent(&s->old[k]) && s->old[k].force > 0) sunder_i_search_add_constraint(s, p->n, &s->old[k]);
     sort_constraints(s);
+    memcpy(s->next, s->t, 2 * s->n * sizeof *s->t); /* who is out of patience by now stays where it stands */
     return a.clashing || sunder_i_search_is_beyond(s, s->t);
 }
 
