@@ -12,7 +12,8 @@
  *   grid       N squares of 10 m in a grid, with 1 m between them where 3 m are wanted: one cluster of all
  *   rounds     N pairs, and a row of N / 100 houses, each of which is run into when the one before it is moved
  *
- * One line: family, N, features, conflicts before and after, cost, processor seconds of the separation. */
+ * One line: family, N, features, conflicts before and after, cost, bound, longest move, processor seconds of the
+ * separation. */
 #include "sunder.h"
 
 #include <math.h>
@@ -190,9 +191,9 @@ int main(int argc, char **argv)
     const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     sunder_layer_summary s;
     sunder_report_summary(report, &s);
-    printf("%-8s %7s %8zu features  %7zu -> %5zu conflicts  cost %14.3f  max %9.3f  %8.2f s\n", argv[1], argv[2], l.n,
-           s.before.overlap + s.before.too_close + s.before.contained,
-           s.after.overlap + s.after.too_close + s.after.contained, s.cost, s.max, seconds);
+    printf("%-8s %7s %8zu features  %7zu -> %5zu conflicts  cost %14.3f  bound %14.3f  max %9.3f  %8.2f s\n", argv[1],
+           argv[2], l.n, s.before.overlap + s.before.too_close + s.before.contained,
+           s.after.overlap + s.after.too_close + s.after.contained, s.cost, s.lower_bound, s.max, seconds);
     sunder_report_free(report);
     sunder_layer_free(layer);
     for (size_t k = 0; k < l.n; k++) sunder_shape_free((sunder_shape *)l.feature[k].shape);
