@@ -280,7 +280,8 @@ class Problem:
         return part
 
     def demand_anchor(self, key, corners, other):
-        demand(len(corners) == 1 and tuple(corners[0]) == self.anchors.get(key), "that is not the anchor of", key)
+        at = tuple(corners[0])
+        demand(len(corners) == 1 and self.anchors.setdefault(key, at) == at, "that is not the anchor of", key)
         place = self.lattice.point(corners[0])
         demand(not self.things[other].holds_place(place), other, "holds the anchor of", key)
         return (place,)
