@@ -70,10 +70,11 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
 {
     const sunder_i_body *body = &model->body[b];
     double u[2];
+    const bool is_move = isfinite(move[0]) && isfinite(move[1]); /* what a program made of nothing is none: home */
     for (size_t c = 0; c < 2; c++) {
         u[c] = 0;
         out[c] = 0;
-        if (move[c] == 0) continue;
+        if (move[c] == 0 || !is_move) continue;
         /* Rounding may carry a coordinate into the next binade: then once more with the unit there. */
         for (int again = 0; again < 2; again++) {
             u[c] = ldexp(1, coarsest(model, body, c, again ? out[c] : move[c]));
@@ -84,14 +85,14 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
     if (unit) *unit = fmax(u[0], u[1]);
     if (!sunder_i_is_within_limit(out, body->limit))
         for (size_t c = 0; c < 2; c++) {
-            if (move[c] == 0) continue;
+            if (move[c] == 0 || !is_move) continue;
             out[c] = u[c] * trunc(move[c] / u[c]);
         }
     /* A move that still is too long came in too long; shrink it towards zero by whole units. */
     for (int k = 0; k < 64 && !sunder_i_is_within_limit(out, body->limit); k++) {
         const double length = hypot(out[0], out[1]), shrink = body->limit / length * (1 - ldexp(1, k - 52));
         for (size_t c = 0; c < 2; c++)
-            if (move[c] != 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
+            if (u[c] > 0) out[c] = u[c] * trunc(out[c] * fmax(0, shrink) / u[c]);
     }
     if (!sunder_i_is_within_limit(out, body->limit)) out[0] = out[1] = 0;
     SUNDER_I_ASSERT(isfinite(out[0] + out[1]) && hypot(out[0], out[1]) <= body->limit * (1 + 0x1p-40));
