@@ -435,7 +435,7 @@ typedef struct sunder_layer_options {
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
     double effort;    /* >= 0: how hard to look for better sides, for proofs, and for what would free a
                        * conflict, in steps and not in time; 0: not at all */
-    uint64_t seed;    /* of what search is random; nothing is yet */
+    uint64_t seed;    /* of what search is random: the better layouts that effort looks for */
     bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
     bool keep_pushes; /* for sunder_report_pushes() */
     /* Barriers may have been left out that no feature comes too near to, nor crosses, by a move no longer than this;

@@ -133,10 +133,14 @@ static void hold(sunder_i_solver *s)
             if (s->model.body[s->groups.group[k].body[m]].pinned) s->groups.group[k].held = true;
 }
 
-/* What the group's bodies have left, of which each is worth so many steps. */
+/* What the group's bodies have left, of which each is worth so many steps; a small group is worth as many as one of so
+ * many bodies. */
 static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
 {
-    const double each = STEPS_EACH * s->model.rules.effort;
+    size_t movers = 0;
+    for (size_t m = 0; m < g->n; m++) movers += !s->model.body[g->body[m]].fixed;
+    const double small = movers && movers < SMALL_GROUP ? (double)SMALL_GROUP / (double)movers : 1;
+    const double each = small * STEPS_EACH * s->model.rules.effort;
     double steps = 0;
     for (size_t m = 0; m < g->n; m++)
         if (!s->model.body[g->body[m]].fixed) steps += fmax(0, each - s->groups.spent[g->body[m]]);

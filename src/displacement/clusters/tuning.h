@@ -29,6 +29,7 @@
 #define MOST_MARGINS_AGAIN 3
 /* Steps for each body of a group at effort 1. */
 #define STEPS_EACH 2e6
+#define SMALL_GROUP 24
 
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 

@@ -32,6 +32,7 @@ typedef struct sunder_i_rules {
     sunder_containment contained;
     unsigned threads;
     double effort; /* >= 0 */
+    uint64_t seed;
     bool keep_trees, keep_pushes;
     sunder_progress progress; /* NULL: nobody asks how far it is */
     void *progress_user;

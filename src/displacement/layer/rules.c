@@ -54,6 +54,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *o, sunder_i_rules *r
     rules->jumps = o->allow_jumps;
     rules->contained = o->contained;
     rules->effort = o->effort;
+    rules->seed = o->seed;
     rules->keep_trees = o->keep_trees;
     rules->keep_pushes = o->keep_pushes;
     rules->threads = o->threads ? o->threads > MOST_THREADS ? MOST_THREADS : o->threads : processors();

@@ -26,6 +26,7 @@ typedef struct copy {
     uint32_t at; /* in the group's list */
     double share;
     double force[2], anchor[2], t[2], drift[2];
+    double pull[2]; /* the mean of its drifts, of which later ones count more */
 } copy;
 
 typedef struct decomposition {
@@ -305,18 +306,44 @@ static bool begin(decomposition *d, copy *best, double *bound)
     return true;
 }
 
+/* The pull on each copy, by its last drift; the sum of squares. */
+static double update_pulls(decomposition *d, double share)
+{
+    double square = 0;
+    for (size_t m = 0; m < d->items; m++)
+        for (int e = 0; e < 2; e++) {
+            copy *i = &d->item[m];
+            i->pull[e] = share * i->drift[e] + (1 - share) * i->pull[e];
+            square += i->pull[e] * i->pull[e];
+        }
+    return square;
+}
+
+/* Takes the best places again; pulls stay. */
+static void go_back(decomposition *d, const copy *best)
+{
+    for (size_t m = 0; m < d->items; m++) {
+        copy *i = &d->item[m];
+        const double pull[2] = {i->pull[0], i->pull[1]};
+        *i = best[m];
+        memcpy(i->pull, pull, sizeof pull);
+    }
+}
+
 /* Draws copies together, a stride after the other; after some in vain back from the best places (`best`: copies) by
- * shorter ones. */
+ * shorter ones. A stride goes along the mean of the last drifts, since single ones jump to and fro [CFM75]. */
 static bool improve(decomposition *d, copy *best, double *bound)
 {
     const double cost = d->group->cost;
-    double stride = 1, now = *bound;
+    double stride = FIRST_STRIDE, now = *bound, share = 1;
     for (int vain = 0; stride > LEAST_STRIDE && d->steps < d->most && cost - *bound > BLOCKS_NEAR * cost;) {
-        const double square = measure_drift(d);
+        if (!(measure_drift(d) > 0)) break;
+        const double square = update_pulls(d, share);
         if (!(square > 0)) break;
+        share = DRIFT_SHARE;
         for (size_t m = 0; m < d->items; m++)
             for (int e = 0; e < 2 && d->item[m].share > 0; e++)
-                d->item[m].anchor[e] -= stride * (cost - now) / square * d->item[m].drift[e] / (2 * d->item[m].share);
+                d->item[m].anchor[e] -= stride * (cost - now) / square * d->item[m].pull[e] / (2 * d->item[m].share);
         if (!evaluate(d, NULL, &now)) return false;
         if (now > *bound) {
             vain = 0;
@@ -326,7 +353,7 @@ static bool improve(decomposition *d, copy *best, double *bound)
             vain = 0;
             stride /= 2;
             now = *bound;
-            memcpy(d->item, best, d->items * sizeof *best);
+            go_back(d, best);
         }
     }
     return true;

@@ -112,6 +112,13 @@ static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived 
     return status;
 }
 
+sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                     const double *t, sunder_error *err)
+{
+    bool better;
+    return attempt(model, waived, g, g->body, t, g->n, false, &better, err);
+}
+
 static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                             sunder_i_tree *tree, uint64_t steps, sunder_error *err)
 {
@@ -195,6 +202,10 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
     const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
     if (polished || is_optimal(g->cost, known)) return polished;
+    if (movers > BRANCHED) {
+        const sunder_status status = sunder_i_group_shake(model, waived, g, steps / 2, err);
+        if (status) return status;
+    }
     const size_t n = g->n;
     const sunder_i_task task = {.model = model,
                                 .waived = waived,
@@ -210,7 +221,9 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     sunder_i_tree_free(&tree);
-    if (status || g->joins.n || sunder_i_group_is_optimal(g) || movers <= FEW) return status;
+    if (status || g->joins.n || sunder_i_group_is_optimal(g)) return status;
+    if (movers <= BRANCHED) status = sunder_i_group_shake(model, waived, g, steps / 2, err);
+    if (status || movers <= FEW) return status;
     return prove_blocks(model, waived, g, steps, err);
 }
 

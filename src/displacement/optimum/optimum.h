@@ -42,6 +42,12 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
                           double margin, double *move, bool *found);
 /* Is its cost proved to be the least, up to what the program prints of it? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
+/* Goes down from where the group's bodies are put; takes what is cheaper. */
+sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
+                                     const double *t, sunder_error *err);
+/* shake.c. Looks for better moves at random, in so many steps. */
+sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
+                                   uint64_t steps, sunder_error *err);
 /* Looks for better moves of the group, and for a proof that there are none, in so many steps at most. What is known of
  * it (bound, guests, trees) stays, if no more is proved. group_of: of all bodies, the number of their group, or
  * SUNDER_I_NOBODY. */

@@ -133,6 +133,7 @@ static bool cut_hull_of_many(sunder_i_tree *t, uint32_t pair, const double u[2],
             if (!*none || p->region.n == 0 || is_covered(t, p, &p->region, gap, &named, &names)) return false;
             for (int c = 0; c < 2; c++) n[c] = gap[c] - u[c];
             const double length = sqrt(n[0] * n[0] + n[1] * n[1]);
+            if (!(length > 0)) return false;
             for (int c = 0; c < 2; c++) n[c] /= length;
         }
         if (!(fabs(gap[0]) < INFINITY) || t->failed) return false;

@@ -22,6 +22,9 @@
  * many the branching is left alone. */
 #define BRANCHED 16
 #define FEW 4
+/* Steps that one descent of a group takes for each body and each of its pieces; how many bodies are let go at most. */
+#define SHAKE_STEPS 5000u
+#define SHAKEN 16
 /* A group of which more move is taken in parts of so many bodies. */
 #define MOST_TOGETHER 192
 #define PART 96
@@ -52,9 +55,13 @@
 #define ROUNDS 24
 /* The share of each weight that pays for rounding. */
 #define SPARED 0x1p-30
-/* Strides are halved after so many in vain, down to the least; or until so small a share of the cost is missing. */
+/* Strides begin so wide, as a share of the way on which all that is missing would be proved if it went on as it begins,
+ * and are halved after so many in vain, down to the least; or until so small a share of the cost is missing. A drift
+ * counts so much in the mean of the last. */
 #define MOST_VAIN 3
-#define LEAST_STRIDE 0.02
+#define FIRST_STRIDE 0.1
+#define LEAST_STRIDE 0.001
+#define DRIFT_SHARE 0.3
 #define BLOCKS_NEAR 1e-4
 
 /* ---- Pairs (forbidden.c, tree_cuts.c) ---------------------------------------------------------------------------- */
