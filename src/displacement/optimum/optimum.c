@@ -14,9 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_optimal(double cost, double bound) { return cost - bound <= OPTIMAL_SHARE * cost + OPTIMAL_MORE; }
-
-bool sunder_i_group_is_optimal(const sunder_i_group *g) { return is_optimal(g->cost, g->bound); }
+bool sunder_i_group_is_optimal(const sunder_i_group *g)
+{
+    return g->cost - g->bound <= OPTIMAL_SHARE * g->cost + OPTIMAL_MORE;
+}
 
 void sunder_i_group_free(sunder_i_group *g)
 {
@@ -201,7 +202,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
     if (movers > MOST_TOGETHER) return prove_parts(model, waived, g, steps, err);
     const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
-    if (polished || is_optimal(g->cost, known)) return polished;
+    if (polished || known >= goal_of(model, g)) return polished;
     if (movers > BRANCHED) {
         const sunder_status status = sunder_i_group_shake(model, waived, g, steps / 2, err);
         if (status) return status;
@@ -221,7 +222,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     sunder_i_tree_free(&tree);
-    if (status || g->joins.n || sunder_i_group_is_optimal(g)) return status;
+    if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
     if (movers <= BRANCHED) status = sunder_i_group_shake(model, waived, g, steps / 2, err);
     if (status || movers <= FEW) return status;
     return prove_blocks(model, waived, g, steps, err);
