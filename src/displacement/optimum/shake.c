@@ -84,11 +84,12 @@ sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_w
     near_body *near = sunder_i_alloc(n, sizeof *near);
     double *at = sunder_i_alloc(2 * n, sizeof *at);
     sunder_status status = near && at ? SUNDER_OK : sunder_i_no_memory(err);
-    for (; !status && spent < steps; spent += steps_of(model, g)) {
+    for (size_t shakes = 0; !status && spent < steps && shakes <= n * n / PAIRS_A_SHAKE; shakes++) {
         const size_t movers = list_near(model, g, (uint32_t)(sunder_i_draw(&random) % n), near);
         const size_t most = movers < SHAKEN ? movers : SHAKEN;
         let_go(model, g, near, most < 2 ? most : 2 + sunder_i_draw(&random) % (most - 1), &random, at);
         status = sunder_i_group_descend(model, waived, g, at, err);
+        spent += steps_of(model, g);
     }
     sunder_i_free(near);
     sunder_i_free(at);

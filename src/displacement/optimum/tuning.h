@@ -22,9 +22,11 @@
  * many the branching is left alone. */
 #define BRANCHED 16
 #define FEW 4
-/* Steps that one descent of a group takes for each body and each of its pieces; how many bodies are let go at most. */
+/* Steps that one descent of a group takes for each body and each of its pieces; how many bodies are let go at most; and
+ * of how many ordered pairs of bodies one time is worth: in a small group there are only so many ways. */
 #define SHAKE_STEPS 5000u
 #define SHAKEN 16
+#define PAIRS_A_SHAKE 8
 /* A group of which more move is taken in parts of so many bodies. */
 #define MOST_TOGETHER 192
 #define PART 96
