@@ -77,7 +77,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         s->program.n = 0;
         bool found = sunder_i_search_descend(s);
         /* Who jumps would have to go down, too: in vain, without patience. */
-        if (!found && sunder_i_search_work(s) < s->patience && sunder_i_search_jump(s))
+        if (!found && sunder_i_search_work(s) < s->patience && sunder_i_search_jump_soon(s))
             found = sunder_i_search_descend(s);
         s->cap = INFINITY;
         s->patience = UINT64_MAX;

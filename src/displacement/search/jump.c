@@ -1,5 +1,6 @@
 /* Out of clashes: bodies that clash jump, one at a time, to the nearest place where they clash with nothing. */
 #include "displacement/search/stages.h"
+#include "displacement/search/tuning.h"
 
 #include "base/invariant.h"
 
@@ -41,7 +42,7 @@ bool sunder_i_search_jump(sunder_i_search *s)
     if (!s->failed) sunder_i_search_look(s, s->t);
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
     size_t at = 0;
-    for (size_t k = 0; k <= 2 * s->n && at < s->clashes && !s->failed; k++) {
+    for (size_t k = 0; k <= 2 * s->n && at < s->clashes && sunder_i_search_work(s) < s->patience && !s->failed; k++) {
         double place[2];
         const uint32_t who = find_room(s, &s->clash[at], stuck, place);
         if (who == SUNDER_I_NOBODY) {
@@ -56,4 +57,13 @@ bool sunder_i_search_jump(sunder_i_search *s)
     if (s->failed) return false;
     SUNDER_I_CHECK(sunder_i_search_check(s), s->n);
     return sunder_i_search_look(s, s->t) <= s->tolerance;
+}
+
+bool sunder_i_search_jump_soon(sunder_i_search *s)
+{
+    const uint64_t patience = s->patience;
+    s->patience = sunder_i_search_work(s) + LEAP_PATIENCE;
+    const bool clear = sunder_i_search_jump(s);
+    s->patience = patience;
+    return clear;
 }

@@ -181,7 +181,7 @@ bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *v, uint32_t i, uint32
     sunder_i_search part;
     if (!open_part(v, i, j, most, reach, &part)) return false;
     bool done = v->moving > 0 && sunder_i_search_descend(&part);
-    if (!done && v->moving && !part.failed && sunder_i_search_jump(&part)) {
+    if (!done && v->moving && !part.failed && sunder_i_search_jump_soon(&part)) {
         part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
         done = sunder_i_search_descend(&part);
     }

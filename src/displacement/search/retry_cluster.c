@@ -120,7 +120,7 @@ static bool settle_all(retrying *p)
     s->program.n = 0;
     s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     bool done = sunder_i_search_descend(s);
-    if (!done && !s->failed && sunder_i_search_jump(s)) {
+    if (!done && !s->failed && sunder_i_search_jump_soon(s)) {
         s->patience = sunder_i_search_work(s) + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
         done = sunder_i_search_descend(s);
     }

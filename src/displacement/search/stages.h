@@ -40,8 +40,11 @@ void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const
 
 /* Shortens moves to their limits. */
 void sunder_i_search_clip(sunder_i_search *search);
-/* Takes bodies that clash out and puts them where there is room. True if no clash is left. */
+/* Takes bodies that clash out and puts them where there is room, as far as the patience goes. True if no clash is
+ * left. */
 bool sunder_i_search_jump(sunder_i_search *search);
+/* The same, with a patience of its own, which does not last for all surroundings. */
+bool sunder_i_search_jump_soon(sunder_i_search *search);
 
 /* ---- spread.c: away from one another ----------------------------------------------------------------------------- */
 

@@ -113,6 +113,9 @@
  * 11.4, and ends no dearer. */
 #define PATIENCE 200000u
 #define PATIENCE_EACH 1500u
+/* And what looking for room may take: two blocks of hundreds of pieces, one in the other's yard, go about their whole
+ * surroundings in vain. */
+#define LEAP_PATIENCE 4000000u
 #define SHORT_PATIENCE 20000u
 #define SHORT_PATIENCE_EACH 600u
 
