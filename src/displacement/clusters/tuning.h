@@ -27,7 +27,7 @@
 #define OPTIMISED 24
 /* A group's margin is widened no further for what is only cheaper. */
 #define MOST_MARGINS_AGAIN 3
-/* Steps for each body of a group at effort 1. */
+/* Steps for each body of a group at effort 1; a group that is smaller than this is worth as many as one of so many. */
 #define STEPS_EACH 2e6
 #define SMALL_GROUP 24
 
