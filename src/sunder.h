@@ -699,7 +699,7 @@ typedef struct sunder_bound_tree {
 /* They live as long as the report. */
 SUNDER_API const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, size_t *n);
 
-/* A proof that a conflict has no room, which rational arithmetic can follow. Every number in it means itself, exactly.
+/* A proof that a conflict has no solution, which rational arithmetic can follow. Every number in it means itself.
  *
  * Let t be the moves of blocks (a feature that stands alone is one), no longer than the block's limit: the least
  * max_shift of its members, 0 if one is fixed or ignored. The proof is a tree, node 0 its root.
@@ -755,11 +755,15 @@ typedef struct sunder_proof {
     const sunder_proof_force *force;
     const double *corner; /* [2 * corners] */
     size_t nodes, ways, forces, corners;
+    double within; /* the limit of those that have none; 0: there are none */
 } sunder_proof;
 
-/* The proof of conflict k of sunder_report_conflicts(): of each with SUNDER_REASON_NO_ROOM; else NULL. It lives as long
- * as the report. The features of its nodes, but for the two in conflict, are the conflict's blocked_by: none of them
- * could be left out of it. */
+/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for each
+ * with SUNDER_REASON_NO_ROOM; the features of its nodes, but for the two in conflict, are the conflict's blocked_by:
+ * none of them could be left out of it. With SUNDER_REASON_SIDE and SUNDER_REASON_JUMP its nodes are about the pair,
+ * and about the ways of the members of their two blocks (shadows); without a limit `within` is one by which the two are
+ * apart for certain: farther out nothing but shadows forbids a move, and what is shaded there was shaded before. With
+ * SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was found, they are about the pair. */
 SUNDER_API const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */

@@ -196,6 +196,7 @@ static void put_conflict(proof_writer *w, size_t k, const sunder_conflict *c)
     gis_json_open(&w->json, '[');
     for (size_t i = 0; i < c->n_blocked_by; i++) put_thing(w, NULL, c->blocked_by[i]);
     gis_json_close(&w->json, ']');
+    if (proof && proof->within > 0) gis_json_put_double(&w->json, "within", proof->within);
     if (proof) put_proof(w, proof);
     end_line(w);
 }

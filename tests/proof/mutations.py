@@ -214,6 +214,8 @@ def drop_way(told):
 
 def weaken_leaves(told):
     for node in told["proof"]:
+        if len(node["forces"]) < 2:
+            node["forces"] = []
         for f in node["forces"][:1]:
             f["force"] *= 3
     return ("no contradiction",)
@@ -255,8 +257,26 @@ def blame(told):
     return ("blocked_by",)
 
 
+def shorten_within(told):
+    if "within" in told:
+        told["within"] *= 0.1
+        return ("could still be too near",)
+    return False
+
+
+def other_reason(told):
+    """What ways forbid is told of the limits; what neighbours forbid, of the pair."""
+    own = {told["a"], told["b"]}
+    shadow = any(n.get("shadow") for n in told["proof"])
+    stranger = any(not n.get("shadow") and {n["a"], n["b"]} != own for n in told["proof"] if "ways" in n)
+    told["reason"] = "max_shift"
+    told.pop("within", None)
+    return (shadow or stranger) and ("no ways are heeded", "has no neighbours")
+
+
 VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slack": drop_slack,
-            "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame}
+            "claimed slack": claim_slack, "short slack": shorten_slack, "blamed": blame,
+            "within": shorten_within, "reason": other_reason}
 
 
 # ---- Mutations of the whole

@@ -41,7 +41,12 @@ proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-fi
 # Without effort, and where conflicts remain, pairs alone may prove more than groups: then trees are theirs.
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --effort 0 --allow-conflicts --proof pairs.jsonl || fail "effort 0"
 python3 "$here/check_proof.py" pairs.jsonl "$town" --layer buildings --gap 3 --result o.gpkg >said || fail "effort 0: $(cat said)"
-grep -q ' [1-9][0-9]* trees' said && ! grep -q 'not asked about)' said || fail "effort 0: $(cat said)"
+grep -q ' [1-9][0-9]* trees' said && ! grep -q 'bound of pairs is not asked' said || fail "effort 0: $(cat said)"
+# Of a barrier of many parts all have a say in the tree of a pair.
+beside=(--gap 3 --max-shift 10 --barrier "$roads")
+"$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings "${beside[@]}" --effort 0 --allow-conflicts --proof parts.jsonl || fail "effort 0, roads"
+python3 "$here/check_proof.py" parts.jsonl "$town" --layer buildings "${beside[@]}" --result o.gpkg >said || fail "effort 0, roads: $(cat said)"
+grep -q ' [1-9][0-9]* trees' said && ! grep -q 'bound of pairs is not asked' said || fail "effort 0, roads: $(cat said)"
 proved pairs "$town" --gap 5 --max-shift 1 --barrier "$roads"
 grep -q 'bound of pairs' said && fail "a bound of pairs without its trees"
 
@@ -69,6 +74,17 @@ bend=(--gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side
 proved bend bent.gpkg "${bend[@]}"
 grep -q '"reason": "no_room"' bend.jsonl || fail "a house on a bend has no proof: $(cat bend.jsonl)"
 refuted bend bent.gpkg "${bend[@]}" --need slack --need "claimed slack" --need "short slack"
+
+# A house too wide for its yard: without a limit it would have to jump; and a limit may be short by itself.
+printf 'WKT,w\n"POLYGON((0 0,20 0,20 20,0 20),(2 2,18 2,18 18,2 18))",1\n"POLYGON((1 4,17 4,17 16,1 16))",1\n' |
+    layer yard.gpkg buildings POLYGON
+yard=(--gap 3 --no-blocks --contained separate)
+proved yard yard.gpkg "${yard[@]}"
+grep -q '"reason": "jump".*"within": ' yard.jsonl || fail "a house in a yard: $(cat yard.jsonl)"
+refuted yard yard.gpkg "${yard[@]}" --need within --need reason
+proved short yard.gpkg "${yard[@]}" --max-shift 0.5
+grep -q '"reason": "max_shift".*"proof": ' short.jsonl || fail "a limit by itself: $(cat short.jsonl)"
+refuted short yard.gpkg "${yard[@]}" --max-shift 0.5 --need leaf
 
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl

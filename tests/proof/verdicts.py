@@ -1,4 +1,4 @@
-"""The proofs that a conflict has no room: docs/PROOF.md, section 4, line by line."""
+"""The proofs that a conflict has no solution: docs/PROOF.md, section 4, line by line."""
 import math
 from fractions import Fraction
 from itertools import combinations
@@ -14,6 +14,10 @@ class Verdict:
         self.kinds = {self.key(c["a"], c["b"]): c["kind"] for c in conflicts if not c.get("inside_block")}
         self.own = self.key(told["a"], told["b"])
         self.unit = problem.lattice.unit
+        self.alone = told["reason"] != "no_room"
+        self.within = told.get("within")
+        if self.within is not None:
+            self.check_within()
 
     @staticmethod
     def key(a, b):
@@ -41,6 +45,8 @@ class Verdict:
         problem, a, b = self.problem, node["a"], node["b"]
         problem.demand_owed(a, b)
         ways = [line_of(w["n"], w["d"], self.unit) for w in node["ways"]]
+        if self.alone:
+            self.check_alone(node)
         if node.get("shadow"):
             parts = problem.demand_shadow(a, node["A"], b, node["B"])
             self.check_shadow(difference(*parts), ways)
@@ -51,6 +57,28 @@ class Verdict:
         if node.get("slack"):
             demand(self.is_listed(a, b) and clearance < 0, "slack, where nothing is held to an overlap")
         self.check_ways(difference(*parts), ways, 0 if node.get("slack") else clearance)
+
+    def check_alone(self, node):
+        """Of a pair by itself, nothing but what its reason is about."""
+        a, b, reason = node["a"], node["b"], self.told["reason"]
+        if not node.get("shadow"):
+            demand(self.key(a, b) == self.own, "a pair by itself has no neighbours:", a, b)
+            return
+        own = {self.body_of(k) for k in (self.told["a"], self.told["b"]) if not self.problem.is_barrier(k)}
+        barrier = self.problem.is_barrier(a) or self.problem.is_barrier(b)
+        demand(reason == "jump" or (reason == "side" and barrier), "no ways are heeded by the reason", reason)
+        demand(barrier <= (self.within is None), "a side, where there is no limit")
+        for k in (a, b):
+            demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
+
+    def check_within(self):
+        """Apart by more than they owe, however far beyond."""
+        a, b = self.told["a"], self.told["b"]
+        demand(self.told["reason"] == "jump", "a length for those without a limit, with the reason", self.told["reason"])
+        (p, q), owed = (self.problem.things[k].whole().box for k in (a, b)), self.problem.required(a, b)
+        reach = [max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) + owed for x in (0, 1)]
+        within = Fraction(self.within) * self.unit
+        demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", a, b)
 
     def is_listed(self, a, b):
         return self.key(a, b) in self.kinds and self.key(a, b) != self.own
@@ -139,7 +167,10 @@ class Verdict:
         """0 for a barrier, None where there is none; of a slack, told by its pair and its clearance, that."""
         if isinstance(body, tuple) and body[0] == "slack":
             return -body[2]
-        return self.problem.body_limit(body) if isinstance(body, tuple) else 0
+        if not isinstance(body, tuple):
+            return 0
+        limit = self.problem.body_limit(body)
+        return self.within if limit is None else limit
 
 
 def difference(a, b):
@@ -204,8 +235,8 @@ def is_shaded(polygon, v, far):
 def check(problem, told, conflicts):
     """Is there a proof? Then it holds."""
     problem.demand_listed(told)
-    if told["reason"] == "no_room":
-        demand("proof" in told, "no room, and no proof:", told["a"], told["b"])
+    if told["reason"] in ("no_room", "side", "jump"):
+        demand("proof" in told, "no solution, and no proof:", told["a"], told["b"])
     if "proof" not in told:
         return 0
     Verdict(problem, told, conflicts).check()

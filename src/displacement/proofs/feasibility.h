@@ -39,6 +39,7 @@ typedef struct sunder_i_subproblem {
     bool slack;
     bool every_side; /* the sides of barriers that are not among them are heeded, too */
     bool any_jump;   /* features may jump over each other */
+    bool any_way;    /* and cross sides: no way is forbidden */
     bool every_way;  /* the ways of all members of `body` are heeded, whoever else is not */
     double instead;  /* > 0: a limit for those that have none; else they are not asked about */
     uint64_t effort; /* in constraints looked at */

@@ -89,6 +89,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *c, size_t root)
     proof->way = g.way;
     proof->force = g.force;
     proof->corner = g.corner;
+    proof->within = c->subproblem->instead;
     if (g.node && g.way && g.force && g.corner) {
         copy(&g, root, 0);
         SUNDER_I_ASSERT(proof->nodes == size.nodes && proof->ways == size.ways && proof->forces == size.forces);

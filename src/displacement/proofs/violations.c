@@ -235,6 +235,7 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
 static void look_at_all(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
 {
     look_at(c, s, r, worst);
+    if (c->subproblem->any_way) return;
     if (s->body->sides || r->body->sides) look_across(c, s, r, s->body->sides > 0, worst);
     if (c->model->rules.jumps || c->subproblem->any_jump || sunder_i_is_barrier_body(c->model, s->body) ||
         sunder_i_is_barrier_body(c->model, r->body))

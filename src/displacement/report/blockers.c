@@ -73,6 +73,7 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
         sunder_conflict *c = &report->conflict[k];
         const size_t first = blockers.n;
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
+        if (c->reason == SUNDER_REASON_FIXED || c->reason == SUNDER_REASON_MAX_SHIFT) continue; /* limits alone */
         if (!report->proof[k])
             status = find_blockers(s, c, &near, &blockers, err);
         else if (!take_from_proof(&s->model, c, report->proof[k], &blockers))

@@ -1,8 +1,6 @@
-/* Conflicts as they are reported: what kind, how bad, and why they remain. */
+/* Conflicts as they are reported: what kind, and how bad. (Why they remain, as far as the pair tells: alone.c.) */
 #include "displacement/layer/barrier_pairs.h"
-#include "displacement/proofs/feasibility.h"
 #include "displacement/report/report.h"
-#include "displacement/report/tuning.h"
 
 #include "base/parallel.h"
 #include "base/watch.h"
@@ -185,106 +183,19 @@ static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool 
     return status;
 }
 
-/* ---- Why --------------------------------------------------------------------------------------------------------- */
-
-static double limit_of(const sunder_i_model *model, size_t f)
-{
-    const sunder_i_body *body = &model->body[model->body_of[f]];
-    return body->fixed ? 0 : body->limit;
-}
-
-/* Is it a rule about ways that leaves the pair by itself no solution: sides of barriers and, unless any_jump, that
- * against jumps? Whoever is of their blocks goes with them. Proved, or false. */
-static sunder_status must_pass(const sunder_i_model *model, const sunder_conflict *c, bool any_jump, double instead,
-                               bool *must, sunder_error *err)
-{
-    const size_t bodies = c->b < model->features ? 2 : 1;
-    const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
-                   body[2] = {model->body_of[c->a], model->body_of[c->b]};
-    const sunder_i_subproblem alone = {.model = model,
-                                       .body = body,
-                                       .bodies = bodies,
-                                       .a = feature[0],
-                                       .b = feature[1],
-                                       .feature = feature,
-                                       .features = 2,
-                                       .every_side = instead == 0,
-                                       .any_jump = any_jump,
-                                       .every_way = true,
-                                       .instead = instead,
-                                       .effort = ALONE_EFFORT,
-                                       .most = ALONE_MOST};
-    sunder_i_decision decision;
-    const sunder_status status = sunder_i_decide(&alone, &decision, err);
-    *must = decision.verdict == SUNDER_I_INFEASIBLE;
-    sunder_i_decision_clear(&decision);
-    return status;
-}
-
-/* A relative move that is longer leaves the two apart by more than the gap. */
-static double farthest_near(const sunder_i_model *model, const sunder_conflict *c)
-{
-    const sunder_i_body *p = &model->body[model->body_of[c->a]], *q = &model->body[model->body_of[c->b]];
-    double reach = 0;
-    for (int k = 0; k < 2; k++) {
-        const double offset = q->origin[k] - p->origin[k];
-        reach += fmax(fabs(p->box[k + 2] - offset - q->box[k]), fabs(p->box[k] - offset - q->box[k + 2]));
-    }
-    return reach + 2 * model->rules.gap;
-}
-
-/* The same where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a
- * relative move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no
- * solution a little farther than there has none at all; sides, which are about moves of the one, are left out. */
-static sunder_status reason_without_limit(const sunder_i_model *model, const sunder_conflict *c, sunder_reason *reason,
-                                          sunder_error *err)
-{
-    bool must;
-    if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
-    const sunder_status status = must_pass(model, c, false, 2 * farthest_near(model, c), &must, err);
-    if (!status && must) *reason = SUNDER_REASON_JUMP;
-    return status;
-}
-
-static sunder_status reason_of(const sunder_i_model *model, const sunder_conflict *c, sunder_reason *reason,
-                               sunder_error *err)
-{
-    const double la = limit_of(model, c->a), lb = limit_of(model, c->b);
-    if (la == 0 && lb == 0) {
-        *reason = SUNDER_REASON_FIXED;
-        return SUNDER_OK;
-    }
-    *reason = SUNDER_REASON_UNRESOLVED;
-    if (la + lb == INFINITY) return reason_without_limit(model, c, reason, err);
-    /* Too far for the two limits together? The pair by itself, as it stood, tells. */
-    sunder_i_resolution resolution;
-    sunder_status status = sunder_i_resolve_things(model, c->a, c->b, nextafter(la + lb, INFINITY), &resolution, err);
-    if (!status && resolution.beyond) *reason = SUNDER_REASON_MAX_SHIFT;
-    const bool jump = !model->rules.jumps && c->b < model->features;
-    if (status || resolution.beyond || (!jump && model->sides == 0)) return status;
-    bool must;
-    status = must_pass(model, c, !jump, 0, &must, err);
-    if (status || !must) return status;
-    *reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
-    if (!jump || model->sides == 0) return SUNDER_OK;
-    status = must_pass(model, c, true, 0, &must, err);
-    if (!status && must) *reason = SUNDER_REASON_SIDE;
-    return status;
-}
-
 /* ---- The list ---------------------------------------------------------------------------------------------------- */
 
 typedef struct describing {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     sunder_conflict *conflict;
+    sunder_proof **proof; /* NULL: reasons are not wanted */
     const bool *overlap;
-    bool reasons;
 } describing;
 
 /* A feature and a barrier: as the feature stands, and as it stood. The link runs from the feature; where that overlaps
  * the barrier, the least translation is drawn as if the barrier moved, as for two features. */
-static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_error *err)
+static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_proof **proof, sunder_error *err)
 {
     const sunder_i_model *model = d->model;
     sunder_i_barrier_stance now, home;
@@ -304,8 +215,8 @@ static sunder_status describe_barrier(const describing *d, sunder_conflict *c, s
             c->to[k] = c->from[k] - t[k];
         }
     }
-    if (!d->reasons) return SUNDER_OK;
-    status = reason_of(model, c, &c->reason, err);
+    if (!d->proof) return SUNDER_OK;
+    status = sunder_i_report_reason(model, c, proof, err);
     if (status) return status;
     const sunder_i_translate was = sunder_i_at_home(model, (uint32_t)c->a);
     status = sunder_i_barrier_stand(model, &was, (uint32_t)c->b, &home, err);
@@ -319,8 +230,9 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     const sunder_i_model *model = d->model;
     for (size_t k = begin; k < end; k++) {
         sunder_conflict *c = &d->conflict[k];
+        sunder_proof **proof = d->proof ? &d->proof[k] : NULL;
         if (sunder_i_is_barrier(model, (uint32_t)c->b)) {
-            const sunder_status status = describe_barrier(d, c, err);
+            const sunder_status status = describe_barrier(d, c, proof, err);
             if (status) return status;
             continue;
         }
@@ -334,11 +246,11 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
         c->before = c->distance;
         if (c->inside_block) {
             c->reason = SUNDER_REASON_SAME_BLOCK;
-        } else if (d->reasons) {
+        } else if (d->proof) {
             if (sunder_i_is_included(model, (uint32_t)c->a, (uint32_t)c->b))
                 c->reason = SUNDER_REASON_KEPT;
             else
-                status = reason_of(model, c, &c->reason, err);
+                status = sunder_i_report_reason(model, c, proof, err);
             if (status) return status;
             double on_a[2], on_b[2];
             status = sunder_pair_distance(model->layer->feature[c->a].shape, model->layer->feature[c->b].shape,
@@ -357,8 +269,9 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
     sunder_i_relation r;
     for (size_t i = 0; i < relations->n; n += is_listed(model, &r)) i = take_pair(model, relations, i, &r);
     report->conflict = sunder_i_calloc(n, sizeof *report->conflict);
+    if (reasons) report->proof = sunder_i_calloc(n, sizeof *report->proof);
     bool *overlap = sunder_i_alloc(n, sizeof *overlap);
-    if (!report->conflict || !overlap) {
+    if (!report->conflict || !overlap || (reasons && !report->proof)) {
         sunder_i_free(overlap);
         return sunder_i_no_memory(err);
     }
@@ -375,7 +288,7 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         report->conflict[k++].inside_block = is_inside(model, &r);
     }
     report->conflicts = n;
-    describing d = {model, placement, report->conflict, overlap, reasons};
+    describing d = {model, placement, report->conflict, report->proof, overlap};
     sunder_status status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe, &d, err);
     sunder_i_free(overlap);
     return status;

@@ -298,12 +298,11 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
 {
     const unsigned threads = s->model.rules.threads;
     const size_t most = report->conflicts;
-    report->proof = sunder_i_calloc(most, sizeof *report->proof);
     uint32_t *listed = sunder_i_alloc(most, sizeof *listed);
     matter *list = sunder_i_alloc(most, sizeof *list);
     size_t *first = sunder_i_alloc(most + 1, sizeof *first);
     sunder_i_requirement *required = sunder_i_alloc(most, sizeof *required);
-    sunder_status status = report->proof && listed && list && first && required ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = listed && list && first && required ? SUNDER_OK : sunder_i_no_memory(err);
     size_t n = 0;
     for (size_t k = 0; !status && k < most; k++)
         if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;

@@ -22,22 +22,44 @@ static double sum_of(const sunder_bound_tree *tree, size_t n)
     return sum;
 }
 
+/* Bodies of the pair's tree: the two; or the feature's, and all parts of the barrier that a solution no dearer than the
+ * least translation could be kept off by. */
+static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pair, sunder_i_list *body)
+{
+    const uint32_t a = model->body_of[pair->a], b = (uint32_t)pair->b;
+    body->n = 0;
+    if (!sunder_i_list_push(body, a)) return false;
+    if (!sunder_i_is_barrier(model, b)) return sunder_i_list_push(body, model->body_of[b]);
+    const double home[2] = {0, 0};
+    double box[4];
+    sunder_i_body_box(&model->body[a], home, 2 * pair->least + sunder_i_owed_above(model, (uint32_t)pair->a, b), box);
+    if (!sunder_i_rtree_query(&model->tree, box, body)) return false;
+    const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, b)];
+    size_t out = 1;
+    for (size_t k = 1; k < body->n; k++)
+        if (body->item[k] >= b && body->item[k] < end) body->item[out++] = model->body_of[body->item[k]];
+    body->n = 1 + sunder_i_set_make(body->item + 1, out - 1);
+    return true;
+}
+
 /* The tree of one pair, with its shares of the weights. */
 static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pair, const double *load,
-                           sunder_bound_tree *out, sunder_error *err)
+                           sunder_i_list *body, sunder_bound_tree *out, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n};
-    const uint32_t body[2] = {model->body_of[pair->a], model->body_of[pair->b]};
-    double weight[2], slack = 0;
-    for (int e = 0; e < 2; e++) {
-        weight[e] = model->body[body[e]].weight * (pair->multiplier / load[body[e]]) * (1 - SHARED);
-        if (!model->body[body[e]].fixed) slack += 1 / weight[e];
+    if (!find_bodies(model, pair, body)) return sunder_i_no_memory(err);
+    double *weight = sunder_i_alloc(body->n, sizeof *weight), slack = 0;
+    if (!weight) return sunder_i_no_memory(err);
+    for (size_t k = 0; k < body->n; k++) {
+        const sunder_i_body *b = &model->body[body->item[k]];
+        weight[k] = b->fixed ? b->weight : b->weight * (pair->multiplier / load[body->item[k]]) * (1 - SHARED);
+        if (!b->fixed) slack += 1 / weight[k];
     }
     const sunder_i_task task = {.model = model,
                                 .waived = &waived,
-                                .body = body,
-                                .n = 2,
+                                .body = body->item,
+                                .n = body->n,
                                 .weight = weight,
                                 .goal = pair->least * pair->least / slack * (1 + SHARED),
                                 .keep = true};
@@ -46,6 +68,7 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
     while (ok && sunder_i_tree_run(&tree, PAIR_STEPS) == SUNDER_I_TREE_FOUND) ok = !tree.failed;
     ok = ok && !tree.failed && sunder_i_tree_record(&tree, out);
     sunder_i_tree_free(&tree);
+    sunder_i_free(weight);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
@@ -55,6 +78,7 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
                                sunder_error *err)
 {
     double *load = sunder_i_calloc(s->model.bodies, sizeof *load);
+    sunder_i_list body = {0};
     sunder_status status = load ? SUNDER_OK : sunder_i_no_memory(err);
     for (size_t k = 0; !status && k < report->bound_pairs; k++) {
         const sunder_bound_pair *p = &report->bound_pair[k];
@@ -64,13 +88,14 @@ static sunder_status prove_all(sunder_report *report, const sunder_i_solver *s, 
     }
     for (size_t k = 0; !status && k < report->bound_pairs; k++) {
         if (!counts(&report->bound_pair[k])) continue;
-        status = prove(s, &report->bound_pair[k], load, &tree[*n], err);
+        status = prove(s, &report->bound_pair[k], load, &body, &tree[*n], err);
         if (!status && tree[*n].bound > 0)
             ++*n;
         else if (!status)
             sunder_i_bound_tree_free(&tree[*n]);
     }
     sunder_i_free(load);
+    sunder_i_free(body.item);
     return status;
 }
 

@@ -14,7 +14,7 @@ struct sunder_report {
     sunder_conflict *conflict;
     size_t conflicts;
     size_t *blocker;      /* what all blocked_by point into */
-    sunder_proof **proof; /* [conflicts] NULL: there is none; the array too */
+    sunder_proof **proof; /* [conflicts] NULL: there is none; the array too, in a check */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
@@ -47,6 +47,14 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
 /* Counts what the relations amount to, without listing it. */
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
+
+/* ---- alone.c ----------------------------------------------------------------------------------------------------- */
+
+/* Why a conflict between blocks remains, as far as the pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
+ * decided exactly; else `unresolved`. Of a side or a jump the proof that it was decided by; of a limit one, if trees
+ * are kept and it is found. */
+sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
+                                     sunder_error *err);
 
 /* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
 

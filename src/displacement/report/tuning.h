@@ -29,7 +29,7 @@
 #define BITS_A_STEP 8
 #define LAST_BITS 10
 
-/* ---- A pair by itself (conflicts.c) ------------------------------------------------------------------------------ */
+/* ---- A pair by itself (alone.c) ---------------------------------------------------------------------------------- */
 
 /* The effort for a proof that it has no solution without a jump, or on its sides: some ten milliseconds; and how many
  * bodies may take part, most of them parts of barriers. */

@@ -1,0 +1,110 @@
+/* Why a pair is left in conflict that has no solution by itself, whoever else is in the layer: neither may move; their
+ * limits are too short; or what their limits leave is forbidden by sides of barriers, or by the rule against jumps.
+ *
+ * That a limit is too short is decided by the least translation of the pair, exactly; that no way is left by branch and
+ * bound (proofs/feasibility.c), which either proves it or is no answer. Its proof is kept: it names whose way was in
+ * the way. For the limits the same branch and bound makes a record, where one is wanted. */
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/proofs/feasibility.h"
+#include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
+
+#include <math.h>
+
+static double limit_of(const sunder_i_model *model, size_t f)
+{
+    const sunder_i_body *body = &model->body[model->body_of[f]];
+    return body->fixed ? 0 : body->limit;
+}
+
+/* Which rules about ways the pair is asked about under. */
+typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
+
+/* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Whoever is of their
+ * blocks goes with them. instead: a limit for who has none. */
+static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
+                                 double instead, sunder_proof **proof, sunder_error *err)
+{
+    const size_t bodies = c->b < model->features ? 2 : 1;
+    const uint32_t feature[2] = {(uint32_t)c->a, (uint32_t)c->b},
+                   body[2] = {model->body_of[c->a], model->body_of[c->b]};
+    const sunder_i_subproblem alone = {.model = model,
+                                       .body = body,
+                                       .bodies = bodies,
+                                       .a = feature[0],
+                                       .b = feature[1],
+                                       .feature = feature,
+                                       .features = 2,
+                                       .every_side = instead == 0,
+                                       .any_jump = ways != SIDES_AND_JUMPS,
+                                       .any_way = ways == NO_WAYS,
+                                       .every_way = true,
+                                       .instead = instead,
+                                       .effort = ALONE_EFFORT,
+                                       .most = ALONE_MOST};
+    sunder_i_decision decision;
+    const sunder_status status = sunder_i_decide(&alone, &decision, err);
+    *proof = decision.proof;
+    decision.proof = NULL;
+    sunder_i_decision_clear(&decision);
+    return status;
+}
+
+/* A relative move that is longer leaves the two apart by more than the gap. */
+static double farthest_near(const sunder_i_model *model, const sunder_conflict *c)
+{
+    const sunder_i_body *p = &model->body[model->body_of[c->a]], *q = &model->body[model->body_of[c->b]];
+    double reach = 0;
+    for (int k = 0; k < 2; k++) {
+        const double offset = q->origin[k] - p->origin[k];
+        reach += fmax(fabs(p->box[k + 2] - offset - q->box[k]), fabs(p->box[k] - offset - q->box[k + 2]));
+    }
+    return reach + 2 * model->rules.gap;
+}
+
+/* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
+ * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
+ * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
+static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
+                                          sunder_error *err)
+{
+    if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
+    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, 2 * farthest_near(model, c), proof, err);
+    if (*proof) c->reason = SUNDER_REASON_JUMP;
+    return status;
+}
+
+/* Within limits that by themselves leave a solution. */
+static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
+                                    sunder_error *err)
+{
+    const bool jump = !model->rules.jumps && c->b < model->features;
+    if (!jump && model->sides == 0) return SUNDER_OK;
+    sunder_status status = prove_alone(model, c, jump ? SIDES_AND_JUMPS : SIDES, 0, proof, err);
+    if (status || !*proof) return status;
+    c->reason = jump ? SUNDER_REASON_JUMP : SUNDER_REASON_SIDE;
+    if (!jump || model->sides == 0) return SUNDER_OK;
+    sunder_proof *by_sides = NULL;
+    status = prove_alone(model, c, SIDES, 0, &by_sides, err);
+    if (!by_sides) return status;
+    sunder_i_proof_free(*proof);
+    *proof = by_sides;
+    c->reason = SUNDER_REASON_SIDE;
+    return status;
+}
+
+sunder_status sunder_i_report_reason(const sunder_i_model *model, sunder_conflict *c, sunder_proof **proof,
+                                     sunder_error *err)
+{
+    const double reach = limit_of(model, c->a) + limit_of(model, c->b);
+    c->reason = reach == 0 ? SUNDER_REASON_FIXED : SUNDER_REASON_UNRESOLVED;
+    if (reach == 0) return SUNDER_OK;
+    if (reach == INFINITY) return reason_without_limit(model, c, proof, err);
+    sunder_i_resolution resolution;
+    const sunder_status status =
+        sunder_i_resolve_things(model, c->a, c->b, nextafter(reach, INFINITY), &resolution, err);
+    if (status) return status;
+    if (!resolution.beyond) return reason_of_ways(model, c, proof, err);
+    c->reason = SUNDER_REASON_MAX_SHIFT;
+    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, proof, err) : SUNDER_OK;
+}
