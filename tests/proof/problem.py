@@ -3,6 +3,7 @@ how far, and at what price. Nothing of this is taken from the proof but for anch
 in ways that are not asked about here; see docs/PROOF.md."""
 import math
 import os
+import re
 import sys
 from fractions import Fraction
 
@@ -109,9 +110,32 @@ class Lattice:
         return 1 << self.k
 
 
+def symbol_corners(text):
+    """Of square:SIDE, rectangle:WIDTHxHEIGHT, or a WKT polygon without holes, in the layer's units. (The corners of a disc are the
+    program's choice.)"""
+    kind, _, size = text.partition(":")
+    if kind in ("square", "rectangle"):
+        width, height = map(float, size.split("x") if kind == "rectangle" else (size, size))
+        return [(x * width / 2, y * height / 2) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    found = re.fullmatch(r"POLYGON ?\(\(([^()]*)\)\)", text)
+    demand(found, "the symbol", text, "is not read; its corners may be given, as WKT")
+    corners = [tuple(map(float, p.split())) for p in found[1].split(",")]
+    return corners[:-1] if corners[0] == corners[-1] else corners
+
+
+def place_symbols(layer, corners):
+    """The symbol at each point, to the nearest doubles."""
+    for fid, (attributes, polygons, lines) in layer.features.items():
+        demand(not polygons and len(lines) == 1 and len(lines[0]) == 1, "feature", fid, "is not one point")
+        (px, py), = lines[0]
+        layer.features[fid] = attributes, [[[(px + x, py + y) for x, y in corners]]], []
+
+
 class Problem:
     def __init__(self, path, options, anchors):
         layer = geopackage.Layer(path, options.layer, options.where)
+        if options.symbol:
+            place_symbols(layer, symbol_corners(options.symbol))
         self.name, self.options = layer.name, options
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
         fixed = layer.fids(path, options.fixed_where)
@@ -207,6 +231,8 @@ class Problem:
             values = [self.attributes[f][options.block_field] for f in (a, b)]
             if values[0] is not None and values[0] == values[1]:
                 return True
+        if options.symbol and options.touch_tolerance is None:  # symbols join only where that is asked for
+            return False
         if options.no_blocks or a in self.ignored or b in self.ignored:
             return False
         if (a, b) not in self.joined:

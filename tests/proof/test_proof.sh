@@ -86,6 +86,15 @@ proved short yard.gpkg "${yard[@]}" --max-shift 0.5
 grep -q '"reason": "max_shift".*"proof": ' short.jsonl || fail "a limit by itself: $(cat short.jsonl)"
 refuted short yard.gpkg "${yard[@]}" --max-shift 0.5 --need leaf
 
+# Symbols of points: five within each other's reach, one of them too far in for its limit.
+printf 'WKT,w\n"POINT(0 0)",1\n"POINT(3 1)",1\n"POINT(1.5 3.1)",1\n"POINT(40 0)",1\n"POINT(40.25 0.5)",1\n' |
+    layer points.gpkg buildings POINT
+for symbol in square:4 rectangle:5x3 'POLYGON ((-2 -1,2 -2,1 3,-2 -1))'; do
+    proved points points.gpkg --gap 0.5 --symbol "$symbol"
+    proved points points.gpkg --gap 0.5 --symbol "$symbol" --max-shift 1.25
+    grep -q '"reason": "max_shift".*"proof": ' points.jsonl || fail "symbols: $(cat points.jsonl)"
+done
+
 # As often as it is asked, on however many threads, the same bytes.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
