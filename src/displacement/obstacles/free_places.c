@@ -4,10 +4,13 @@
  * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
  * walls. So these are all the candidates; they are taken by distance, and each is tested against all obstacles. Walls
  * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
- * walls left are farther than the places found.
+ * walls left are farther than the places found. Among many obstacles the plane about the target is cut into cells
+ * (cells.c): a point asks those that meet its cell, and walls in cells that one obstacle holds are left out at once.
+ * What is counted as work is what it would be without cells, so that these change no result.
  *
  * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/obstacles/free_places.h"
+#include "displacement/obstacles/cells.h"
 #include "displacement/obstacles/tuning.h"
 
 #include "base/invariant.h"
@@ -113,27 +116,20 @@ void sunder_i_obstacles_add(sunder_i_obstacles *o, const double *d, size_t n, do
 
 /* ---- Searching --------------------------------------------------------------------------------------------------- */
 
+double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle)
+{
+    const double *b = obstacle->box;
+    return ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
+}
+
 static bool inside(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double x[2])
 {
     const double *b = obstacle->box;
     if (x[0] <= b[0] || x[0] >= b[2] || x[1] <= b[1] || x[1] >= b[3]) return false;
-    const double slack = ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
+    const double slack = sunder_i_obstacle_slack(obstacle);
     for (uint32_t k = 0; k < obstacle->walls; k++) {
         const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
         if (w->n[0] * x[0] + w->n[1] * x[1] >= w->h - slack) return false;
-    }
-    return true;
-}
-
-/* order: the obstacles, those that are hit often move to the front. */
-static bool free_at(const sunder_i_obstacles *o, const double x[2], uint32_t *order)
-{
-    for (size_t k = 0; k < o->n; k++) {
-        const uint32_t hit = order[k];
-        if (!inside(o, &o->obstacle[hit], x)) continue;
-        order[k] = order[k / 2];
-        order[k / 2] = hit;
-        return false;
     }
     return true;
 }
@@ -162,16 +158,45 @@ typedef struct harvest {
     const double *target;
     double limit, spread;
     size_t most, n;
-    uint32_t *order;
+    uint32_t *order; /* the obstacles, those that are hit often move to the front */
+    sunder_i_cells cells;
     double (*place)[2];
     double *distance;
     uint64_t work; /* done so far, in constraints looked at */
 } harvest;
 
+/* Does one obstacle hold all of these points, middle among them? */
+static bool is_held(const harvest *h, const double middle[2], const double (*point)[2], size_t n)
+{
+    const sunder_i_obstacles *o = h->obstacles;
+    uint32_t cell;
+    if (sunder_i_cells_find(&h->cells, middle, &cell)) {
+        for (uint32_t e = h->cells.cell[cell].first; e != SUNDER_I_NO_ENTRY; e = h->cells.entry[e].next) {
+            const sunder_i_obstacle *obstacle = &o->obstacle[h->cells.entry[e].obstacle];
+            bool holds = inside(o, obstacle, middle);
+            for (size_t k = 0; k < n && holds; k++) holds = inside(o, obstacle, point[k]);
+            if (holds) return true;
+        }
+        return false;
+    }
+    for (size_t k = 0; k < o->n; k++) {
+        const uint32_t hit = h->order[k];
+        bool holds = inside(o, &o->obstacle[hit], middle);
+        for (size_t p = 0; p < n && holds; p++) holds = inside(o, &o->obstacle[hit], point[p]);
+        if (!holds) continue;
+        h->order[k] = h->order[k / 2];
+        h->order[k / 2] = hit;
+        return true;
+    }
+    return false;
+}
+
 /* n obstacles, or walls, are looked at; most of them briefly. */
+static uint64_t work_of(size_t n) { return 1 + n / TESTS_A_STEP; }
+
 static bool work(harvest *h, size_t n)
 {
-    h->work += 1 + n / TESTS_A_STEP;
+    h->work += work_of(n);
     return sunder_i_steps(1 + n / TESTS_A_WATCH);
 }
 
@@ -184,7 +209,7 @@ static void offer(harvest *h, const double x[2])
     if (!work(h, h->obstacles->n)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
-    if (!free_at(h->obstacles, x, h->order)) return;
+    if (is_held(h, x, NULL, 0)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
     /* Those behind that are too near the new one go. */
@@ -231,22 +256,23 @@ static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size
 /* Does one obstacle hold the whole wall? Most walls are deep inside the union. */
 static bool is_covered(const harvest *h, const sunder_i_obstacle_side *w)
 {
-    const sunder_i_obstacles *o = h->obstacles;
-    const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2};
-    for (size_t k = 0; k < o->n; k++) {
-        const uint32_t hit = h->order[k];
-        const sunder_i_obstacle *obstacle = &o->obstacle[hit];
-        if (!inside(o, obstacle, middle) || !inside(o, obstacle, w->from) || !inside(o, obstacle, w->to)) continue;
-        h->order[k] = h->order[k / 2];
-        h->order[k / 2] = hit;
-        return true;
-    }
-    return false;
+    const double middle[2] = {(w->from[0] + w->to[0]) / 2, (w->from[1] + w->to[1]) / 2},
+                 end[2][2] = {{w->from[0], w->from[1]}, {w->to[0], w->to[1]}};
+    return is_held(h, middle, end, 2);
+}
+
+/* The same by cells alone: one obstacle holds those of both ends, and what is between them. */
+static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *w)
+{
+    uint32_t from, to;
+    if (!sunder_i_cells_find(&h->cells, w->from, &from) || !sunder_i_cells_find(&h->cells, w->to, &to)) return false;
+    const uint32_t holder = h->cells.cell[from].holder;
+    return holder != SUNDER_I_NO_ENTRY && holder == h->cells.cell[to].holder;
 }
 
 /* Feet on the walls, then crossings of walls; `sorted` are the walls by distance, h->obstacles holds them
- * by obstacle. */
-static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
+ * by obstacle. covered: the distances of walls that were left out. */
+static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls, const double *covered, size_t n)
 {
     size_t bare = 0;
     for (size_t k = 0; k < walls && sorted[k].distance <= reach_of(h); k++) {
@@ -257,6 +283,8 @@ static void search(harvest *h, sunder_i_obstacle_side *sorted, size_t walls)
         offer(h, x);
         sorted[bare++] = sorted[k];
     }
+    for (size_t k = 0; k < n; k++)
+        if (covered[k] <= reach_of(h)) h->work += work_of(h->obstacles->n);
     for (size_t k = 0; k < bare && k < MOST_CROSSED && sorted[k].distance <= reach_of(h); k++)
         offer_crossings(h, sorted, k);
 }
@@ -270,36 +298,51 @@ static const char *check(const harvest *h)
 }
 #endif
 
+/* Its distance from the target; the walls that may matter, of those within the limit, go to `sorted`. */
+static void gather(harvest *h, sunder_i_obstacle_side *sorted, double *covered)
+{
+    const sunder_i_obstacles *o = h->obstacles;
+    size_t walls = 0, n = 0;
+    for (size_t k = 0; k < o->walls; k++) {
+        sunder_i_obstacle_side *w = &sorted[walls];
+        double x[2];
+        *w = o->wall[k];
+        nearest_on(w, h->target, x);
+        w->distance = hypot(x[0] - h->target[0], x[1] - h->target[1]);
+        if (!(w->distance <= h->limit)) continue;
+        if (is_covered_by_cells(h, w))
+            covered[n++] = w->distance;
+        else
+            walls++;
+    }
+    if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
+    search(h, sorted, walls, covered, n);
+}
+
 size_t sunder_i_free_places(const sunder_i_obstacles *o, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
     double distance[MOST_PLACES];
-    uint32_t *order = sunder_i_alloc(o->n, sizeof *order);
+    harvest h = {.obstacles = o, .target = target, .limit = limit, .spread = spread, .place = places};
+    h.distance = distance;
+    h.most = most < MOST_PLACES ? most : MOST_PLACES;
+    h.order = sunder_i_alloc(o->n, sizeof *h.order);
     sunder_i_obstacle_side *sorted = sunder_i_alloc(o->walls, sizeof *sorted);
-    harvest h = {o, target, limit, spread, most < MOST_PLACES ? most : MOST_PLACES, 0, order, places, distance, 0};
-    if (!order || !sorted || o->failed) {
+    double *covered = sunder_i_alloc(o->walls, sizeof *covered);
+    if (!h.order || !sorted || !covered || o->failed) {
         *failed = true;
     } else if (h.most) {
-        for (size_t k = 0; k < o->n; k++) order[k] = (uint32_t)k;
+        for (size_t k = 0; k < o->n; k++) h.order[k] = (uint32_t)k;
         offer(&h, target);
-        if (h.n == 0) {
-            size_t walls = 0;
-            for (size_t k = 0; k < o->walls; k++) {
-                sunder_i_obstacle_side *w = &sorted[walls];
-                double x[2];
-                *w = o->wall[k];
-                nearest_on(w, target, x);
-                w->distance = hypot(x[0] - target[0], x[1] - target[1]);
-                if (w->distance <= limit) walls++;
-            }
-            if (walls) qsort(sorted, walls, sizeof *sorted, by_distance);
-            search(&h, sorted, walls);
-        }
+        if (h.n == 0 && !sunder_i_cells_make(o, target, limit, &h.cells)) *failed = true;
+        if (h.n == 0 && !*failed) gather(&h, sorted, covered);
         *failed = *failed || sunder_i_stopped();
     }
     SUNDER_I_CHECK(check(&h), h.n);
     *steps += h.work + 2 * o->walls;
-    sunder_i_free(order);
+    sunder_i_cells_free(&h.cells);
+    sunder_i_free(h.order);
     sunder_i_free(sorted);
+    sunder_i_free(covered);
     return h.n;
 }

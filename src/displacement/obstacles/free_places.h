@@ -27,6 +27,9 @@ typedef struct sunder_i_obstacles {
     bool failed;
 } sunder_i_obstacles;
 
+/* Nearer to a wall than this counts as on it. */
+double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle);
+
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);

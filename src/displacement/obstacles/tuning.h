@@ -16,6 +16,13 @@
 /* Places are computed on sides: within this share of the obstacle's size of one counts as on it. Above the rounding of
  * a crossing of sides that do not nearly coincide, below any gap that is asked for. */
 #define ON_A_SIDE 1e-12
+/* Among fewer obstacles cells are not worth making. A cell is this part of the mean obstacle, and there are no more
+ * than so many for each. */
+#define FEW_OBSTACLES 24
+#define CELLS_ACROSS 4
+#define CELLS_EACH 8
+/* Cells are grown by this share, far above rounding, so that a point need not know in which of two it is. */
+#define CELL_MARGIN 1e-6
 /* More places than this are never asked for at once. */
 #define MOST_PLACES 16
 /* Places that may be free are tested against obstacles, most of them briefly: a test counts as this part of a

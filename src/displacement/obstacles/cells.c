@@ -1,0 +1,119 @@
+/* The plane about a target in square cells, each with the obstacles that may meet it and one that holds all of it.
+ *
+ * A crowd of obstacles lies many deep over most of what is near the target, so a cell somewhat smaller than an obstacle
+ * is mostly held by one: whatever is in it is not free. An obstacle is convex: it is beside a cell if the cell lies
+ * beyond one of its walls, and holds it if the cell lies within all of them; of one that is neither it is not asked
+ * whether they really meet. Cells are taken a little larger than they are, so that rounding of where a point is makes
+ * no difference. */
+#include "displacement/obstacles/cells.h"
+#include "displacement/obstacles/tuning.h"
+
+#include "base/list.h"
+#include "base/watch.h"
+#include "spatial/box.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The part of what is within limit of the target that obstacles reach; the mean size of these. */
+static double find_extent(const sunder_i_obstacles *o, const double target[2], double limit, double box[4])
+{
+    double sum = 0;
+    sunder_i_box_clear(box);
+    for (size_t k = 0; k < o->n; k++) {
+        const double *b = o->obstacle[k].box;
+        sum += (b[2] - b[0] + b[3] - b[1]) / 2;
+        sunder_i_box_join(box, b);
+    }
+    for (int c = 0; c < 2; c++) {
+        box[c] = fmax(box[c], target[c] - limit);
+        box[c + 2] = fmin(box[c + 2], target[c] + limit);
+    }
+    return sum / (double)o->n;
+}
+
+typedef enum stance { BESIDE, MEETS, HOLDS } stance;
+
+static stance stand(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, const double centre[2], double half)
+{
+    const double slack = sunder_i_obstacle_slack(obstacle);
+    stance found = HOLDS;
+    for (uint32_t k = 0; k < obstacle->walls; k++) {
+        const sunder_i_obstacle_side *w = &o->wall[obstacle->wall + k];
+        const double at = w->n[0] * centre[0] + w->n[1] * centre[1] - w->h,
+                     reach = half * (fabs(w->n[0]) + fabs(w->n[1]));
+        if (at - reach > 0) return BESIDE;
+        if (!(at + reach < -2 * slack)) found = MEETS;
+    }
+    return found;
+}
+
+static bool enter(sunder_i_cells *cells, sunder_i_cell *cell, uint32_t obstacle, bool holds)
+{
+    if (!sunder_i_reserve(&cells->entry, &cells->capacity, cells->entries + 1, sizeof *cells->entry)) return false;
+    cells->entry[cells->entries] = (sunder_i_cell_entry){obstacle, cell->first};
+    cell->first = (uint32_t)cells->entries++;
+    if (holds && cell->holder == SUNDER_I_NO_ENTRY) cell->holder = obstacle;
+    return true;
+}
+
+/* The cells from *first on that one from a to b may meet in one direction; how many. */
+static uint32_t range(const sunder_i_cells *cells, int c, double a, double b, uint32_t *first)
+{
+    const double margin = CELL_MARGIN, most = cells->across[c];
+    const double from = floor((a - cells->low[c]) / cells->side - margin),
+                 to = floor((b - cells->low[c]) / cells->side + margin);
+    if (!(to >= 0 && from < most)) return 0;
+    *first = from > 0 ? (uint32_t)from : 0;
+    return (to < most - 1 ? (uint32_t)to : cells->across[c] - 1) - *first + 1;
+}
+
+static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cells *cells)
+{
+    const sunder_i_obstacle *obstacle = &o->obstacle[k];
+    const double half = cells->side * (0.5 + CELL_MARGIN);
+    uint32_t i, j;
+    const uint32_t columns = range(cells, 0, obstacle->box[0], obstacle->box[2], &i),
+                   rows = range(cells, 1, obstacle->box[1], obstacle->box[3], &j);
+    for (uint32_t y = j; columns && y < j + rows; y++)
+        for (uint32_t x = i; x < i + columns; x++) {
+            const double centre[2] = {cells->low[0] + (x + 0.5) * cells->side, cells->low[1] + (y + 0.5) * cells->side};
+            const stance found = stand(o, obstacle, centre, half);
+            if (found == BESIDE) continue;
+            if (!enter(cells, &cells->cell[(size_t)y * cells->across[0] + x], k, found == HOLDS)) return false;
+        }
+    return sunder_i_steps(1 + rows);
+}
+
+bool sunder_i_cells_make(const sunder_i_obstacles *o, const double target[2], double limit, sunder_i_cells *cells)
+{
+    double box[4];
+    memset(cells, 0, sizeof *cells);
+    if (o->n < FEW_OBSTACLES) return true;
+    const double mean = find_extent(o, target, limit, box), size[2] = {box[2] - box[0], box[3] - box[1]};
+    if (!(size[0] > 0 && size[1] > 0)) return true;
+    double side = fmax(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)o->n)));
+    side = fmax(side, fmax(size[0], size[1]) / (CELLS_EACH * (double)o->n));
+    /* Cells have to be far larger than the rounding of coordinates. */
+    const double far = fmax(fmax(fabs(box[0]), fabs(box[2])), fmax(fabs(box[1]), fabs(box[3])));
+    if (!(side > far * CELL_MARGIN) || !isfinite(side)) return true;
+    cells->side = side;
+    for (int c = 0; c < 2; c++) {
+        cells->low[c] = box[c];
+        cells->across[c] = 1 + (uint32_t)(size[c] / side);
+    }
+    const size_t n = (size_t)cells->across[0] * cells->across[1];
+    cells->cell = sunder_i_alloc(n, sizeof *cells->cell);
+    if (!cells->cell) return false;
+    for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){SUNDER_I_NO_ENTRY, SUNDER_I_NO_ENTRY};
+    for (uint32_t k = 0; k < o->n; k++)
+        if (!enter_obstacle(o, k, cells)) return sunder_i_stopped();
+    return true;
+}
+
+void sunder_i_cells_free(sunder_i_cells *cells)
+{
+    sunder_i_free(cells->cell);
+    sunder_i_free(cells->entry);
+    memset(cells, 0, sizeof *cells);
+}
