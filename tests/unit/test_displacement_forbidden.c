@@ -189,8 +189,32 @@ static void test_down_into_a_notch(void **state)
     sunder_i_free(s.forbidden.tree.box);
 }
 
+/* A region across some pieces of a set of few, which overlap by little: it takes long to prove that they cover it, and
+ * it is proved; with one of them gone there is a gap, and it is told. */
+static void test_across_narrow_overlaps(void **state)
+{
+    (void)state;
+    static set s;
+    const int strips = 8;
+    const double home[2] = {0, 0};
+    for (int gone = -1; gone < strips; gone += strips / 2) {
+        memset(&s, 0, sizeof s);
+        s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
+        for (int k = 0; k < strips; k++)
+            if (k != gone) add(&s, (double[4]){k - strips / 2 - 0x1p-4, -40, k - strips / 2 + 1, 40}, 0);
+        assert_true(sunder_i_forbidden_index(&s.forbidden) && !sunder_i_forbidden_is_many(&s.forbidden));
+        sunder_i_region region;
+        double gap[2];
+        uint64_t steps = 0;
+        sunder_i_region_init(&region, home, strips / 2 - 0.25);
+        assert_true(sunder_i_region_is_covered(&region, &s.forbidden, NULL, gap, &steps) == (gone < 0));
+        if (gone >= 0) assert_true(depth_of(&s, gap[0], gap[1]) == 0);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_few_and_many), cmocka_unit_test(test_down_into_a_notch),
+                                       cmocka_unit_test(test_across_narrow_overlaps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,10 +89,7 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
                                 double gap[2], uint64_t *steps)
 {
-    covering c = {.forbidden = forbidden,
-                  .used = used,
-                  .most = sunder_i_forbidden_is_many(forbidden) ? COVER_MANY_STEPS : COVER_STEPS,
-                  .gap = gap};
+    covering c = {.forbidden = forbidden, .used = used, .most = COVER_STEPS, .gap = gap};
     if (gap) gap[0] = gap[1] = NAN;
     const bool covered = is_covered(&c, region, 0);
     *steps += c.steps;

@@ -114,9 +114,10 @@
 
 /* ---- Proofs that a region is covered (covered.c) ----------------------------------------------------------------- */
 
+/* How often a region is halved; how many looks all that may take: a proof that is not found is asked for again and
+ * again, and its branch never closes. */
 #define COVER_DEPTH 60
-#define COVER_STEPS 20000u
-#define COVER_MANY_STEPS 200000u
+#define COVER_STEPS 200000u
 
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
